@@ -1,0 +1,118 @@
+"""Closed forms that judge the models: section 3.5, in small displacements.  Nothing here knows our models.
+
+Lengths in m, forces in N, moduli in Pa; xi is an array of arc lengths from the left end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+NeckingTheory = Literal["printed", "two directors", "plane strain", "free section"]
+"""Which one-dimensional theory gives the decay of a necked end; see `necking_decay`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beam:
+    """A uniform beam: length [m], area [m^2], second_moment [m^4], young [Pa], poisson [1], line_density [kg/m]."""
+
+    length: float
+    area: float
+    second_moment: float
+    young: float
+    poisson: float
+    line_density: float
+    shear_correction: float
+
+    @property
+    def axial_stiffness(self) -> float:
+        """EA [N]."""
+        return self.young * self.area
+
+
+def hanging_bar_displacement(beam: Beam, g: float, xi: Array) -> Array:
+    """u . E3 of a bar that hangs from its left end, eq. (3.5.2) [m]."""
+    s = xi / beam.length
+    return beam.line_density * g * beam.length**2 / beam.axial_stiffness * (s - s**2 / 2)
+
+
+def sigma(beam: Beam, g: float) -> tuple[float, float]:
+    """sigma_1, sigma_2 of eq. (3.5.5) [1]: what the weight does by bending and by shear."""
+    weight = beam.line_density * g
+    sigma_1 = weight * beam.length**3 / (beam.young * beam.second_moment)
+    sigma_2 = 2 * (1 + beam.poisson) * weight * beam.length / (beam.shear_correction * beam.axial_stiffness)
+    return sigma_1, sigma_2
+
+
+def clamped_free_displacement(beam: Beam, g: float, xi: Array) -> Array:
+    """u . E2 of a Timoshenko beam clamped at its left end, eq. (3.5.3) [m]."""
+    s = xi / beam.length
+    s1, s2 = sigma(beam, g)
+    return (-s1 / 24 * s**3 + s1 / 6 * s**2 + (2 * s2 - s1) / 4 * s - s2) * xi
+
+
+def clamped_free_director(beam: Beam, g: float, xi: Array) -> Array:
+    """delta . E3 of a director of unit length in the same beam, eq. (3.5.4) [1]."""
+    s = xi / beam.length
+    s1, _ = sigma(beam, g)
+    return s1 / 6 * s**3 - s1 / 2 * s**2 + s1 / 2 * s
+
+
+def clamped_clamped_displacement(beam: Beam, g: float, xi: Array) -> Array:
+    """u . E2 of a Timoshenko beam clamped at both ends, eq. (3.5.6) [m]."""
+    s = xi / beam.length
+    s1, s2 = sigma(beam, g)
+    return (-s1 / 24 * s**3 + s1 / 12 * s**2 + (12 * s2 - s1) / 24 * s - s2 / 2) * xi
+
+
+def clamped_clamped_director(beam: Beam, g: float, xi: Array) -> Array:
+    """delta . E3 of a director of unit length in the same beam, eq. (3.5.7) [1]."""
+    s = xi / beam.length
+    s1, _ = sigma(beam, g)
+    return s1 / 6 * s**3 - s1 / 4 * s**2 + s1 / 12 * s
+
+
+def necking_decay(beam: Beam, theory: NeckingTheory) -> float:
+    """beta [1/m]: how fast the section stretch reaches its far value beside an end that cannot contract.
+
+    "printed" is eq. (3.5.9).  The others follow from k6 lambda'' = k2 (lambda - 1) + k7 (mu - 1) with the axial force
+    constant, k6 = mu I as in eqs. (1.2.98) and (2.6.20), and what the page leaves open chosen in three ways:
+
+    "two directors": both lateral stretches equal, the theory of Chapter 1.
+    "plane strain": no stretch along E1.
+    "free section": no stress along E1.
+    """
+    slenderness = beam.area / beam.second_moment
+    nu = beam.poisson
+    squared = {
+        "printed": slenderness * (1 + nu) / (1 - nu),
+        "two directors": 2 * slenderness * (1 + nu) / (1 - nu),
+        "plane strain": 2 * slenderness / (1 - nu),
+        "free section": 2 * slenderness * (1 + nu),
+    }
+    # derived: with n = const, beta^2 = (k2 - k7^2/k1) / k6, k1, k2, k7 the small-strain stiffnesses.  Two directors:
+    # E / ((1 - nu) mu) A/I; plane strain: E / ((1 - nu^2) mu) A/I; free in E1: E A / (mu I); and E = 2 (1 + nu) mu.
+    return float(np.sqrt(squared[theory]))
+
+
+def necking_strain(beam: Beam, n: float, beta: float, xi: Array) -> Array:
+    """lambda - 1 in a bar pulled by n whose end sections cannot contract, eq. (3.5.8) [1].
+
+    Eq. (3.5.8) rearranged: as printed it subtracts numbers of size cosh(beta l), which leaves no digits at the far
+    end of a long bar.
+    """
+    half = beta * beam.length / 2
+    profile = np.exp(beta * (xi - beam.length)) + np.exp(-beta * xi)
+    return beam.poisson * n / beam.axial_stiffness * (profile / (1 + np.exp(-2 * half)) - 1)
+
+
+def necking_strain_as_printed(beam: Beam, n: float, beta: float, xi: Array) -> Array:
+    """Eq. (3.5.8) in the order of operations of the page; kept for the evidence that it loses its digits."""
+    decay = (1 - np.cosh(beta * beam.length)) / np.sinh(beta * beam.length)
+    shape = decay * np.sinh(beta * xi) + np.cosh(beta * xi) - 1
+    return beam.poisson * n / beam.axial_stiffness * shape

@@ -1,0 +1,135 @@
+"""Cases: what is asked for, read from TOML.  The published ones ship with the package; anyone can write their own."""
+
+from __future__ import annotations
+
+import functools
+import tomllib
+from collections.abc import Mapping
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from cosserat.errors import InputError
+from cosserat.models.rod_statics import RodStatics
+from cosserat.parameters import Parameters, nearest
+
+PUBLISHED = ("chapter3.toml",)
+"""Case files of the package, beside this module."""
+
+KINDS: dict[str, type[RodStatics]] = {"rod statics": RodStatics}
+"""Problems by the `kind` that a case names."""
+
+
+class Case(Parameters):
+    """One computation: a name, a title, where in the thesis it stands, and the problem itself."""
+
+    name: str
+    title: str
+    source: str = ""
+    problem: RodStatics
+
+    def vary(self, name: str, **changes: Any) -> Case:
+        """A case of another name with parts of the problem changed: `case.vary("long", rod={"length": "10 m"})`.
+
+        Tables merge key by key, lists are replaced, and numbers may be in SI units or texts with a unit.
+
+        Raises
+        ------
+        InputError : a key is unknown or a value is not valid.
+        """
+        table = _merge(self.problem.model_dump(), changes)
+        return Case(name=name, title=name, source="", problem=type(self.problem)(**table))
+
+
+@functools.cache
+def published() -> Mapping[str, Case]:
+    """The cases of the thesis by name, in the order of the files."""
+    tables = _published_tables()
+    return _build_all(tables, tables)
+
+
+def find(name: str, file: Path | None = None) -> Case:
+    """The case of that name: from `file` if one is given, else from the published ones.
+
+    Raises
+    ------
+    InputError : no such case or file, or the case is not valid.
+    """
+    known = published() if file is None else load(file)
+    if name not in known:
+        place = "" if file is None else f" in {file}"
+        raise InputError(f"there is no case '{name}'{place}{nearest(name, list(known))}")
+    return known[name]
+
+
+def load(file: Path) -> Mapping[str, Case]:
+    """All cases of a TOML file, by name; `like` may name a published case.
+
+    Raises
+    ------
+    InputError : the file cannot be read, is not TOML, or one of its cases is not valid.
+    """
+    try:
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot read the case file {file}: {error.strerror}; give the path of a TOML file") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml for an example") from None
+    return _build_all(tables, _published_tables() | tables)
+
+
+def parse(parameters: str) -> Case:
+    """The case that a Dataset's `parameters` attribute holds.
+
+    Raises
+    ------
+    InputError : the text is not such a case.
+    """
+    try:
+        return Case.model_validate_json(parameters)
+    except ValidationError as error:
+        raise InputError(f"these parameters are of another version of cosserat: {error}") from None
+
+
+def _published_tables() -> dict[str, Any]:
+    folder = resources.files("cosserat.cases")
+    tables: dict[str, Any] = {}
+    for name in PUBLISHED:
+        tables |= tomllib.loads((folder / name).read_text(encoding="utf-8"))
+    return tables
+
+
+def _build_all(asked: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Case]:
+    return {name: _build(name, known) for name in asked if not name.startswith("_")}
+
+
+def _build(name: str, known: Mapping[str, Any]) -> Case:
+    table = _inherit(name, known, ())
+    title, source, kind = (table.pop(key, "") for key in ("title", "source", "kind"))
+    if kind not in KINDS:
+        raise InputError(f"case '{name}': 'kind' is {kind!r}{nearest(str(kind), list(KINDS))}")
+    problem = KINDS[kind].read(table, f"case '{name}'")
+    return Case(name=name, title=str(title) or name, source=str(source), problem=problem)
+
+
+def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:
+    """The table of a case with everything that `like` brings in."""
+    if name in seen:
+        raise InputError(f"case '{name}': its 'like' leads back to itself ({' -> '.join((*seen, name))}); break the circle")
+    table = known.get(name)
+    if not isinstance(table, dict):
+        where = f"case '{seen[-1]}': 'like'" if seen else f"'{name}'"
+        raise InputError(f"{where} names no case: {name!r}{nearest(name, list(known))}")
+    own = dict(table)
+    base = own.pop("like", None)
+    return _merge(_inherit(str(base), known, (*seen, name)), own) if base is not None else own
+
+
+def _merge(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
+    merged = dict(base)
+    for key, value in own.items():
+        both = isinstance(value, dict) and isinstance(merged.get(key), dict)
+        merged[key] = _merge(merged[key], value) if both else value
+    return merged

@@ -1,0 +1,128 @@
+"""Outcomes as xarray Datasets with units, meaning and origin; netCDF files that are whole or absent."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from cosserat.cases.catalogue import Case, parse
+from cosserat.data.provenance import environment, source
+from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
+from cosserat.errors import InputError
+from cosserat.outcome import Outcome
+
+THESIS = "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
+
+
+def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
+    """Dress an outcome: dimensions, `units`, `long_name`, `symbol` and `equation` on every variable.
+
+    Global attributes hold the case's parameters, the solver's statistics and the origin; never a clock.
+
+    Raises
+    ------
+    ValueError : a value is not finite, which no solver may return.
+    """
+    variables = {}
+    for name, values in outcome.fields.items():
+        entry = VARIABLES[name]
+        if not np.isfinite(values).all():
+            raise ValueError(f"case '{case.name}': variable '{name}' is not finite")
+        about = {"units": entry.units, "long_name": entry.long_name, "symbol": entry.symbol, "equation": entry.equation}
+        variables[name] = xr.Variable(entry.dims, np.asarray(values, dtype=np.float64), about)
+    dims = {dim for variable in variables.values() for dim in variable.dims}
+    for dim in sorted(dims & set(LABELS)):
+        labels, meaning = LABELS[dim]
+        variables[dim] = xr.Variable((dim,), list(labels), {"long_name": meaning})
+    dataset = xr.Dataset(variables).set_coords([name for name in COORDINATES if name in variables])
+    dataset.attrs = {
+        "Conventions": "CF-1.11",
+        "title": case.title,
+        "institution": "the cosserat project",
+        "references": THESIS,
+        "comment": case.source or "a case of the user",
+        "source": source(),
+        "case": case.name,
+        "parameters": _sorted_json(json.loads(case.model_dump_json())),
+        "solver": _sorted_json(dict(outcome.statistics)),
+        "environment": _sorted_json(environment()),
+    }
+    return dataset
+
+
+def case_of(dataset: xr.Dataset) -> Case:
+    """The case that a Dataset was computed from.
+
+    Raises
+    ------
+    InputError : the Dataset carries no parameters of this version.
+    """
+    if "parameters" not in dataset.attrs:
+        raise InputError("this Dataset has no attribute 'parameters'; use one that cosserat wrote")
+    return parse(dataset.attrs["parameters"])
+
+
+def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
+    """The solver's statistics that a Dataset carries."""
+    return dict(json.loads(dataset.attrs["solver"]))
+
+
+def check_destination(path: Path) -> None:
+    """Refuse a file that could not be written, before anything is computed.
+
+    Raises
+    ------
+    InputError : the folder is missing or the path is a folder.
+    """
+    if not path.parent.is_dir():
+        raise InputError(f"the folder {path.parent} does not exist; make it first or choose another with --output")
+    if path.is_dir():
+        raise InputError(f"{path} is a folder; give the name of a file with --output")
+
+
+def save(dataset: xr.Dataset, path: Path) -> None:
+    """Write a netCDF file under a temporary name and rename it, so that no half-written file is ever seen.
+
+    The same Dataset gives the same bytes.
+
+    Raises
+    ------
+    InputError : the destination cannot be written.
+    """
+    check_destination(path)
+    encoding = {str(name): {"_FillValue": None} for name, variable in dataset.variables.items() if variable.dtype.kind == "f"}
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+    os.close(handle)
+    try:
+        dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except OSError as error:
+        raise InputError(f"cannot write {path}: {error.strerror or error}; check space and permissions") from None
+    finally:
+        Path(temporary).unlink(missing_ok=True)
+
+
+def load(path: Path) -> xr.Dataset:
+    """Read a netCDF file whole into memory.
+
+    Raises
+    ------
+    InputError : the file is missing or cannot be read as netCDF.
+    """
+    if not path.is_file():
+        raise InputError(f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')")
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as dataset:
+            return dataset.load()
+    except (OSError, ValueError, RuntimeError) as error:
+        raise InputError(f"cannot read {path} as netCDF ({error}); delete it and run its case again") from None
+
+
+def _sorted_json(value: object) -> str:
+    return json.dumps(value, sort_keys=True)

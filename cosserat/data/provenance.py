@@ -1,0 +1,38 @@
+"""Where a result comes from: the version and the code that computed it, without a clock."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import importlib.metadata
+import platform
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parents[1]
+_COMPUTING = ("errors.py", "outcome.py", "parameters.py", "run.py", "solvers", "models", "cases", "data")
+
+
+def computing_sources() -> list[Path]:
+    """The modules that can change a computed result, sorted: the code a simulation has to be run again for.
+
+    Case files are not among them: each case is an input by itself.
+    """
+    return sorted(
+        file for name in _COMPUTING for file in ([_PACKAGE / name] if name.endswith(".py") else (_PACKAGE / name).rglob("*.py"))
+    )
+
+
+@functools.cache
+def source() -> str:
+    """Package version and a digest of the computing code."""
+    digest = hashlib.sha256()
+    for file in computing_sources():
+        digest.update(file.relative_to(_PACKAGE).as_posix().encode())
+        digest.update(file.read_bytes())
+    return f"cosserat {importlib.metadata.version('cosserat')}, code sha256:{digest.hexdigest()[:16]}"
+
+
+def environment() -> dict[str, str]:
+    """Versions that may move the last digits of a result."""
+    versions = {name: importlib.metadata.version(name) for name in ("numpy", "scipy", "numba")}
+    return {"python": platform.python_version(), **versions}

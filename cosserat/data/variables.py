@@ -1,0 +1,55 @@
+"""What every stored variable is: dimensions, unit, meaning, symbol and equation of the thesis, and rounding floor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cosserat.models.planar_rod import AXES, UNKNOWNS
+from cosserat.models.published import TERMS
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One row of the table.
+
+    floor : differences below this are rounding, in the variable's unit.  Positions of a few metres are known to
+        1e-15 m; strains of an edge to that over its length; forces to that strain times the axial stiffness.
+    """
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    symbol: str
+    equation: str
+    floor: float
+
+
+LABELS: dict[str, tuple[tuple[str, ...], str]] = {
+    "axis": (AXES, "component in the plane of motion"),
+    "unknown": (UNKNOWNS, "unknown of a vertex, eq. (3.3.42)"),
+    "term": (TERMS, "term of the strain energy, eq. (3.4.11)"),
+}
+"""Labels of the dimensions that are not counted: values and meaning."""
+
+COORDINATES = ("xi", "xi_edge")
+"""Variables that place the others."""
+
+VARIABLES: dict[str, Variable] = {
+    "xi": Variable(("vertex",), "m", "reference arc length of the vertices", r"\xi", "3.3.1", 1e-14),
+    "xi_edge": Variable(("edge",), "m", "reference arc length of the edge midpoints", r"\xi", "3.3.1", 1e-14),
+    "X": Variable(("vertex", "axis"), "m", "reference centreline position", r"\mathbf{X}", "3.3.1", 1e-14),
+    "D": Variable(("vertex", "axis"), "m", "reference director", r"\mathbf{D}", "3.3.3", 1e-14),
+    "x": Variable(("vertex", "axis"), "m", "centreline position", r"\mathbf{x}", "3.3.2", 1e-12),
+    "d": Variable(("vertex", "axis"), "m", "director", r"\mathbf{d}", "3.3.3", 1e-12),
+    "u": Variable(("vertex", "axis"), "m", "centreline displacement", r"\mathbf{u}", "3.3.2", 1e-12),
+    "delta": Variable(("vertex", "axis"), "m", "director displacement", r"\boldsymbol{\delta}", "3.3.3", 1e-12),
+    "mu_edge": Variable(("edge",), "1", "stretch of the edges", r"{}^K\mu", "3.3.19", 1e-12),
+    "mu": Variable(("vertex",), "1", "centreline stretch at the vertices", r"{}_K\mu", "3.3.20", 1e-12),
+    "lam": Variable(("vertex",), "1", "stretch of the sections", r"{}_K\lambda", "3.3.21", 1e-12),
+    "phi": Variable(("vertex",), "rad", "turning angle", r"{}_K\varphi", "3.3.18", 1e-11),
+    "kappa": Variable(("vertex",), "m-1", "centreline curvature", r"{}_K\kappa", "3.3.23", 1e-10),
+    "theta": Variable(("vertex",), "rad", "shear angle", r"{}_K\vartheta", "3.3.26", 1e-11),
+    "load": Variable(("vertex", "unknown"), "N", "applied force", r"\mathbf{F}_{ext}", "3.3.40", 1e-9),
+    "reaction": Variable(("vertex", "unknown"), "N", "force of the supports", r"\mathbf{R}", "3.3.40", 1e-3),
+    "energy": Variable(("term",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-10),
+}

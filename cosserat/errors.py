@@ -1,0 +1,35 @@
+"""Errors that a user can act on: each names the thing, the value and the remedy in one sentence."""
+
+from __future__ import annotations
+
+
+class CosseratError(Exception):
+    """Base of every error the package raises on purpose; the command line prints it without a traceback."""
+
+
+class InputError(CosseratError):
+    """A case, a file or an argument is not what it has to be."""
+
+
+class UnsupportedRodError(InputError):
+    """The supports leave the rod free to move without deforming."""
+
+
+class NotConvergedError(CosseratError):
+    """A solver could not meet its tolerance; nothing is returned in its place.
+
+    Attributes
+    ----------
+    iterations : iterations done before giving up.
+    residual, tolerance : the largest unbalanced force and the one that was allowed [N].
+    """
+
+    def __init__(self, message: str, *, iterations: int, residual: float, tolerance: float) -> None:
+        super().__init__(message)
+        self.iterations = iterations
+        self.residual = residual
+        self.tolerance = tolerance
+
+
+class OutOfToleranceError(CosseratError):
+    """A claim of the results table, or a comparison with a stored result, does not hold."""

@@ -1,0 +1,344 @@
+"""The published strain energy of the discrete planar directed rod, eqs. (3.4.11) and (3.4.13), and its derivatives.
+
+The kernel works in three short passes.  The first measures strains: lengths |e|, |d| and the angles phi, theta, with
+their gradients.  The second is the physics: the seven terms of eq. (3.4.11) and their derivatives by those strains.
+The third carries them back to the unknowns by the chain rule; forces are minus the gradient, eq. (3.4.7).
+
+Two facts make the third pass short.  Every angle is a difference of polar angles alpha(v) of edges e, chords
+c_K = x_(K+1) - x_(K-1) or directors d.  And with t = v / |v| and n = t turned by a right angle,
+    grad |v| = t,       grad grad |v| = n n / |v|,
+    grad alpha = n / |v|,   grad grad alpha = -(t n + n t) / |v|^2.
+
+All compiled functions of this model stand in this file: Numba's cache does not see edits of other files.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal, NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from cosserat.models.planar_rod import Geometry, Lumped
+from cosserat.parameters import Parameters, Quantity
+from cosserat.solvers.banded import Band, Vector
+
+Array = NDArray[np.float64]
+
+TERMS = (
+    "centreline stretching",
+    "cross-section stretching",
+    "bending",
+    "shearing",
+    "shearing gradients",
+    "cross-section stretch gradients",
+    "Poisson effect",
+)
+"""The seven terms, in the order of eq. (3.4.11)."""
+
+
+class Calibration(Parameters):
+    """The calibration coefficients of eq. (3.4.13)."""
+
+    c1: Annotated[float, Quantity("1", "c_1", "3.4.13", above=0)]
+    c2: Annotated[float, Quantity("1", "c_2", "3.4.13", above=0)]
+    c3: Annotated[float, Quantity("1", "c_3", "3.4.13", above=0)]
+    c4: Annotated[float, Quantity("1", "c_4", "3.4.13", above=0)]
+    c5: Annotated[float, Quantity("1", "c_5", "3.4.13", at_least=0)]
+    c6: Annotated[float, Quantity("1", "c_6", "3.4.13", at_least=0)]
+    c7: Annotated[float, Quantity("1", "c_7", "3.4.13")]
+
+
+class Stiffness(NamedTuple):
+    """What the kernel needs of the reference configuration and the material.
+
+    edge, voronoi, director : ||E|| (N - 1,), L (N,) and ||D|| (N,) [m].
+    k1 (N - 1,), k2 (N,), k4 (N,), k7 (N,) [N]; k3 (N,), k5 (N - 1,), k6 (N - 1,) [N m^2].
+    """
+
+    edge: Array
+    voronoi: Array
+    director: Array
+    k1: Array
+    k2: Array
+    k3: Array
+    k4: Array
+    k5: Array
+    k6: Array
+    k7: Array
+
+
+EndSections = Literal["full", "halved"]
+PoissonCoupling = Literal["halved", "printed"]
+
+
+def stiffnesses(
+    geometry: Geometry,
+    vertex: Lumped,
+    edge: Lumped,
+    shear_correction: float,
+    c: Calibration,
+    end_sections: EndSections,
+    poisson_coupling: PoissonCoupling,
+) -> Stiffness:
+    """Eq. (3.4.13), with the two readings that the page leaves open.
+
+    end_sections : "halved" halves the areas of the boundary vertices, eq. (3.4.10), on top of their half length.
+    poisson_coupling : "printed" takes 2 sum k7 (lambda - 1)(mu - 1) L in eq. (3.4.11) as it stands; "halved" drops
+        the 2, which is what the published c7 = 1.66 fits (erratum E3.2).
+    """
+    end_factor = np.ones(vertex.area.size)
+    if end_sections == "halved":
+        end_factor[[0, -1]] = 0.5
+    area = vertex.area * end_factor
+    coupling = 1.0 if poisson_coupling == "printed" else 0.5
+    vertex_lame = vertex.young / ((1 + vertex.poisson) * (1 - 2 * vertex.poisson))
+    edge_lame = edge.young / ((1 + edge.poisson) * (1 - 2 * edge.poisson))
+    return Stiffness(
+        edge=geometry.edge_length,
+        voronoi=geometry.voronoi_length,
+        director=geometry.director_length,
+        k1=c.c1 * edge_lame * edge.area * (1 - edge.poisson),
+        k2=c.c2 * vertex_lame * area * (1 - vertex.poisson),
+        k3=c.c3 * vertex.young * vertex.second_moment,
+        k4=c.c4 * shear_correction * vertex.shear * area,
+        k5=c.c5 * edge.young * edge.second_moment,
+        k6=c.c6 * edge.young * edge.second_moment / (1 + edge.poisson),
+        k7=c.c7 * vertex_lame * area * vertex.poisson * coupling,
+    )
+
+
+@dataclass(frozen=True)
+class PublishedRod:
+    """The published rod as a solver sees it: an energy with its gradient and banded Hessian."""
+
+    stiffness: Stiffness
+
+    @property
+    def half_bandwidth(self) -> int:
+        """x_(K-1) meets x_(K+2) in the shearing gradients: three vertices of four numbers, and one component."""
+        return 13
+
+    def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
+        """Strain energy [J] at q, shape (4 N,), less that of the reference; overwrites gradient and band.
+
+        The energy is infinite where a section or an edge has shrunk to nothing or a shear angle has reached pi/2.
+        """
+        return float(_assemble(q, self.stiffness, gradient, band, np.empty(7)))
+
+    def energy_terms(self, q: Vector) -> Array:
+        """The seven terms of eq. (3.4.11) at q, in the order of `TERMS`, shape (7,) [J]."""
+        terms = np.empty(7)
+        _assemble(q, self.stiffness, np.empty(q.size), np.empty((q.size, 14)), terms)
+        return terms
+
+
+@njit(cache=True)
+def stretching(s: float) -> tuple[float, float, float]:
+    """s^2 - s + 1/s - 1 and two derivatives: the characteristic of Fig. 3.7(a), less its value at s = 1."""
+    return (s - 1) ** 2 * (1 + 1 / s), (s - 1) * (2 * s * s + s + 1) / (s * s), 2 + 2 / s**3
+
+
+@njit(cache=True)
+def squared_tangent(angle: float) -> tuple[float, float, float]:
+    """tan^2 and two derivatives: the characteristic of Fig. 3.7(b)."""
+    t = np.tan(angle)
+    return t * t, 2 * t * (1 + t * t), 2 * (1 + t * t) * (1 + 3 * t * t)
+
+
+@njit(cache=True)
+def _square(band: Band, p: int, u0: float, u1: float, w: float) -> None:
+    """Add w u u to the block on the diagonal at unknown p."""
+    band[p, 0] += w * u0 * u0
+    band[p, 1] += w * u0 * u1
+    band[p + 1, 0] += w * u1 * u1
+
+
+@njit(cache=True)
+def _twist(band: Band, p: int, t0: float, t1: float, w: float) -> None:
+    """Add w (t n + n t), n = (-t1, t0), to the block on the diagonal at unknown p."""
+    band[p, 0] -= 2 * w * t0 * t1
+    band[p, 1] += w * (t0 * t0 - t1 * t1)
+    band[p + 1, 0] += 2 * w * t0 * t1
+
+
+@njit(cache=True)
+def _cross(band: Band, p: int, u0: float, u1: float, r: int, v0: float, v1: float, w: float) -> None:
+    """Add w (u v + v u) for a vector u at unknown p and v at unknown r."""
+    if p == r:
+        band[p, 0] += 2 * w * u0 * v0
+        band[p, 1] += w * (u0 * v1 + u1 * v0)
+        band[p + 1, 0] += 2 * w * u1 * v1
+        return
+    if p < r:
+        p, u0, u1, r, v0, v1 = r, v0, v1, p, u0, u1
+    k = p - r
+    band[r, k] += w * u0 * v0
+    band[r, k + 1] += w * u1 * v0
+    band[r + 1, k - 1] += w * u0 * v1
+    band[r + 1, k] += w * u1 * v1
+
+
+@njit(cache=True)
+def _edge_block(band: Band, p: int, r: int, t0: float, t1: float, along: float, across: float, twist: float) -> None:
+    """Add the Hessian A = along t t + across n n + twist (t n + n t) by e = x_r - x_p: +A at p, r, -A between."""
+    a00 = along * t0 * t0 + across * t1 * t1 - 2 * twist * t0 * t1
+    a01 = (along - across) * t0 * t1 + twist * (t0 * t0 - t1 * t1)
+    a11 = along * t1 * t1 + across * t0 * t0 + 2 * twist * t0 * t1
+    for at in (p, r):
+        band[at, 0] += a00
+        band[at, 1] += a01
+        band[at + 1, 0] += a11
+    k = r - p
+    band[p, k] -= a00
+    band[p, k + 1] -= a01
+    band[p + 1, k - 1] -= a01
+    band[p + 1, k] -= a11
+
+
+@njit(cache=True)
+def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Array) -> float:
+    n = rod.voronoi.size
+    gradient[:] = 0.0
+    band[:, :] = 0.0
+    terms[:] = 0.0
+
+    # First pass: strains.  Edge K: length m, tangent t.  Chord K and director K: length and unit vector.
+    m, t0, t1 = np.empty(n - 1), np.empty(n - 1), np.empty(n - 1)
+    for K in range(n - 1):
+        e0, e1 = q[4 * K + 4] - q[4 * K], q[4 * K + 5] - q[4 * K + 1]
+        m[K] = np.hypot(e0, e1)
+        t0[K], t1[K] = e0 / m[K], e1 / m[K]
+    r, d0, d1, c, c0, c1 = np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    theta = np.empty(n)
+    collapsed = m.min() <= 0.0
+    for K in range(n):
+        low, high = max(K - 1, 0), min(K + 1, n - 1)  # eqs. (3.3.7)-(3.3.9)
+        b0, b1 = q[4 * high] - q[4 * low], q[4 * high + 1] - q[4 * low + 1]
+        c[K] = np.hypot(b0, b1)
+        c0[K], c1[K] = b0 / c[K], b1 / c[K]
+        r[K] = np.hypot(q[4 * K + 2], q[4 * K + 3])
+        d0[K], d1[K] = q[4 * K + 2] / r[K], q[4 * K + 3] / r[K]
+        upright = c0[K] * d1[K] - c1[K] * d0[K]  # b . d, b = t x E1, eq. (3.3.25)
+        theta[K] = np.arctan2(-c0[K] * d0[K] - c1[K] * d1[K], upright)  # eqs. (3.3.24), (3.3.26)
+        collapsed = collapsed or not upright > 0.0 or not r[K] > 0.0
+    if collapsed:
+        return np.inf
+
+    # Second pass: eq. (3.4.11) and its derivatives by the strains: W_s first, W_ss second, W_s_next to the next vertex.
+    W_m, W_mm = np.zeros(n - 1), np.zeros(n - 1)
+    W_phi, W_phiphi = np.zeros(n), np.zeros(n)
+    W_theta, W_thetatheta, W_theta_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
+    W_lam, W_lamlam, W_lam_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
+    lam = r / rod.director  # eq. (3.3.21)
+    for K in range(n - 1):
+        E = rod.edge[K]
+        value, first, second = stretching(m[K] / E)  # eq. (3.3.19)
+        terms[0] += rod.k1[K] / 2 * value * E
+        W_m[K] += rod.k1[K] / 2 * first
+        W_mm[K] += rod.k1[K] / 2 * second / E
+
+        jump = theta[K + 1] - theta[K]
+        terms[4] += rod.k5[K] / 2 * jump * jump / E
+        W_theta[K] -= rod.k5[K] * jump / E
+        W_theta[K + 1] += rod.k5[K] * jump / E
+        W_thetatheta[K] += rod.k5[K] / E
+        W_thetatheta[K + 1] += rod.k5[K] / E
+        W_theta_next[K] -= rod.k5[K] / E
+
+        jump = (r[K + 1] - rod.director[K + 1]) / rod.director[K + 1] - (r[K] - rod.director[K]) / rod.director[K]
+        terms[5] += rod.k6[K] / 2 * jump * jump / E
+        W_lam[K] -= rod.k6[K] * jump / E
+        W_lam[K + 1] += rod.k6[K] * jump / E
+        W_lamlam[K] += rod.k6[K] / E
+        W_lamlam[K + 1] += rod.k6[K] / E
+        W_lam_next[K] -= rod.k6[K] / E
+    for K in range(n):
+        L = rod.voronoi[K]
+        value, first, second = stretching(lam[K])
+        terms[1] += rod.k2[K] / 2 * value * L
+        W_lam[K] += rod.k2[K] / 2 * first * L
+        W_lamlam[K] += rod.k2[K] / 2 * second * L
+
+        value, first, second = squared_tangent(theta[K])
+        terms[3] += rod.k4[K] / 2 * value * L
+        W_theta[K] += rod.k4[K] / 2 * first * L
+        W_thetatheta[K] += rod.k4[K] / 2 * second * L
+    for K in range(1, n - 1):  # bending and the Poisson effect: interior vertices only
+        L = rod.voronoi[K]
+        turn = t0[K - 1] * t1[K] - t1[K - 1] * t0[K]
+        phi = np.arctan2(turn, t0[K - 1] * t0[K] + t1[K - 1] * t1[K])  # eqs. (3.3.15), (3.3.18)
+        value, first, second = squared_tangent(phi / 2)  # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23)
+        terms[2] += 2 * rod.k3[K] / L * value
+        W_phi[K] = rod.k3[K] / L * first
+        W_phiphi[K] = rod.k3[K] / (2 * L) * second
+
+        stretch = (r[K] - rod.director[K]) / rod.director[K]
+        excess = ((m[K - 1] - rod.edge[K - 1]) + (m[K] - rod.edge[K])) / 2  # (mu - 1) L, eqs. (3.3.13), (3.3.20)
+        terms[6] += rod.k7[K] * stretch * excess
+        W_lam[K] += rod.k7[K] * excess
+        W_m[K - 1] += rod.k7[K] / 2 * stretch
+        W_m[K] += rod.k7[K] / 2 * stretch
+
+    # Third pass: the chain rule.  First what each edge, chord and director feels by itself ...
+    for K in range(n - 1):
+        p, s = 4 * K, 4 * K + 4
+        turning = W_phi[K] - W_phi[K + 1]  # e_K ends the angle at vertex K and begins the one at K + 1
+        f0 = W_m[K] * t0[K] - turning * t1[K] / m[K]
+        f1 = W_m[K] * t1[K] + turning * t0[K] / m[K]
+        gradient[p] -= f0
+        gradient[p + 1] -= f1
+        gradient[s] += f0
+        gradient[s + 1] += f1
+        _edge_block(band, p, s, t0[K], t1[K], W_mm[K], W_m[K] / m[K], -turning / (m[K] * m[K]))
+    for K in range(n):
+        p, s, u = 4 * max(K - 1, 0), 4 * min(K + 1, n - 1), 4 * K + 2
+        g0, g1 = c1[K] / c[K], -c0[K] / c[K]  # d theta / d chord
+        h0, h1 = -d1[K] / r[K], d0[K] / r[K]  # d theta / d director
+        gradient[p] -= W_theta[K] * g0
+        gradient[p + 1] -= W_theta[K] * g1
+        gradient[s] += W_theta[K] * g0
+        gradient[s + 1] += W_theta[K] * g1
+        gradient[u] += W_theta[K] * h0 + W_lam[K] * d0[K] / rod.director[K]
+        gradient[u + 1] += W_theta[K] * h1 + W_lam[K] * d1[K] / rod.director[K]
+        stiff = W_thetatheta[K]
+        _edge_block(band, p, s, c0[K], c1[K], 0.0, stiff / (c[K] * c[K]), W_theta[K] / (c[K] * c[K]))
+        _cross(band, s, g0, g1, u, h0, h1, stiff)
+        _cross(band, p, -g0, -g1, u, h0, h1, stiff)
+        _square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod.director[K])
+        _twist(band, u, d0[K], d1[K], -W_theta[K] / (r[K] * r[K]))
+        _square(band, u, d0[K] / rod.director[K], d1[K] / rod.director[K], W_lamlam[K])
+
+    # ... then what couples neighbours.
+    for K in range(1, n - 1):
+        p, s = 4 * K - 4, 4 * K
+        a0, a1 = -t1[K - 1] / m[K - 1], t0[K - 1] / m[K - 1]  # grad alpha of the edges before and after vertex K
+        b0, b1 = -t1[K] / m[K], t0[K] / m[K]
+        z0, z1 = -a0 - b0, -a1 - b1
+        stiff = W_phiphi[K]
+        _square(band, p, a0, a1, stiff)
+        _square(band, s, z0, z1, stiff)
+        _square(band, s + 4, b0, b1, stiff)
+        _cross(band, s, z0, z1, p, a0, a1, stiff)
+        _cross(band, s + 4, b0, b1, p, a0, a1, stiff)
+        _cross(band, s + 4, b0, b1, s, z0, z1, stiff)
+
+        w = rod.k7[K] / (2 * rod.director[K])
+        _cross(band, s + 2, d0[K], d1[K], p, -t0[K - 1], -t1[K - 1], w)
+        _cross(band, s + 2, d0[K], d1[K], s, t0[K - 1] - t0[K], t1[K - 1] - t1[K], w)
+        _cross(band, s + 2, d0[K], d1[K], s + 4, t0[K], t1[K], w)
+    for K in range(n - 1):
+        J = K + 1
+        w = W_theta_next[K]
+        low, high, low_next, high_next = 4 * max(K - 1, 0), 4 * K + 4, 4 * K, 4 * min(K + 2, n - 1)
+        g0, g1, h0, h1 = c1[K] / c[K], -c0[K] / c[K], -d1[K] / r[K], d0[K] / r[K]
+        j0, j1, i0, i1 = c1[J] / c[J], -c0[J] / c[J], -d1[J] / r[J], d0[J] / r[J]
+        for at, v0, v1 in ((high, g0, g1), (low, -g0, -g1), (4 * K + 2, h0, h1)):
+            _cross(band, high_next, j0, j1, at, v0, v1, w)
+            _cross(band, low_next, -j0, -j1, at, v0, v1, w)
+            _cross(band, 4 * J + 2, i0, i1, at, v0, v1, w)
+        w = W_lam_next[K] / (rod.director[K] * rod.director[J])
+        _cross(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
+    return terms.sum()

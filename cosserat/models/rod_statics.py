@@ -1,0 +1,213 @@
+"""Static problems of the discrete planar rod: a straight rod, its supports and dead loads, section 3.5."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.errors import UnsupportedRodError
+from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, Lumped, rigid_motions, strains
+from cosserat.models.published import Calibration, EndSections, PoissonCoupling, PublishedRod, stiffnesses
+from cosserat.outcome import Outcome
+from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.solvers.newton import Equilibrium, NewtonSettings, equilibrium
+
+Array = NDArray[np.float64]
+Vertex = Literal["first", "last"] | Annotated[int, Count(at_least=0)]
+Direction = Literal["E3", "-E3", "E2", "-E2"]
+UnknownName = Literal["x3", "x2", "d3", "d2"]
+
+_DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
+_MOTIONS = ("translation along E3", "translation along E2", "rotation")
+
+
+class Rod(Parameters):
+    """A straight homogeneous rod of rectangular section, section 3.5."""
+
+    energy: Literal["published"] = "published"
+    vertices: Annotated[int, Count("N", "3.3.1", at_least=3)]
+    length: Annotated[float, Quantity("m", r"\ell_0", "3.3.1", above=0)]
+    height: Annotated[float, Quantity("m", "H", "section 3.5", above=0)]
+    width: Annotated[float, Quantity("m", "W", "section 3.5", above=0)]
+    young: Annotated[float, Quantity("Pa", "E", "section 3.5", above=0)]
+    poisson: Annotated[float, Quantity("1", r"\nu", "section 3.5", above=-1, below=0.5)]
+    line_density: Annotated[float, Quantity("kg/m", r"\rho_0", "section 3.5", above=0)]
+    shear_correction: Annotated[float, Quantity("1", "k", "3.4.13", above=0)]
+    calibration: Calibration
+    end_sections: EndSections = "full"
+    poisson_coupling: PoissonCoupling = "halved"
+
+    @property
+    def area(self) -> float:
+        """Area of the section A [m^2]."""
+        return self.width * self.height
+
+    @property
+    def second_moment(self) -> float:
+        """Second moment of area about E1, I [m^4]."""
+        return self.width * self.height**3 / 12
+
+    def geometry(self) -> Geometry:
+        """Its reference configuration; the directors reach the lateral surface, at half the height."""
+        return Geometry.straight(self.vertices, self.length, self.height / 2)
+
+    def body(self, geometry: Geometry) -> PublishedRod:
+        """The elastic body: eq. (3.4.13) with Table 3.1 for a homogeneous rod."""
+        vertex, edge = (
+            Lumped.uniform(
+                count,
+                area=self.area,
+                second_moment=self.second_moment,
+                young=self.young,
+                poisson=self.poisson,
+            )
+            for count in (self.vertices, self.vertices - 1)
+        )
+        return PublishedRod(
+            stiffnesses(
+                geometry,
+                vertex,
+                edge,
+                self.shear_correction,
+                self.calibration,
+                self.end_sections,
+                self.poisson_coupling,
+            )
+        )
+
+
+class Support(Parameters):
+    """Numbers of one vertex that keep their reference value."""
+
+    at: Vertex
+    hold: tuple[UnknownName, ...]
+
+
+class Gravity(Parameters):
+    """The weight of the rod, lumped at the vertices: rho0 g L, section 3.5."""
+
+    g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
+    along: Direction
+
+
+class PointForce(Parameters):
+    """A dead force on the centreline at one vertex."""
+
+    at: Vertex
+    along: Direction
+    force: Annotated[float, Quantity("N", "n", "section 3.5")]
+
+
+class RodStatics(Parameters):
+    """Equilibrium of a rod under its weight and point forces."""
+
+    kind: Literal["rod statics"] = "rod statics"
+    rod: Rod
+    supports: tuple[Support, ...]
+    gravity: Gravity | None = None
+    forces: tuple[PointForce, ...] = ()
+    newton: NewtonSettings = NewtonSettings()
+
+    @model_validator(mode="after")
+    def _vertices_exist(self) -> Self:
+        for item in (*self.supports, *self.forces):
+            if isinstance(item.at, int) and item.at >= self.rod.vertices:
+                raise PydanticCustomError(
+                    "range",
+                    f"'at' is {item.at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
+                    "choose one of those, 'first' or 'last'",
+                )
+        return self
+
+    def solve(self, name: str) -> Outcome:
+        """Find the equilibrium; `name` is what errors call the case.
+
+        Raises
+        ------
+        UnsupportedRodError : a rigid motion is left free.
+        NotConvergedError : no equilibrium within the tolerance.
+        """
+        geometry = self.rod.geometry()
+        reference = np.hstack([geometry.X, geometry.D])
+        held = self._held()
+        refuse_rigid_motion(reference, held, name)
+        load = self.loads(geometry)
+        body = self.rod.body(geometry)
+        state = equilibrium(body, reference.ravel(), load.ravel(), held.ravel(), self.newton, name)
+        return Outcome(_fields(geometry, body, state, load), _statistics(state))
+
+    def loads(self, geometry: Geometry) -> Array:
+        """Dead forces on the unknowns of each vertex, shape (N, 4) [N]."""
+        load = np.zeros((self.rod.vertices, len(UNKNOWNS)))
+        if self.gravity is not None:
+            weight = self.rod.line_density * self.gravity.g * geometry.voronoi_length
+            load[:, :2] += weight[:, None] * np.array(_DIRECTIONS[self.gravity.along])
+        for item in self.forces:
+            load[self._index(item.at), :2] += item.force * np.array(_DIRECTIONS[item.along])
+        return load
+
+    def _held(self) -> NDArray[np.bool_]:
+        held = np.zeros((self.rod.vertices, len(UNKNOWNS)), dtype=np.bool_)
+        for support in self.supports:
+            for unknown in support.hold:
+                held[self._index(support.at), UNKNOWNS.index(unknown)] = True
+        return held
+
+    def _index(self, at: Vertex) -> int:
+        return {"first": 0, "last": self.rod.vertices - 1}[at] if isinstance(at, str) else at
+
+
+def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
+    """Raise UnsupportedRodError if a rigid motion moves no held number; q, held : (N, 4)."""
+    motions = rigid_motions(q)
+    size = np.abs(motions).max(axis=(1, 2))
+    at_supports = motions[:, held] / size[:, None]
+    _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
+    free = directions[np.append(stretch, np.zeros(3 - stretch.size)) < 1e-10]
+    left = [motion for motion, share in zip(_MOTIONS, np.abs(free).max(axis=0, initial=0.0), strict=True) if share > 0.1]
+    if left:
+        raise UnsupportedRodError(
+            f"{name}: the supports leave the rod free to move ({', '.join(left)}); "
+            "hold more numbers in 'supports', such as at = 'first', hold = ['x3', 'x2', 'd3', 'd2']"
+        )
+
+
+def _fields(geometry: Geometry, body: PublishedRod, state: Equilibrium, load: Array) -> dict[str, Array]:
+    q = state.q.reshape(load.shape)
+    x, d = q[:, : len(AXES)], q[:, len(AXES) :]
+    measured = strains(geometry, x, d)
+    arc = geometry.arc_length
+    return {
+        "xi": arc,
+        "xi_edge": (arc[1:] + arc[:-1]) / 2,
+        "X": geometry.X,
+        "D": geometry.D,
+        "x": x,
+        "d": d,
+        "u": x - geometry.X,
+        "delta": d - geometry.D,
+        "mu_edge": measured.mu_edge,
+        "mu": measured.mu,
+        "lam": measured.lam,
+        "phi": measured.phi,
+        "kappa": measured.kappa,
+        "theta": measured.theta,
+        "load": load,
+        "reaction": state.reaction.reshape(load.shape),
+        "energy": body.energy_terms(state.q),
+    }
+
+
+def _statistics(state: Equilibrium) -> dict[str, int | float]:
+    return {
+        "iterations": state.iterations,
+        "shortened_steps": state.shortened,
+        "shifted_hessians": state.shifted,
+        "residual_N": state.residual,
+        "tolerance_N": state.tolerance,
+        "rounding_N": state.rounding,
+    }

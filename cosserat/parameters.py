@@ -1,0 +1,193 @@
+"""Parameter objects: frozen, validated, every physical value in SI units inside and with its unit outside.
+
+A parameter class derives from `Parameters` and annotates its fields with `Quantity` or `Count`.  In a case
+file a dimensional value is a text with its unit ("5 m", "1 GPa"); in Python it may also be a plain number in SI units.
+"""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Self
+
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic_core import ErrorDetails, PydanticCustomError, core_schema
+
+from cosserat.errors import InputError
+
+if TYPE_CHECKING:
+    import pint
+
+FROM_FILE = {"units": "required"}
+"""Validation context of values that a person wrote: a number without its unit is refused."""
+
+
+@functools.cache
+def _units() -> pint.UnitRegistry[float]:
+    import pint  # 0.4 s: only where a text with a unit has to be read
+
+    return pint.UnitRegistry()
+
+
+def to_si(value: object, unit: str, *, unit_required: bool) -> float:
+    """Read one value as a number in the SI unit `unit`.
+
+    Raises
+    ------
+    PydanticCustomError : not a number, not finite, or of another dimension than `unit`.
+    """
+    remedy = "write a number, such as 0.3" if unit == "1" else f'write it with its unit, such as "2.5 {unit}"'
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise PydanticCustomError("type", f"is {value!r}, not a number; {remedy}")
+    if isinstance(value, str):
+        number = _read_text(value, unit, remedy)
+    elif unit_required and unit != "1":
+        raise PydanticCustomError("unit", f"is {value!r}, without a unit; {remedy}")
+    else:
+        number = float(value)
+    if not math.isfinite(number):
+        raise PydanticCustomError("finite", f"is {value!r}; it must be a finite number")
+    return number
+
+
+def _read_text(text: str, unit: str, remedy: str) -> float:
+    import pint
+
+    try:
+        read = _units().Quantity(text)
+        return float(read.to("" if unit == "1" else unit).magnitude)
+    except pint.DimensionalityError:
+        found = f"{read.units:~}" or "no unit at all"
+        raise PydanticCustomError("unit", f'is "{text}", in {found}; {remedy}') from None
+    except Exception:  # the unit parser raises errors of many kinds on text that is no quantity
+        raise PydanticCustomError("type", f'is "{text}", which is not a number with a unit; {remedy}') from None
+
+
+@dataclass(frozen=True)
+class Quantity:
+    r"""Annotation of a physical parameter: `length: Annotated[float, Quantity("m", r"\ell_0", above=0)]`.
+
+    unit : SI unit, "1" for a ratio.
+    symbol, source : the letter of the thesis (LaTeX) and the equation or section it comes from.
+    above, below, at_least : the range the value must keep.
+    """
+
+    unit: str
+    symbol: str = ""
+    source: str = ""
+    above: float = -math.inf
+    below: float = math.inf
+    at_least: float = -math.inf
+
+    def check(self, value: object, info: core_schema.ValidationInfo) -> float:
+        """Read and range-check one value."""
+        required = bool(info.context) and info.context.get("units") == "required"
+        number = to_si(value, self.unit, unit_required=required)
+        shown = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
+        if number <= self.above:
+            raise PydanticCustomError("range", f"is {shown}; it must be above {self.above:g}")
+        if number >= self.below:
+            raise PydanticCustomError("range", f"is {shown}; it must be below {self.below:g}")
+        if number < self.at_least:
+            raise PydanticCustomError("range", f"is {shown}; it must be at least {self.at_least:g}")
+        return number
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.check)
+
+
+@dataclass(frozen=True)
+class Count:
+    """Annotation of a whole-number parameter with its least value."""
+
+    symbol: str = ""
+    source: str = ""
+    at_least: int = 0
+
+    def check(self, value: object) -> int:
+        """Read and range-check one value."""
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise PydanticCustomError("type", f"is {value!r}; it must be a whole number")
+        if value < self.at_least:
+            raise PydanticCustomError("range", f"is {value}; it must be at least {self.at_least}")
+        return value
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.check)
+
+
+class Parameters(BaseModel):
+    """Base of every parameter object: frozen, and no key passes unread."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __init__(self, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise InputError(explain(error, type(self), type(self).__name__)) from None
+
+    @classmethod
+    def read(cls, mapping: Mapping[str, Any], name: str) -> Self:
+        """Build from the plain mapping of a case file; `name` is what error sentences call it.
+
+        Raises
+        ------
+        InputError : unknown or missing key, wrong type or unit, out of range; one clause for each fault.
+        """
+        try:
+            return cls.model_validate(mapping, context=FROM_FILE)
+        except ValidationError as error:
+            raise InputError(explain(error, cls, name)) from None
+
+    def replace(self, **changes: Any) -> Self:
+        """A copy with the named fields changed, validated like the original.
+
+        Raises
+        ------
+        InputError : a change is not valid.
+        """
+        return type(self)(**{**{name: getattr(self, name) for name in type(self).model_fields}, **changes})
+
+
+def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
+    """Put every fault that validation found into one sentence."""
+    return f"{name}: " + "; ".join(_clause(fault, owner) for fault in error.errors(include_url=False))
+
+
+def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
+    path = ".".join(str(part) for part in fault["loc"])
+    match fault["type"]:
+        case "missing":
+            return f"'{path}' is missing"
+        case "extra_forbidden":
+            return f"'{path}' is not a key{nearest(str(fault['loc'][-1]), _keys_at(owner, fault['loc'][:-1]))}"
+        case "literal_error":
+            return f"'{path}' is {fault['input']!r}; it must be {fault['ctx']['expected']}"
+        case "model_type" | "model_attributes_type" | "dict_type":
+            return f"'{path}' is {fault['input']!r}; it must be a table of keys"
+        case "string_type":
+            return f"'{path}' is {fault['input']!r}; it must be a text"
+        case "tuple_type":
+            return f"'{path}' is {fault['input']!r}; it must be a list"
+        case _:
+            return f"'{path}' {fault['msg']}" if path else fault["msg"]
+
+
+def _keys_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> list[str]:
+    """The keys that a parameter class knows at a path of nested tables and lists."""
+    for part in path:
+        field = owner.model_fields.get(str(part))
+        for candidate in [] if field is None else [field.annotation, *getattr(field.annotation, "__args__", ())]:
+            if isinstance(candidate, type) and issubclass(candidate, BaseModel):
+                owner = candidate
+    return list(owner.model_fields)
+
+
+def nearest(word: str, known: list[str]) -> str:
+    """The clause that helps after a misspelt word: the nearest known one, or all of them."""
+    close = difflib.get_close_matches(word, known, n=1, cutoff=0.5)
+    return f"; did you mean '{close[0]}'?" if close else f"; known are: {', '.join(known)}"

@@ -1,0 +1,56 @@
+"""Symmetric banded matrices, stored as LAPACK wants them.
+
+A band is an array of shape (n, w + 1): row j holds column j of the lower triangle from the diagonal down,
+`band[j, i - j] = H[i, j]`.  Its transpose, taken without a copy, is LAPACK's lower form.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dpbsv
+
+Vector = NDArray[np.float64]
+Band = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@njit(cache=True)
+def hold(band: Band, held: Mask) -> None:
+    """Uncouple the held unknowns in place: their rows and columns become zero, their diagonal stays."""
+    n, width = band.shape
+    for j in range(n):
+        for k in range(1, min(width, n - j)):
+            if held[j] or held[j + k]:
+                band[j, k] = 0.0
+
+
+@njit(cache=True)
+def absolute_product(band: Band, x: Vector) -> Vector:
+    """|H| |x|, shape (n,): with the unit roundoff it bounds what rounding x can do to H x."""
+    n, width = band.shape
+    y = np.zeros(n)
+    for j in range(n):
+        y[j] += abs(band[j, 0]) * abs(x[j])
+        for k in range(1, min(width, n - j)):
+            entry = abs(band[j, k])
+            y[j + k] += entry * abs(x[j])
+            y[j] += entry * abs(x[j + k])
+    return y
+
+
+def solve_positive(band: Band, right: Vector) -> Vector | None:
+    """Solve H x = right by Cholesky's factorisation; None where H is not positive definite."""
+    _, x, info = dpbsv(band.T, right, lower=1)
+    return x if info == 0 else None
+
+
+def to_dense(band: Band) -> NDArray[np.float64]:
+    """The full symmetric matrix, shape (n, n): for tests and small eigenproblems."""
+    n, width = band.shape
+    dense = np.zeros((n, n))
+    for k in range(width):
+        j = np.arange(n - k)
+        dense[j + k, j] = dense[j, j + k] = band[: n - k, k]
+    return dense

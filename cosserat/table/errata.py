@@ -1,0 +1,40 @@
+"""The errata table: where the page is wrong, silent or doubtful, what we take instead, and the test that shows it."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Literal
+
+from cosserat.errors import InputError
+from cosserat.parameters import Parameters
+
+
+class Erratum(Parameters):
+    """One entry.
+
+    standing : "erratum" (the printed form fails something checkable that the corrected one meets), "assumption" (the
+    page is silent or ambiguous), "question" (suspicious, not proven), "refuted" (looked wrong, is right).
+    evidence : the test that shows it, `file::function`.
+    """
+
+    where: str
+    printed: str
+    corrected: str
+    why: str
+    standing: Literal["erratum", "assumption", "question", "refuted"]
+    evidence: str
+
+
+def read_errata(path: Path) -> dict[str, Erratum]:
+    """The entries by id, in their order.
+
+    Raises
+    ------
+    InputError : the file is missing or an entry is not valid.
+    """
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        raise InputError(f"cannot read the errata {path}: {error}; restore it from the repository") from None
+    return {name: Erratum.read(table, f"{path}, entry '{name}'") for name, table in tables.items()}

@@ -1,0 +1,139 @@
+"""Named read-outs: a Dataset in, one measured number and, where a closed form judges it, the number expected.
+
+A row of `results/tolerances.csv` names its read-out here.  Shares of a curve are largest deviations over the vertices
+divided by the largest ordinate of the closed form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from cosserat import analytic
+from cosserat.data.dataset import case_of
+from cosserat.models.rod_statics import RodStatics
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """measured, in the unit of the row; expected, where not the published number itself is what is expected."""
+
+    measured: float
+    expected: float | None = None
+
+
+def beam_of(problem: RodStatics) -> analytic.Beam:
+    """The beam that the closed forms know, with the rod's parameters."""
+    rod = problem.rod
+    return analytic.Beam(
+        length=rod.length,
+        area=rod.area,
+        second_moment=rod.second_moment,
+        young=rod.young,
+        poisson=rod.poisson,
+        line_density=rod.line_density,
+        shear_correction=rod.shear_correction,
+    )
+
+
+def weight_of(problem: RodStatics) -> float:
+    """g of a problem under its own weight [m/s^2]."""
+    assert problem.gravity is not None
+    return problem.gravity.g
+
+
+def tension_of(problem: RodStatics) -> float:
+    """n of a bar pulled at its last vertex [N]."""
+    return problem.forces[-1].force
+
+
+def midspan(values: Array) -> float:
+    """The value at mid-span: of the middle vertex, or the mean of the two nearest it if their number is even."""
+    half = values.size // 2
+    return float(values[half] if values.size % 2 else values[half - 1 : half + 1].mean())
+
+
+def hanging_bar_curve(data: xr.Dataset) -> tuple[Array, Array]:
+    """u . E3 at the vertices, computed and by eq. (3.5.2) [m]."""
+    problem = case_of(data).problem
+    exact = analytic.hanging_bar_displacement(beam_of(problem), weight_of(problem), data.xi.to_numpy())
+    return data.u.sel(axis="E3").to_numpy(), exact
+
+
+def clamped_free_curve(data: xr.Dataset) -> tuple[Array, Array]:
+    """u . E2 at the vertices, computed and by eq. (3.5.3) [m]."""
+    problem = case_of(data).problem
+    exact = analytic.clamped_free_displacement(beam_of(problem), weight_of(problem), data.xi.to_numpy())
+    return data.u.sel(axis="E2").to_numpy(), exact
+
+
+def clamped_free_directors(data: xr.Dataset) -> tuple[Array, Array]:
+    """delta . E3 at the lateral surface, computed and by eqs. (3.5.1), (3.5.4) [m]."""
+    problem = case_of(data).problem
+    exact = analytic.clamped_free_director(beam_of(problem), weight_of(problem), data.xi.to_numpy())
+    return data.delta.sel(axis="E3").to_numpy(), exact * problem.rod.height / 2
+
+
+def clamped_clamped_curve(data: xr.Dataset) -> tuple[Array, Array]:
+    """u . E2 at the vertices, computed and by eq. (3.5.6) [m]."""
+    problem = case_of(data).problem
+    exact = analytic.clamped_clamped_displacement(beam_of(problem), weight_of(problem), data.xi.to_numpy())
+    return data.u.sel(axis="E2").to_numpy(), exact
+
+
+def clamped_clamped_directors(data: xr.Dataset) -> tuple[Array, Array]:
+    """delta . E3 at the lateral surface, computed and by eqs. (3.5.1), (3.5.7) [m]."""
+    problem = case_of(data).problem
+    exact = analytic.clamped_clamped_director(beam_of(problem), weight_of(problem), data.xi.to_numpy())
+    return data.delta.sel(axis="E3").to_numpy(), exact * problem.rod.height / 2
+
+
+def necking_curve(data: xr.Dataset, theory: analytic.NeckingTheory = "printed") -> tuple[Array, Array]:
+    """lambda - 1 at the vertices, computed and by eq. (3.5.8) with beta of the named theory [1]."""
+    problem = case_of(data).problem
+    beam = beam_of(problem)
+    beta = analytic.necking_decay(beam, theory)
+    exact = analytic.necking_strain(beam, tension_of(problem), beta, data.xi.to_numpy())
+    return data.lam.to_numpy() - 1, exact
+
+
+def _last(curves: tuple[Array, Array]) -> Reading:
+    return Reading(float(curves[0][-1]), float(curves[1][-1]))
+
+
+def _middle(curves: tuple[Array, Array]) -> Reading:
+    return Reading(midspan(curves[0]), midspan(curves[1]))
+
+
+def _share(curves: tuple[Array, Array]) -> Reading:
+    computed, exact = curves
+    return Reading(float(np.abs(computed - exact).max() / np.abs(exact).max()), 0.0)
+
+
+def _stretching_coefficient(data: xr.Dataset) -> Reading:
+    """The c1 at which the tip would stand where eq. (3.5.2) puts it; the tip displacement goes as 1 / c1."""
+    computed, exact = hanging_bar_curve(data)
+    return Reading(case_of(data).problem.rod.calibration.c1 * float(computed[-1] / exact[-1]))
+
+
+READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
+    "stretching_coefficient": _stretching_coefficient,
+    "hanging_bar_tip": lambda data: _last(hanging_bar_curve(data)),
+    "hanging_bar_profile": lambda data: _share(hanging_bar_curve(data)),
+    "largest_director_displacement": lambda data: Reading(float(np.abs(data.delta).max()), 0.0),
+    "clamped_free_tip": lambda data: _last(clamped_free_curve(data)),
+    "clamped_free_profile": lambda data: _share(clamped_free_curve(data)),
+    "clamped_free_directors": lambda data: _share(clamped_free_directors(data)),
+    "clamped_clamped_midspan": lambda data: _middle(clamped_clamped_curve(data)),
+    "clamped_clamped_profile": lambda data: _share(clamped_clamped_curve(data)),
+    "clamped_clamped_directors": lambda data: _share(clamped_clamped_directors(data)),
+    "necking_midspan": lambda data: _middle(necking_curve(data)),
+    "necking_profile": lambda data: _share(necking_curve(data)),
+}
+"""Read-outs by the name that a row gives."""

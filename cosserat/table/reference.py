@@ -1,0 +1,95 @@
+"""Stored results of every case: did anything move?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from cosserat.data.dataset import load, save
+from cosserat.data.variables import VARIABLES
+from cosserat.errors import InputError
+
+RELATIVE = 1e-9
+"""Change allowed in a variable, as a share of its largest stored value; the variable's rounding floor comes on top."""
+
+_MAY_DIFFER = ("source", "environment", "solver", "history")  # where it was computed and how many steps that took
+
+
+@dataclass(frozen=True)
+class Change:
+    """The largest change of one variable, where it is, and what was allowed, in the variable's unit."""
+
+    variable: str
+    units: str
+    largest: float
+    where: dict[str, int]
+    allowed: float
+
+    @property
+    def held(self) -> bool:
+        """Whether the change is small enough."""
+        return self.largest <= self.allowed
+
+    def __str__(self) -> str:
+        place = ", ".join(f"{dim} {index}" for dim, index in self.where.items()) or "its one value"
+        return f"{self.variable}: {self.largest:.3g} {self.units} at {place} (allowed {self.allowed:.3g})"
+
+
+def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
+    """Changes of every variable.
+
+    Raises
+    ------
+    InputError : different variables, shapes, units or parameters, or a value that is not finite.
+    """
+    if set(fresh.variables) != set(stored.variables):
+        raise InputError(f"variables differ: {sorted(map(str, set(fresh.variables) ^ set(stored.variables)))}")
+    for key in sorted((set(fresh.attrs) | set(stored.attrs)) - set(_MAY_DIFFER)):
+        if fresh.attrs.get(key) != stored.attrs.get(key):
+            raise InputError(f"attribute '{key}' differs: {fresh.attrs.get(key)!r}, stored {stored.attrs.get(key)!r}")
+    return [_change(str(name), fresh, stored) for name in stored.variables if name in VARIABLES]
+
+
+def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset) -> Change:
+    new, old = fresh[name], stored[name]
+    if new.dims != old.dims or new.shape != old.shape:
+        raise InputError(f"variable '{name}' has shape {new.shape}, stored {old.shape}")
+    if new.attrs != old.attrs:
+        raise InputError(f"variable '{name}' has attributes {new.attrs}, stored {old.attrs}")
+    if not (np.isfinite(new).all() and np.isfinite(old).all()):
+        raise InputError(f"variable '{name}' holds values that are not finite")
+    difference = np.abs(new.to_numpy() - old.to_numpy())
+    place = np.unravel_index(int(difference.argmax()), difference.shape)
+    return Change(
+        variable=name,
+        units=old.attrs["units"],
+        largest=float(difference.max()),
+        where={str(dim): int(index) for dim, index in zip(old.dims, place, strict=True)},
+        allowed=RELATIVE * float(np.abs(old).max()) + VARIABLES[name].floor,
+    )
+
+
+def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
+    """Store a Dataset as the reference of its case, with the reason; returns what changed, largest first.
+
+    Raises
+    ------
+    InputError : no reason given, or the file cannot be written.
+    """
+    if len(because.split()) < 3:
+        raise InputError(f"the reason {because!r} says too little; say in a sentence why the numbers may change")
+    report = ["no reference was stored before"]
+    history = because
+    if path.exists():
+        stored = load(path)
+        history = f"{stored.attrs.get('history', '')}\n{because}".strip()
+        try:
+            changes = compare(fresh, stored)
+            report = [str(change) for change in sorted(changes, key=lambda c: c.largest / c.allowed, reverse=True)]
+        except InputError as error:
+            report = [f"not comparable with what was stored: {error}"]
+    save(fresh.assign_attrs(history=history), path)
+    return report
