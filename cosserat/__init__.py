@@ -1,9 +1,9 @@
 """Directed rods of Green and Naghdi's kind: solvers for E. G. Hemingway's thesis (Berkeley, 2020), and for your rod.
 
-    import cosserat
-    beam = cosserat.run("clamped_free")                       # a published case, as an xarray.Dataset
-    long = cosserat.case("clamped_free").vary("long", rod={"length": "10 m"})
-    print(cosserat.run(long).u.sel(axis="E2")[-1].item())     # its tip displacement in m
+import cosserat
+beam = cosserat.run("clamped_free")                       # a published case, as an xarray.Dataset
+long = cosserat.case("clamped_free").vary("long", rod={"length": "10 m"})
+print(cosserat.run(long).u.sel(axis="E2")[-1].item())     # its tip displacement in m
 """
 
 from cosserat.cases.catalogue import Case

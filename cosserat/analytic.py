@@ -5,6 +5,7 @@ Lengths in m, forces in N, moduli in Pa; xi is an array of arc lengths from the 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -35,6 +36,10 @@ class Beam:
         return self.young * self.area
 
 
+BeamCurve = Callable[[Beam, float, Array], Array]
+"""A closed form of a beam under its weight: (beam, g, xi) -> values at xi."""
+
+
 def hanging_bar_displacement(beam: Beam, g: float, xi: Array) -> Array:
     """u . E3 of a bar that hangs from its left end, eq. (3.5.2) [m]."""
     s = xi / beam.length
@@ -45,7 +50,9 @@ def sigma(beam: Beam, g: float) -> tuple[float, float]:
     """sigma_1, sigma_2 of eq. (3.5.5) [1]: what the weight does by bending and by shear."""
     weight = beam.line_density * g
     sigma_1 = weight * beam.length**3 / (beam.young * beam.second_moment)
-    sigma_2 = 2 * (1 + beam.poisson) * weight * beam.length / (beam.shear_correction * beam.axial_stiffness)
+    sigma_2 = (
+        2 * (1 + beam.poisson) * weight * beam.length / (beam.shear_correction * beam.axial_stiffness)
+    )
     return sigma_1, sigma_2
 
 
@@ -106,13 +113,14 @@ def necking_strain(beam: Beam, n: float, beta: float, xi: Array) -> Array:
     Eq. (3.5.8) rearranged: as printed it subtracts numbers of size cosh(beta l), which leaves no digits at the far
     end of a long bar.
     """
-    half = beta * beam.length / 2
-    profile = np.exp(beta * (xi - beam.length)) + np.exp(-beta * xi)
-    return beam.poisson * n / beam.axial_stiffness * (profile / (1 + np.exp(-2 * half)) - 1)
+    profile: Array = (np.exp(beta * (xi - beam.length)) + np.exp(-beta * xi)) / (
+        1 + np.exp(-beta * beam.length)
+    )
+    return beam.poisson * n / beam.axial_stiffness * (profile - 1)
 
 
 def necking_strain_as_printed(beam: Beam, n: float, beta: float, xi: Array) -> Array:
     """Eq. (3.5.8) in the order of operations of the page; kept for the evidence that it loses its digits."""
     decay = (1 - np.cosh(beta * beam.length)) / np.sinh(beta * beam.length)
-    shape = decay * np.sinh(beta * xi) + np.cosh(beta * xi) - 1
+    shape: Array = decay * np.sinh(beta * xi) + np.cosh(beta * xi) - 1
     return beam.poisson * n / beam.axial_stiffness * shape

@@ -39,7 +39,9 @@ def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     ------
     PydanticCustomError : not a number, not finite, or of another dimension than `unit`.
     """
-    remedy = "write a number, such as 0.3" if unit == "1" else f'write it with its unit, such as "2.5 {unit}"'
+    remedy = (
+        "write a number, such as 0.3" if unit == "1" else f'write it with its unit, such as "2.5 {unit}"'
+    )
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         raise PydanticCustomError("type", f"is {value!r}, not a number; {remedy}")
     if isinstance(value, str):
@@ -57,13 +59,15 @@ def _read_text(text: str, unit: str, remedy: str) -> float:
     import pint
 
     try:
-        read = _units().Quantity(text)
+        read: pint.Quantity[float] = _units().Quantity(text)
         return float(read.to("" if unit == "1" else unit).magnitude)
     except pint.DimensionalityError:
         found = f"{read.units:~}" or "no unit at all"
         raise PydanticCustomError("unit", f'is "{text}", in {found}; {remedy}') from None
     except Exception:  # the unit parser raises errors of many kinds on text that is no quantity
-        raise PydanticCustomError("type", f'is "{text}", which is not a number with a unit; {remedy}') from None
+        raise PydanticCustomError(
+            "type", f'is "{text}", which is not a number with a unit; {remedy}'
+        ) from None
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,7 @@ class Quantity:
 
     def check(self, value: object, info: core_schema.ValidationInfo) -> float:
         """Read and range-check one value."""
-        required = bool(info.context) and info.context.get("units") == "required"
+        required = info.context is not None and info.context.get("units") == "required"
         number = to_si(value, self.unit, unit_required=required)
         shown = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
         if number <= self.above:
@@ -95,7 +99,9 @@ class Quantity:
             raise PydanticCustomError("range", f"is {shown}; it must be at least {self.at_least:g}")
         return number
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
         return core_schema.with_info_plain_validator_function(self.check)
 
 
@@ -115,7 +121,9 @@ class Count:
             raise PydanticCustomError("range", f"is {value}; it must be at least {self.at_least}")
         return value
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self.check)
 
 
@@ -124,22 +132,18 @@ class Parameters(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    def __init__(self, **values: Any) -> None:
-        try:
-            super().__init__(**values)
-        except ValidationError as error:
-            raise InputError(explain(error, type(self), type(self).__name__)) from None
-
     @classmethod
-    def read(cls, mapping: Mapping[str, Any], name: str) -> Self:
-        """Build from the plain mapping of a case file; `name` is what error sentences call it.
+    def read(cls, values: Mapping[str, Any], name: str, *, units_required: bool = True) -> Self:
+        """Build from a plain mapping; `name` is what error sentences call it.
+
+        units_required : refuse a dimensional number without its unit, as in every file; else such a number is in SI.
 
         Raises
         ------
         InputError : unknown or missing key, wrong type or unit, out of range; one clause for each fault.
         """
         try:
-            return cls.model_validate(mapping, context=FROM_FILE)
+            return cls.model_validate(values, context=FROM_FILE if units_required else None)
         except ValidationError as error:
             raise InputError(explain(error, cls, name)) from None
 
@@ -150,7 +154,7 @@ class Parameters(BaseModel):
         ------
         InputError : a change is not valid.
         """
-        return type(self)(**{**{name: getattr(self, name) for name in type(self).model_fields}, **changes})
+        return self.read({**dict(self), **changes}, type(self).__name__, units_required=False)
 
 
 def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
@@ -181,7 +185,9 @@ def _keys_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> list[str]:
     """The keys that a parameter class knows at a path of nested tables and lists."""
     for part in path:
         field = owner.model_fields.get(str(part))
-        for candidate in [] if field is None else [field.annotation, *getattr(field.annotation, "__args__", ())]:
+        for candidate in (
+            [] if field is None else [field.annotation, *getattr(field.annotation, "__args__", ())]
+        ):
             if isinstance(candidate, type) and issubclass(candidate, BaseModel):
                 owner = candidate
     return list(owner.model_fields)

@@ -40,7 +40,8 @@ class Case(Parameters):
         InputError : a key is unknown or a value is not valid.
         """
         table = _merge(self.problem.model_dump(), changes)
-        return Case(name=name, title=name, source="", problem=type(self.problem)(**table))
+        problem = type(self.problem).read(table, f"case '{name}'", units_required=False)
+        return Case(name=name, title=name, problem=problem)
 
 
 @functools.cache
@@ -48,6 +49,16 @@ def published() -> Mapping[str, Case]:
     """The cases of the thesis by name, in the order of the files."""
     tables = _published_tables()
     return _build_all(tables, tables)
+
+
+def titles() -> dict[str, str]:
+    """Names and titles of the published cases, without building them."""
+    tables = _published_tables()
+    return {
+        name: str(_inherit(name, tables, ()).get("title", name))
+        for name in tables
+        if not name.startswith("_")
+    }
 
 
 def find(name: str, file: Path | None = None) -> Case:
@@ -74,9 +85,13 @@ def load(file: Path) -> Mapping[str, Case]:
     try:
         tables = tomllib.loads(file.read_text(encoding="utf-8"))
     except OSError as error:
-        raise InputError(f"cannot read the case file {file}: {error.strerror}; give the path of a TOML file") from None
+        raise InputError(
+            f"cannot read the case file {file}: {error.strerror}; give the path of a TOML file"
+        ) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml for an example") from None
+        raise InputError(
+            f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml for an example"
+        ) from None
     return _build_all(tables, _published_tables() | tables)
 
 
@@ -117,7 +132,9 @@ def _build(name: str, known: Mapping[str, Any]) -> Case:
 def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:
     """The table of a case with everything that `like` brings in."""
     if name in seen:
-        raise InputError(f"case '{name}': its 'like' leads back to itself ({' -> '.join((*seen, name))}); break the circle")
+        raise InputError(
+            f"case '{name}': its 'like' leads back to itself ({' -> '.join((*seen, name))}); break the circle"
+        )
     table = known.get(name)
     if not isinstance(table, dict):
         where = f"case '{seen[-1]}': 'like'" if seen else f"'{name}'"

@@ -1,0 +1,1 @@
+"""Outcomes as Datasets with units and origin, and their files."""

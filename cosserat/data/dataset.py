@@ -28,16 +28,22 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
     ------
     ValueError : a value is not finite, which no solver may return.
     """
-    variables = {}
+    variables: dict[str, xr.Variable] = {}
     for name, values in outcome.fields.items():
         entry = VARIABLES[name]
         if not np.isfinite(values).all():
             raise ValueError(f"case '{case.name}': variable '{name}' is not finite")
-        about = {"units": entry.units, "long_name": entry.long_name, "symbol": entry.symbol, "equation": entry.equation}
+        about = {
+            "units": entry.units,
+            "long_name": entry.long_name,
+            "symbol": entry.symbol,
+            "equation": entry.equation,
+        }
         variables[name] = xr.Variable(entry.dims, np.asarray(values, dtype=np.float64), about)
-    dims = {dim for variable in variables.values() for dim in variable.dims}
-    for dim in sorted(dims & set(LABELS)):
-        labels, meaning = LABELS[dim]
+    used = {str(dim) for variable in variables.values() for dim in variable.dims}
+    for dim, (labels, meaning) in LABELS.items():
+        if dim not in used:
+            continue
         variables[dim] = xr.Variable((dim,), list(labels), {"long_name": meaning})
     dataset = xr.Dataset(variables).set_coords([name for name in COORDINATES if name in variables])
     dataset.attrs = {
@@ -80,7 +86,9 @@ def check_destination(path: Path) -> None:
     InputError : the folder is missing or the path is a folder.
     """
     if not path.parent.is_dir():
-        raise InputError(f"the folder {path.parent} does not exist; make it first or choose another with --output")
+        raise InputError(
+            f"the folder {path.parent} does not exist; make it first or choose another with --output"
+        )
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the name of a file with --output")
 
@@ -95,7 +103,11 @@ def save(dataset: xr.Dataset, path: Path) -> None:
     InputError : the destination cannot be written.
     """
     check_destination(path)
-    encoding = {str(name): {"_FillValue": None} for name, variable in dataset.variables.items() if variable.dtype.kind == "f"}
+    encoding = {
+        str(name): {"_FillValue": None}
+        for name, variable in dataset.variables.items()
+        if variable.dtype.kind == "f"
+    }
     handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
     os.close(handle)
     try:
@@ -103,7 +115,9 @@ def save(dataset: xr.Dataset, path: Path) -> None:
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror or error}; check space and permissions") from None
+        raise InputError(
+            f"cannot write {path}: {error.strerror or error}; check space and permissions"
+        ) from None
     finally:
         Path(temporary).unlink(missing_ok=True)
 
@@ -116,12 +130,16 @@ def load(path: Path) -> xr.Dataset:
     InputError : the file is missing or cannot be read as netCDF.
     """
     if not path.is_file():
-        raise InputError(f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')")
+        raise InputError(
+            f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"
+        )
     try:
         with xr.open_dataset(path, engine="netcdf4") as dataset:
             return dataset.load()
     except (OSError, ValueError, RuntimeError) as error:
-        raise InputError(f"cannot read {path} as netCDF ({error}); delete it and run its case again") from None
+        raise InputError(
+            f"cannot read {path} as netCDF ({error}); delete it and run its case again"
+        ) from None
 
 
 def _sorted_json(value: object) -> str:

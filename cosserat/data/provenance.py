@@ -18,7 +18,9 @@ def computing_sources() -> list[Path]:
     Case files are not among them: each case is an input by itself.
     """
     return sorted(
-        file for name in _COMPUTING for file in ([_PACKAGE / name] if name.endswith(".py") else (_PACKAGE / name).rglob("*.py"))
+        file
+        for name in _COMPUTING
+        for file in ([_PACKAGE / name] if name.endswith(".py") else (_PACKAGE / name).rglob("*.py"))
     )
 
 

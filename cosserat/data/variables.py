@@ -36,20 +36,32 @@ COORDINATES = ("xi", "xi_edge")
 
 VARIABLES: dict[str, Variable] = {
     "xi": Variable(("vertex",), "m", "reference arc length of the vertices", r"\xi", "3.3.1", 1e-14),
-    "xi_edge": Variable(("edge",), "m", "reference arc length of the edge midpoints", r"\xi", "3.3.1", 1e-14),
-    "X": Variable(("vertex", "axis"), "m", "reference centreline position", r"\mathbf{X}", "3.3.1", 1e-14),
+    "xi_edge": Variable(
+        ("edge",), "m", "reference arc length of the edge midpoints", r"\xi", "3.3.1", 1e-14
+    ),
+    "X": Variable(
+        ("vertex", "axis"), "m", "reference centreline position", r"\mathbf{X}", "3.3.1", 1e-14
+    ),
     "D": Variable(("vertex", "axis"), "m", "reference director", r"\mathbf{D}", "3.3.3", 1e-14),
     "x": Variable(("vertex", "axis"), "m", "centreline position", r"\mathbf{x}", "3.3.2", 1e-12),
     "d": Variable(("vertex", "axis"), "m", "director", r"\mathbf{d}", "3.3.3", 1e-12),
     "u": Variable(("vertex", "axis"), "m", "centreline displacement", r"\mathbf{u}", "3.3.2", 1e-12),
-    "delta": Variable(("vertex", "axis"), "m", "director displacement", r"\boldsymbol{\delta}", "3.3.3", 1e-12),
+    "delta": Variable(
+        ("vertex", "axis"), "m", "director displacement", r"\boldsymbol{\delta}", "3.3.3", 1e-12
+    ),
     "mu_edge": Variable(("edge",), "1", "stretch of the edges", r"{}^K\mu", "3.3.19", 1e-12),
     "mu": Variable(("vertex",), "1", "centreline stretch at the vertices", r"{}_K\mu", "3.3.20", 1e-12),
     "lam": Variable(("vertex",), "1", "stretch of the sections", r"{}_K\lambda", "3.3.21", 1e-12),
     "phi": Variable(("vertex",), "rad", "turning angle", r"{}_K\varphi", "3.3.18", 1e-11),
     "kappa": Variable(("vertex",), "m-1", "centreline curvature", r"{}_K\kappa", "3.3.23", 1e-10),
     "theta": Variable(("vertex",), "rad", "shear angle", r"{}_K\vartheta", "3.3.26", 1e-11),
-    "load": Variable(("vertex", "unknown"), "N", "applied force", r"\mathbf{F}_{ext}", "3.3.40", 1e-9),
-    "reaction": Variable(("vertex", "unknown"), "N", "force of the supports", r"\mathbf{R}", "3.3.40", 1e-3),
-    "energy": Variable(("term",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-10),
+    "applied_force": Variable(
+        ("vertex", "unknown"), "N", "applied force", r"\mathbf{F}_{ext}", "3.3.40", 1e-9
+    ),
+    "support_force": Variable(
+        ("vertex", "unknown"), "N", "force of the supports", r"\mathbf{R}", "3.3.40", 1e-3
+    ),
+    "energy": Variable(
+        ("term",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-10
+    ),
 }

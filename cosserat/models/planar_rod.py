@@ -34,7 +34,9 @@ class Lumped:
     poisson: Array
 
     @classmethod
-    def uniform(cls, count: int, *, area: float, second_moment: float, young: float, poisson: float) -> Lumped:
+    def uniform(
+        cls, count: int, *, area: float, second_moment: float, young: float, poisson: float
+    ) -> Lumped:
         """The same isotropic section at every one of `count` vertices or edges."""
         shear = young / (2 * (1 + poisson))
         return cls(*(np.full(count, value) for value in (area, second_moment, young, shear, poisson)))
@@ -62,12 +64,12 @@ class Geometry:
     @property
     def edge_length(self) -> Array:
         """||E||, shape (N - 1,) [m], eq. (3.3.4)."""
-        return np.hypot(*np.diff(self.X, axis=0).T)
+        return lengths(np.diff(self.X, axis=0))
 
     @property
     def director_length(self) -> Array:
         """||D||, shape (N,) [m]."""
-        return np.hypot(*self.D.T)
+        return lengths(self.D)
 
     @property
     def voronoi_length(self) -> Array:
@@ -109,11 +111,12 @@ class Strains:
 def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     """Measure a configuration x, d, each of shape (N, 2) [m]."""
     e = np.diff(x, axis=0)
-    length = np.hypot(*e.T)
+    length = lengths(e)
     tangent = vertex_tangents(x)
     bishop = np.column_stack([-tangent[:, 1], tangent[:, 0]])  # b = t x E1, eq. (3.3.25)
     voronoi = to_vertices(length)
-    before = np.vstack([tangent[:1], e])  # eqs. (3.3.16)-(3.3.17) close the ends with the vertex tangents
+    # eqs. (3.3.16)-(3.3.17): the turning angles of the ends are between vertex tangents
+    before = np.vstack([tangent[:1], e])
     after = np.vstack([e, tangent[-1:]])
     before[0], after[0] = tangent[0], tangent[1]
     before[-1], after[-1] = tangent[-2], tangent[-1]
@@ -121,7 +124,7 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     return Strains(
         mu_edge=length / geometry.edge_length,
         mu=voronoi / geometry.voronoi_length,
-        lam=np.hypot(*d.T) / geometry.director_length,
+        lam=lengths(d) / geometry.director_length,
         phi=phi,
         kappa=2 / voronoi * np.tan(phi / 2),
         theta=signed_angle(bishop, d),
@@ -134,12 +137,19 @@ def vertex_tangents(x: Array) -> Array:
     chord[1:-1] = x[2:] - x[:-2]
     chord[0] = x[1] - x[0]
     chord[-1] = x[-1] - x[-2]
-    return chord / np.hypot(*chord.T)[:, None]
+    return chord / lengths(chord)[:, None]
 
 
 def signed_angle(a: Array, b: Array) -> Array:
     """Angle from a to b, positive from E3 towards E2: rows of (n, 2) arrays -> (n,) [rad]."""
-    return np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1))
+    angle: Array = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1))
+    return angle
+
+
+def lengths(vectors: Array) -> Array:
+    """Norms of the rows of an (n, 2) array: (n,)."""
+    norm: Array = np.hypot(vectors[:, 0], vectors[:, 1])
+    return norm
 
 
 def rigid_motions(q: Array) -> Array:

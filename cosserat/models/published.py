@@ -135,7 +135,7 @@ class PublishedRod:
         return terms
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def stretching(s: float) -> tuple[float, float, float]:
     """s^2 - s + 1/s - 1 and two derivatives: the characteristic of Fig. 3.7(a), less its value at s = 1."""
     return (s - 1) ** 2 * (1 + 1 / s), (s - 1) * (2 * s * s + s + 1) / (s * s), 2 + 2 / s**3
@@ -182,7 +182,9 @@ def _cross(band: Band, p: int, u0: float, u1: float, r: int, v0: float, v1: floa
 
 
 @njit(cache=True)
-def _edge_block(band: Band, p: int, r: int, t0: float, t1: float, along: float, across: float, twist: float) -> None:
+def _edge_block(
+    band: Band, p: int, r: int, t0: float, t1: float, along: float, across: float, twist: float
+) -> None:
     """Add the Hessian A = along t t + across n n + twist (t n + n t) by e = x_r - x_p: +A at p, r, -A between."""
     a00 = along * t0 * t0 + across * t1 * t1 - 2 * twist * t0 * t1
     a01 = (along - across) * t0 * t1 + twist * (t0 * t0 - t1 * t1)
@@ -198,7 +200,7 @@ def _edge_block(band: Band, p: int, r: int, t0: float, t1: float, along: float, 
     band[p + 1, k] -= a11
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Array) -> float:
     n = rod.voronoi.size
     gradient[:] = 0.0
@@ -227,7 +229,8 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
     if collapsed:
         return np.inf
 
-    # Second pass: eq. (3.4.11) and its derivatives by the strains: W_s first, W_ss second, W_s_next to the next vertex.
+    # Second pass: eq. (3.4.11) and its derivatives by each strain s: W_s, W_ss, and W_s_next with the
+    # same strain of the next vertex.
     W_m, W_mm = np.zeros(n - 1), np.zeros(n - 1)
     W_phi, W_phiphi = np.zeros(n), np.zeros(n)
     W_theta, W_thetatheta, W_theta_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
@@ -248,7 +251,7 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         W_thetatheta[K + 1] += rod.k5[K] / E
         W_theta_next[K] -= rod.k5[K] / E
 
-        jump = (r[K + 1] - rod.director[K + 1]) / rod.director[K + 1] - (r[K] - rod.director[K]) / rod.director[K]
+        jump = r[K + 1] / rod.director[K + 1] - r[K] / rod.director[K]
         terms[5] += rod.k6[K] / 2 * jump * jump / E
         W_lam[K] -= rod.k6[K] * jump / E
         W_lam[K + 1] += rod.k6[K] * jump / E
@@ -270,13 +273,15 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         L = rod.voronoi[K]
         turn = t0[K - 1] * t1[K] - t1[K - 1] * t0[K]
         phi = np.arctan2(turn, t0[K - 1] * t0[K] + t1[K - 1] * t1[K])  # eqs. (3.3.15), (3.3.18)
-        value, first, second = squared_tangent(phi / 2)  # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23)
+        # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23)
+        value, first, second = squared_tangent(phi / 2)
         terms[2] += 2 * rod.k3[K] / L * value
         W_phi[K] = rod.k3[K] / L * first
         W_phiphi[K] = rod.k3[K] / (2 * L) * second
 
         stretch = (r[K] - rod.director[K]) / rod.director[K]
-        excess = ((m[K - 1] - rod.edge[K - 1]) + (m[K] - rod.edge[K])) / 2  # (mu - 1) L, eqs. (3.3.13), (3.3.20)
+        # excess = (mu - 1) L, eqs. (3.3.13), (3.3.20)
+        excess = ((m[K - 1] - rod.edge[K - 1]) + (m[K] - rod.edge[K])) / 2
         terms[6] += rod.k7[K] * stretch * excess
         W_lam[K] += rod.k7[K] * excess
         W_m[K - 1] += rod.k7[K] / 2 * stretch
@@ -314,7 +319,10 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
     # ... then what couples neighbours.
     for K in range(1, n - 1):
         p, s = 4 * K - 4, 4 * K
-        a0, a1 = -t1[K - 1] / m[K - 1], t0[K - 1] / m[K - 1]  # grad alpha of the edges before and after vertex K
+        a0, a1 = (
+            -t1[K - 1] / m[K - 1],
+            t0[K - 1] / m[K - 1],
+        )  # grad alpha of the edges before and after vertex K
         b0, b1 = -t1[K] / m[K], t0[K] / m[K]
         z0, z1 = -a0 - b0, -a1 - b1
         stiff = W_phiphi[K]
@@ -341,4 +349,5 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
             _cross(band, 4 * J + 2, i0, i1, at, v0, v1, w)
         w = W_lam_next[K] / (rod.director[K] * rod.director[J])
         _cross(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
-    return terms.sum()
+    total: float = terms.sum()
+    return total

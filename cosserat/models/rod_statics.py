@@ -2,22 +2,48 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import GetCoreSchemaHandler, model_validator
+from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.errors import UnsupportedRodError
 from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, Lumped, rigid_motions, strains
-from cosserat.models.published import Calibration, EndSections, PoissonCoupling, PublishedRod, stiffnesses
+from cosserat.models.published import (
+    Calibration,
+    EndSections,
+    PoissonCoupling,
+    PublishedRod,
+    stiffnesses,
+)
 from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.solvers.newton import Equilibrium, NewtonSettings, equilibrium
 
 Array = NDArray[np.float64]
-Vertex = Literal["first", "last"] | Annotated[int, Count(at_least=0)]
+
+
+class _VertexName:
+    """Annotation: 'first', 'last' or an index."""
+
+    @staticmethod
+    def check(value: object) -> str | int:
+        named = value in ("first", "last")
+        if isinstance(value, bool) or not (named or (isinstance(value, int) and value >= 0)):
+            raise PydanticCustomError(
+                "type", f"is {value!r}; it must be 'first', 'last' or the index of a vertex"
+            )
+        return value
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.check)
+
+
+Vertex = Annotated[str | int, _VertexName()]
 Direction = Literal["E3", "-E3", "E2", "-E2"]
 UnknownName = Literal["x3", "x2", "d3", "d2"]
 
@@ -114,11 +140,11 @@ class RodStatics(Parameters):
 
     @model_validator(mode="after")
     def _vertices_exist(self) -> Self:
-        for item in (*self.supports, *self.forces):
-            if isinstance(item.at, int) and item.at >= self.rod.vertices:
+        for at in [item.at for item in self.supports] + [item.at for item in self.forces]:
+            if isinstance(at, int) and at >= self.rod.vertices:
                 raise PydanticCustomError(
                     "range",
-                    f"'at' is {item.at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
+                    f"'at' is {at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
                     "choose one of those, 'first' or 'last'",
                 )
         return self
@@ -133,7 +159,7 @@ class RodStatics(Parameters):
         """
         geometry = self.rod.geometry()
         reference = np.hstack([geometry.X, geometry.D])
-        held = self._held()
+        held = self.held()
         refuse_rigid_motion(reference, held, name)
         load = self.loads(geometry)
         body = self.rod.body(geometry)
@@ -150,7 +176,8 @@ class RodStatics(Parameters):
             load[self._index(item.at), :2] += item.force * np.array(_DIRECTIONS[item.along])
         return load
 
-    def _held(self) -> NDArray[np.bool_]:
+    def held(self) -> NDArray[np.bool_]:
+        """Which unknowns of each vertex keep their value, shape (N, 4)."""
         held = np.zeros((self.rod.vertices, len(UNKNOWNS)), dtype=np.bool_)
         for support in self.supports:
             for unknown in support.hold:
@@ -168,7 +195,11 @@ def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
     at_supports = motions[:, held] / size[:, None]
     _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
     free = directions[np.append(stretch, np.zeros(3 - stretch.size)) < 1e-10]
-    left = [motion for motion, share in zip(_MOTIONS, np.abs(free).max(axis=0, initial=0.0), strict=True) if share > 0.1]
+    left = [
+        motion
+        for motion, share in zip(_MOTIONS, np.abs(free).max(axis=0, initial=0.0), strict=True)
+        if share > 0.1
+    ]
     if left:
         raise UnsupportedRodError(
             f"{name}: the supports leave the rod free to move ({', '.join(left)}); "
@@ -196,8 +227,8 @@ def _fields(geometry: Geometry, body: PublishedRod, state: Equilibrium, load: Ar
         "phi": measured.phi,
         "kappa": measured.kappa,
         "theta": measured.theta,
-        "load": load,
-        "reaction": state.reaction.reshape(load.shape),
+        "applied_force": load,
+        "support_force": state.reaction.reshape(load.shape),
         "energy": body.energy_terms(state.q),
     }
 

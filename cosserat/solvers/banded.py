@@ -50,7 +50,7 @@ def to_dense(band: Band) -> NDArray[np.float64]:
     """The full symmetric matrix, shape (n, n): for tests and small eigenproblems."""
     n, width = band.shape
     dense = np.zeros((n, n))
-    for k in range(width):
+    for k in range(min(width, n)):
         j = np.arange(n - k)
         dense[j + k, j] = dense[j, j + k] = band[: n - k, k]
     return dense

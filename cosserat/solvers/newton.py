@@ -14,10 +14,14 @@ from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.solvers.banded import Band, Mask, Vector, absolute_product, hold, solve_positive
 
-_ARMIJO = 1e-4  # least share of the predicted decrease that a step must reach (Nocedal & Wright, section 3.1)
+_ARMIJO = (
+    1e-4  # least share of the predicted decrease that a step must reach (Nocedal & Wright, section 3.1)
+)
 _SHORTEST = 2.0**-30  # the line search gives up below this share of the Newton step
 _SHIFTS = tuple(4.0**k for k in range(-14, 3))  # shares of the largest diagonal entry, tried in turn
-_ROUNDING = float(np.finfo(float).eps)  # of a position, between two of which a force comes from a difference
+_ROUNDING = float(
+    np.finfo(float).eps
+)  # of a position, between two of which a force comes from a difference
 _NOISE = 1e-8  # share of the energy below which a rise of it is not believed
 
 
@@ -99,12 +103,22 @@ class _Descent:
             unbalanced = np.where(self.held, 0.0, load - self.gradient)
             residual = float(np.abs(unbalanced).max())
             rounding = _ROUNDING * float(absolute_product(self.band, q).max())
-            scale = max(float(np.abs(load).max()), float(np.abs(self.gradient[self.held]).max(initial=0.0)))
+            scale = max(
+                float(np.abs(load).max()), float(np.abs(self.gradient[self.held]).max(initial=0.0))
+            )
             tolerance = max(self.settings.tolerance * scale, rounding)
             if residual <= tolerance:
                 reaction = np.where(self.held, self.gradient - load, 0.0)
                 return Equilibrium(
-                    q, energy, reaction, self.iterations, self.shortened, self.shifted, residual, tolerance, rounding
+                    q,
+                    energy,
+                    reaction,
+                    self.iterations,
+                    self.shortened,
+                    self.shifted,
+                    residual,
+                    tolerance,
+                    rounding,
                 )
             if iteration == self.settings.max_iterations:
                 break
@@ -117,7 +131,9 @@ class _Descent:
                 raise self._failure("no shorter step lowers the potential", residual, tolerance)
             q, energy = found
             self.iterations += 1
-        raise self._failure(f"{self.settings.max_iterations} iterations were not enough", residual, tolerance)
+        raise self._failure(
+            f"{self.settings.max_iterations} iterations were not enough", residual, tolerance
+        )
 
     def _direction(self, unbalanced: Vector) -> Vector | None:
         """Newton's step; where the Hessian is not positive definite, that of a shift which makes it so."""
@@ -147,7 +163,9 @@ class _Descent:
             if np.isfinite(change):
                 trial_slope = float((load - self.gradient) @ direction)
                 falls = change <= -_ARMIJO * share * slope
-                flattens = change <= _NOISE * abs(energy) and abs(trial_slope) <= (1 - 2 * _ARMIJO) * slope
+                flattens = (
+                    change <= _NOISE * abs(energy) and abs(trial_slope) <= (1 - 2 * _ARMIJO) * slope
+                )
                 if falls or flattens:
                     return trial, trial_energy
             self.shortened += 1

@@ -1,0 +1,1 @@
+"""The results table: read-outs, tolerances, errata, stored references."""

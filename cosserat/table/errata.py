@@ -36,5 +36,7 @@ def read_errata(path: Path) -> dict[str, Erratum]:
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, tomllib.TOMLDecodeError) as error:
-        raise InputError(f"cannot read the errata {path}: {error}; restore it from the repository") from None
+        raise InputError(
+            f"cannot read the errata {path}: {error}; restore it from the repository"
+        ) from None
     return {name: Erratum.read(table, f"{path}, entry '{name}'") for name, table in tables.items()}

@@ -24,7 +24,9 @@ def measure(rows: list[Row], folder: Path) -> list[Judged]:
     datasets = {case: load(folder / f"{case}.nc") for case in cases}
     for case, data in datasets.items():
         if data.attrs.get("case") != case:
-            raise InputError(f"{folder / case}.nc holds the case {data.attrs.get('case')!r}; run '{case}' again")
+            raise InputError(
+                f"{folder / case}.nc holds the case {data.attrs.get('case')!r}; run '{case}' again"
+            )
     return [judge(row, datasets) for row in rows]
 
 
@@ -57,5 +59,7 @@ def check(report: list[dict[str, str]]) -> str:
         if row["verdict"] == "FAILS"
     ]
     if failed:
-        raise OutOfToleranceError("claims of the results table that do not hold:\n  " + "\n  ".join(failed))
+        raise OutOfToleranceError(
+            "claims of the results table that do not hold:\n  " + "\n  ".join(failed)
+        )
     return summary([row["verdict"] for row in report], [row["standing"] for row in report])

@@ -83,7 +83,9 @@ def clamped_free_directors(data: xr.Dataset) -> tuple[Array, Array]:
 def clamped_clamped_curve(data: xr.Dataset) -> tuple[Array, Array]:
     """u . E2 at the vertices, computed and by eq. (3.5.6) [m]."""
     problem = case_of(data).problem
-    exact = analytic.clamped_clamped_displacement(beam_of(problem), weight_of(problem), data.xi.to_numpy())
+    exact = analytic.clamped_clamped_displacement(
+        beam_of(problem), weight_of(problem), data.xi.to_numpy()
+    )
     return data.u.sel(axis="E2").to_numpy(), exact
 
 
@@ -103,11 +105,13 @@ def necking_curve(data: xr.Dataset, theory: analytic.NeckingTheory = "printed") 
     return data.lam.to_numpy() - 1, exact
 
 
-def _last(curves: tuple[Array, Array]) -> Reading:
+def at_tip(curves: tuple[Array, Array]) -> Reading:
+    """Both curves at the last vertex."""
     return Reading(float(curves[0][-1]), float(curves[1][-1]))
 
 
-def _middle(curves: tuple[Array, Array]) -> Reading:
+def at_midspan(curves: tuple[Array, Array]) -> Reading:
+    """Both curves at mid-span."""
     return Reading(midspan(curves[0]), midspan(curves[1]))
 
 
@@ -124,16 +128,16 @@ def _stretching_coefficient(data: xr.Dataset) -> Reading:
 
 READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "stretching_coefficient": _stretching_coefficient,
-    "hanging_bar_tip": lambda data: _last(hanging_bar_curve(data)),
+    "hanging_bar_tip": lambda data: at_tip(hanging_bar_curve(data)),
     "hanging_bar_profile": lambda data: _share(hanging_bar_curve(data)),
     "largest_director_displacement": lambda data: Reading(float(np.abs(data.delta).max()), 0.0),
-    "clamped_free_tip": lambda data: _last(clamped_free_curve(data)),
+    "clamped_free_tip": lambda data: at_tip(clamped_free_curve(data)),
     "clamped_free_profile": lambda data: _share(clamped_free_curve(data)),
     "clamped_free_directors": lambda data: _share(clamped_free_directors(data)),
-    "clamped_clamped_midspan": lambda data: _middle(clamped_clamped_curve(data)),
+    "clamped_clamped_midspan": lambda data: at_midspan(clamped_clamped_curve(data)),
     "clamped_clamped_profile": lambda data: _share(clamped_clamped_curve(data)),
     "clamped_clamped_directors": lambda data: _share(clamped_clamped_directors(data)),
-    "necking_midspan": lambda data: _middle(necking_curve(data)),
+    "necking_midspan": lambda data: at_midspan(necking_curve(data)),
     "necking_profile": lambda data: _share(necking_curve(data)),
 }
 """Read-outs by the name that a row gives."""

@@ -1,4 +1,4 @@
-"""Stored results of every case: did anything move?"""
+"""Stored results of every case: whether anything moved, and how a new result is accepted."""
 
 from __future__ import annotations
 
@@ -15,7 +15,12 @@ from cosserat.errors import InputError
 RELATIVE = 1e-9
 """Change allowed in a variable, as a share of its largest stored value; the variable's rounding floor comes on top."""
 
-_MAY_DIFFER = ("source", "environment", "solver", "history")  # where it was computed and how many steps that took
+_MAY_DIFFER = (
+    "source",
+    "environment",
+    "solver",
+    "history",
+)  # where it was computed and how many steps that took
 
 
 @dataclass(frozen=True)
@@ -35,7 +40,9 @@ class Change:
 
     def __str__(self) -> str:
         place = ", ".join(f"{dim} {index}" for dim, index in self.where.items()) or "its one value"
-        return f"{self.variable}: {self.largest:.3g} {self.units} at {place} (allowed {self.allowed:.3g})"
+        return (
+            f"{self.variable}: {self.largest:.3g} {self.units} at {place} (allowed {self.allowed:.3g})"
+        )
 
 
 def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
@@ -46,10 +53,14 @@ def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
     InputError : different variables, shapes, units or parameters, or a value that is not finite.
     """
     if set(fresh.variables) != set(stored.variables):
-        raise InputError(f"variables differ: {sorted(map(str, set(fresh.variables) ^ set(stored.variables)))}")
+        raise InputError(
+            f"variables differ: {sorted(map(str, set(fresh.variables) ^ set(stored.variables)))}"
+        )
     for key in sorted((set(fresh.attrs) | set(stored.attrs)) - set(_MAY_DIFFER)):
         if fresh.attrs.get(key) != stored.attrs.get(key):
-            raise InputError(f"attribute '{key}' differs: {fresh.attrs.get(key)!r}, stored {stored.attrs.get(key)!r}")
+            raise InputError(
+                f"attribute '{key}' differs: {fresh.attrs.get(key)!r}, stored {stored.attrs.get(key)!r}"
+            )
     return [_change(str(name), fresh, stored) for name in stored.variables if name in VARIABLES]
 
 
@@ -80,7 +91,9 @@ def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
     InputError : no reason given, or the file cannot be written.
     """
     if len(because.split()) < 3:
-        raise InputError(f"the reason {because!r} says too little; say in a sentence why the numbers may change")
+        raise InputError(
+            f"the reason {because!r} says too little; say in a sentence why the numbers may change"
+        )
     report = ["no reference was stored before"]
     history = because
     if path.exists():
@@ -88,7 +101,10 @@ def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
         history = f"{stored.attrs.get('history', '')}\n{because}".strip()
         try:
             changes = compare(fresh, stored)
-            report = [str(change) for change in sorted(changes, key=lambda c: c.largest / c.allowed, reverse=True)]
+            report = [
+                str(change)
+                for change in sorted(changes, key=lambda c: c.largest / c.allowed, reverse=True)
+            ]
         except InputError as error:
             report = [f"not comparable with what was stored: {error}"]
     save(fresh.assign_attrs(history=history), path)

@@ -53,11 +53,15 @@ class Row(Parameters):
             return self
         missing = [name for name in needed if not getattr(self, name)]
         if missing:
-            raise PydanticCustomError("missing", f"needs {', '.join(missing)} unless it is 'not attempted'")
+            raise PydanticCustomError(
+                "incomplete", f"needs {', '.join(missing)} unless it is 'not attempted'"
+            )
         if self.readout not in READOUTS:
             raise PydanticCustomError("readout", f"names the unknown read-out '{self.readout}'")
         if self.standing != "reproduced" and not self.erratum:
-            raise PydanticCustomError("erratum", f"stands as '{self.standing}' but names no entry of the errata")
+            raise PydanticCustomError(
+                "erratum", f"stands as '{self.standing}' but names no entry of the errata"
+            )
         if self.claim == "outside" and self.standing == "reproduced":
             raise PydanticCustomError("claim", "cannot stand as 'reproduced' outside its tolerance")
         return self
@@ -127,15 +131,22 @@ def read_table(path: Path) -> list[Row]:
         with path.open(encoding="utf-8", newline="") as file:
             lines = list(csv.DictReader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"cannot read the table {path}: {error}; restore it from the repository") from None
+        raise InputError(
+            f"cannot read the table {path}: {error}; restore it from the repository"
+        ) from None
     rows = [
-        Row.read({key: text for key, text in line.items() if text}, f"{path}, row '{line.get('id') or number}'")
+        Row.read(
+            {key: text for key, text in line.items() if text},
+            f"{path}, row '{line.get('id') or number}'",
+        )
         for number, line in enumerate(lines, start=2)
     ]
     ids = [row.id for row in rows]
     twice = sorted({name for name in ids if ids.count(name) > 1})
     if twice:
-        raise InputError(f"{path}: the id {', '.join(twice)} stands more than once; give each row its own")
+        raise InputError(
+            f"{path}: the id {', '.join(twice)} stands more than once; give each row its own"
+        )
     return rows
 
 
@@ -167,7 +178,9 @@ def read_report(path: Path) -> list[dict[str, str]]:
         with path.open(encoding="utf-8", newline="") as file:
             return list(csv.DictReader(file))
     except OSError:
-        raise InputError(f"there is no report {path}; make it with 'snakemake all' or 'cosserat measure'") from None
+        raise InputError(
+            f"there is no report {path}; make it with 'snakemake all' or 'cosserat measure'"
+        ) from None
 
 
 def _cell(value: object) -> str:

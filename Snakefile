@@ -1,0 +1,136 @@
+"""Cases to netCDF, netCDF to the judged table and the figures, all of that to the book.  `snakemake all`."""
+
+import os
+import sys
+
+from snakemake.utils import min_version
+
+from cosserat.cases.catalogue import published
+from cosserat.data.provenance import computing_sources
+from cosserat.figures.catalogue import FIGURES
+
+min_version("9.0")
+os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get_exec_path()]))
+
+CASES = published()
+CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
+SOLVER = [os.path.relpath(file) for file in computing_sources()]
+
+
+def package(*names):
+    """Files of these folders of the package: Snakemake does not see edits of what a command imports."""
+    folders = [os.path.join("cosserat", name) for name in names]
+    files = [os.path.join(folder, file) for folder in folders for file in os.listdir(folder)]
+    return sorted(file for file in files if file.endswith((".py", ".css")))
+
+
+wildcard_constraints:
+    case="|".join(CASES),
+    figure="|".join(FIGURES),
+    chapter="|".join(CHAPTERS),
+
+
+report: "results/captions/workflow.rst"
+
+
+rule all:
+    input:
+        "results/check.txt",
+        expand("results/figures/{figure}.svg", figure=FIGURES),
+        "results/book/index.html",
+
+
+rule simulate:
+    input:
+        SOLVER,
+    output:
+        "results/cases/{case}.nc",
+    params:
+        case=lambda wildcards: CASES[wildcards.case].model_dump_json(),
+    log:
+        "results/logs/simulate/{case}.log",
+    benchmark:
+        "results/benchmarks/simulate/{case}.tsv"
+    shell:
+        "python -m cosserat run {wildcards.case} --output {output} > {log} 2>&1"
+
+
+rule measure:
+    input:
+        package("table"),
+        "cosserat/analytic.py",
+        table="results/tolerances.csv",
+        cases=expand("results/cases/{case}.nc", case=CASES),
+    output:
+        report("results/report.csv", caption="results/captions/report.rst", category="Results table"),
+    log:
+        "results/logs/measure.log",
+    benchmark:
+        "results/benchmarks/measure.tsv"
+    shell:
+        "python -m cosserat measure --table {input.table} --cases results/cases --output {output} > {log} 2>&1"
+
+
+rule check:
+    input:
+        "results/report.csv",
+    output:
+        "results/check.txt",
+    log:
+        "results/logs/check.log",
+    benchmark:
+        "results/benchmarks/check.tsv"
+    shell:
+        "python -m cosserat check {input} > {output} 2> {log} || (cat {log} >&2; exit 1)"
+
+
+rule figure:
+    input:
+        package("figures"),
+        "cosserat/analytic.py",
+        "cosserat/table/readouts.py",
+        cases=lambda wildcards: [f"results/cases/{case}.nc" for case in FIGURES[wildcards.figure].cases],
+    output:
+        report(
+            "results/figures/{figure}.svg",
+            caption="results/captions/figure.rst",
+            category="Figures",
+            labels={"figure": "{figure}"},
+        ),
+    log:
+        "results/logs/figure/{figure}.log",
+    benchmark:
+        "results/benchmarks/figure/{figure}.tsv"
+    shell:
+        "python -m cosserat figure {wildcards.figure} --cases results/cases --output {output} > {log} 2>&1"
+
+
+rule chapter:
+    input:
+        package("book", "table", "figures"),
+        "results/check.txt",
+        "results/errata.toml",
+        expand("results/figures/{figure}.svg", figure=FIGURES),
+        source="chapters/{chapter}.py",
+    output:
+        "results/notebooks/{chapter}.ipynb",
+    log:
+        "results/logs/chapter/{chapter}.log",
+    benchmark:
+        "results/benchmarks/chapter/{chapter}.tsv"
+    shell:
+        "python -m cosserat chapter {input.source} --output {output} > {log} 2>&1"
+
+
+rule book:
+    input:
+        package("book"),
+        notebooks=expand("results/notebooks/{chapter}.ipynb", chapter=CHAPTERS),
+    output:
+        "results/book/index.html",
+    log:
+        "results/logs/book.log",
+    benchmark:
+        "results/benchmarks/book.tsv"
+    shell:
+        "python -m cosserat book {input.notebooks} --output results/book > {log} 2>&1"

@@ -1,0 +1,53 @@
+# ---
+# jupyter:
+#   jupytext:
+#     formats: py:percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Errata, assumptions and questions
+#
+# An *erratum* is a printed form that fails something checkable which the corrected form meets; a test shows both. An
+# *assumption* is our choice where the page is silent or ambiguous, with the alternatives measured. A *question* is
+# suspicious but not proven.
+
+# %% tags=["remove-cell"]
+from cosserat.book import page
+
+
+def entries(standing):
+    found = page.errata(standing)
+    assert found
+    return page.say(
+        "\n\n".join(
+            f"**{name}**, {entry.where}\n\n"
+            f"- printed: {entry.printed}\n"
+            f"- taken instead: {entry.corrected}\n"
+            f"- why: {entry.why}\n"
+            f"- evidence: `{entry.evidence}`"
+            for name, entry in found.items()
+        )
+    )
+
+
+# %% [markdown]
+# ## Errata
+
+# %% tags=["remove-input"]
+entries("erratum")
+
+# %% [markdown]
+# ## Assumptions
+
+# %% tags=["remove-input"]
+entries("assumption")
+
+# %% [markdown]
+# ## Questions
+
+# %% tags=["remove-input"]
+entries("question")

@@ -1,0 +1,67 @@
+# ---
+# jupyter:
+#   jupytext:
+#     formats: py:percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # The results table
+#
+# One row for each number or curve that the thesis publishes. *Published* is the text of the page, never corrected.
+# *Expected* is that number in SI units, or what the closed form gives where the page claims agreement with it. *Measured*
+# is what the stored datasets say. The claim of a row is that the measured number lies within its tolerance, or, where
+# the page is wrong or admits a reading that does not fit, that it lies outside.
+
+# %% tags=["remove-input", "full-width"]
+from cosserat.book import page
+from cosserat.table.tolerances import read_report
+
+report = read_report(page.results() / "report.csv")
+attempted = [row for row in report if row["standing"] != "not attempted"]
+lines = [
+    [
+        row["id"],
+        f"{row['quantity']} ({row['where']})",
+        row["published"],
+        page.amount(row["expected"], row["units"]),
+        page.amount(row["measured"], row["units"]),
+        row["verdict"],
+        " ".join((row["standing"], row["erratum"])),
+    ]
+    for row in attempted
+]
+page.table(lines, ("row", "quantity", "published", "expected", "measured", "verdict", "standing"))
+
+# %% [markdown]
+# ## Why each tolerance is what it is
+
+# %% tags=["remove-input", "full-width"]
+page.table(
+    [
+        [
+            row["id"],
+            f"{row['tolerance']} {row['tolerance_kind']}",
+            row["error_over_tolerance"],
+            row["why"],
+        ]
+        for row in attempted
+    ],
+    ("row", "tolerance", "error / tolerance", "why"),
+)
+
+# %% [markdown]
+# ## Not attempted yet
+
+# %% tags=["remove-input", "full-width"]
+later = [row for row in report if row["standing"] == "not attempted"]
+page.table(
+    [[row[name] for name in ("id", "where", "quantity", "published", "why")] for row in later],
+    ("row", "where", "quantity", "published", "why not"),
+)
+
+# %% tags=["remove-cell"]
+assert not [row["id"] for row in report if row["verdict"] == "FAILS"]

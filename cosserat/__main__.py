@@ -1,0 +1,235 @@
+"""The command line: `cosserat --help`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from cosserat.errors import CosseratError, InputError
+
+RESULTS = Path("results")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command; 0 if it did what was asked, 1 if a claim or a solve failed, 2 for a bad input."""
+    options = _parser().parse_args(arguments)
+    command: Callable[[argparse.Namespace], None] = options.command
+    try:
+        command(options)
+    except CosseratError as error:
+        print(f"cosserat: {error}", file=sys.stderr)
+        return 2 if isinstance(error, InputError) else 1
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="cosserat",
+        description="Solve directed-rod problems and reproduce E. G. Hemingway's thesis (Berkeley, 2020).",
+        epilog=_epilog(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+
+    def add(
+        name: str, command: Callable[[argparse.Namespace], None], text: str
+    ) -> argparse.ArgumentParser:
+        sub = commands.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+        sub.set_defaults(command=command)
+        return sub
+
+    sub = add("cases", _cases, "list the cases: the published ones, or those of a file of yours")
+    sub.add_argument("--file", type=Path, help="TOML file of cases (default: the published ones)")
+
+    sub = add("run", _run, "solve one case and write its netCDF file")
+    sub.add_argument("case", help="name of a case, as 'cosserat cases' lists it")
+    sub.add_argument(
+        "--file", type=Path, help="TOML file that holds the case (default: the published ones)"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, help="netCDF file to write (default: CASE.nc in this folder)"
+    )
+
+    sub = add(
+        "show",
+        _show,
+        "print what a netCDF file of ours holds: parameters, solver, range of each variable",
+    )
+    sub.add_argument("file", type=Path)
+
+    sub = add("figure", _figure, "draw one figure of the thesis from stored results")
+    sub.add_argument("figure", help="name of a figure, such as fig_3_10")
+    sub.add_argument(
+        "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, help="SVG file to write (default: FIGURE.svg in this folder)"
+    )
+
+    sub = add("measure", _measure, "measure every row of the results table on stored results")
+    sub.add_argument(
+        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
+    )
+    sub.add_argument(
+        "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, default=RESULTS / "report.csv", help="report (%(default)s)"
+    )
+
+    sub = add("check", _check, "fail if a claim of the report does not hold")
+    sub.add_argument("report", type=Path, nargs="?", default=RESULTS / "report.csv")
+
+    sub = add("accept", _accept, "store a fresh result as the reference of its case, with the reason")
+    sub.add_argument("case", help="name of a published case")
+    sub.add_argument(
+        "--because", required=True, help="the reason, in a sentence; it is stored in the file"
+    )
+    sub.add_argument(
+        "--references", type=Path, default=RESULTS / "reference", help="folder (%(default)s)"
+    )
+
+    sub = add("chapter", _chapter, "execute a chapter into a notebook")
+    sub.add_argument("chapter", type=Path, help="the chapter's .py file")
+    sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
+
+    sub = add("book", _book, "render executed chapters as a book that needs no network")
+    sub.add_argument(
+        "notebooks", type=Path, nargs="+", help="executed notebooks, in the order of the book"
+    )
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        help="folder of the book; index.html is its first page",
+    )
+    return parser
+
+
+def _epilog() -> str:
+    from cosserat.cases.catalogue import titles
+
+    width = max(map(len, titles()))
+    listed = "\n".join(f"  {name:<{width}}  {title}" for name, title in titles().items())
+    return (
+        f"published cases:\n{listed}\n\n"
+        "example:\n"
+        "  cosserat run clamped_free        solves it and writes clamped_free.nc here\n"
+        "  cosserat show clamped_free.nc    prints what came out\n\n"
+        "a case of your own, in my.toml, may start from a published one:\n"
+        '  [long_beam]\n  like = "clamped_free"\n  rod.length = "10 m"\n\n'
+        "  cosserat run long_beam --file my.toml"
+    )
+
+
+def _cases(options: argparse.Namespace) -> None:
+    from cosserat.cases.catalogue import load, published
+
+    known = published() if options.file is None else load(options.file)
+    width = max(map(len, known), default=0)
+    for name, case in known.items():
+        print(f"{name:<{width}}  {case.title}" + (f" ({case.source})" if case.source else ""))
+
+
+def _run(options: argparse.Namespace) -> None:
+    from cosserat.cases.catalogue import find
+    from cosserat.data.dataset import check_destination, save, statistics_of
+
+    case = find(options.case, options.file)
+    path = options.output or Path(f"{case.name}.nc")
+    check_destination(path)
+    from cosserat.run import run
+
+    dataset = run(case)
+    save(dataset, path)
+    done = statistics_of(dataset)
+    print(
+        f"{case.name}: {done['iterations']} Newton iterations, largest unbalanced force {done['residual_N']:.2g} N "
+        f"(allowed {done['tolerance_N']:.2g} N); wrote {path}"
+    )
+
+
+def _show(options: argparse.Namespace) -> None:
+    from cosserat.data.dataset import case_of, load, statistics_of
+
+    dataset = load(options.file)
+    case = case_of(dataset)
+    print(f"{case.name}: {case.title}\n{dataset.attrs['source']}")
+    print("\nparameters (SI units)")
+    for name, value in _flat(case.problem.model_dump()):
+        print(f"  {name} = {value}")
+    print(
+        "\nsolver\n" + "\n".join(f"  {name} = {value}" for name, value in statistics_of(dataset).items())
+    )
+    print("\nvariables: least, largest, unit")
+    for variable, values in dataset.data_vars.items():
+        about = values.attrs
+        print(
+            f"  {variable!s:<9} {values.min():>11.4g} {values.max():>11.4g} {about['units']:<4} {about['long_name']}"
+        )
+
+
+def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]]:
+    rows: list[tuple[str, object]] = []
+    for key, value in table.items():
+        rows += _flat(value, f"{prefix}{key}.") if isinstance(value, dict) else [(prefix + key, value)]
+    return rows
+
+
+def _figure(options: argparse.Namespace) -> None:
+    from cosserat.figures.catalogue import draw_to
+
+    path = options.output or Path(f"{options.figure}.svg")
+    draw_to(options.figure, options.cases, path)
+    print(f"wrote {path}")
+
+
+def _measure(options: argparse.Namespace) -> None:
+    from cosserat.data.dataset import check_destination
+    from cosserat.table.measure import measure, summary
+    from cosserat.table.tolerances import read_table, write_report
+
+    check_destination(options.output)
+    judged = measure(read_table(options.table), options.cases)
+    write_report(judged, options.output)
+    print(summary([item.verdict for item in judged], [item.row.standing for item in judged]))
+    print(f"wrote {options.output}")
+
+
+def _check(options: argparse.Namespace) -> None:
+    from cosserat.table.measure import check
+    from cosserat.table.tolerances import read_report
+
+    print(check(read_report(options.report)))
+
+
+def _accept(options: argparse.Namespace) -> None:
+    from cosserat.data.dataset import check_destination
+    from cosserat.run import run
+    from cosserat.table.reference import accept
+
+    path = options.references / f"{options.case}.nc"
+    check_destination(path)
+    for line in accept(run(options.case), path, options.because):
+        print(line)
+    print(f"wrote {path}")
+
+
+def _chapter(options: argparse.Namespace) -> None:
+    from cosserat.book.build import execute
+
+    execute(options.chapter, options.output)
+    print(f"wrote {options.output}")
+
+
+def _book(options: argparse.Namespace) -> None:
+    from cosserat.book.build import render
+
+    print(f"wrote {render(options.notebooks, options.output)}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

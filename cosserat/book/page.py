@@ -1,0 +1,130 @@
+"""What a chapter may use: stored data, drawn figures, rows of the report, and the library's own lines.
+
+A chapter computes no published case again and types no result; it reads what the workflow made and asserts its rows.
+"""
+
+from __future__ import annotations
+
+import base64
+import inspect
+import textwrap
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+from IPython.display import HTML, Markdown
+
+from cosserat.data.dataset import load
+from cosserat.errors import InputError, OutOfToleranceError
+from cosserat.figures.catalogue import FIGURES, entry
+from cosserat.table.errata import Erratum, read_errata
+from cosserat.table.tolerances import read_report
+
+
+def results() -> Path:
+    """The folder `results` of this checkout, from wherever the chapter runs."""
+    for folder in (Path.cwd(), *Path.cwd().parents):
+        if (folder / "results" / "tolerances.csv").is_file():
+            return folder / "results"
+    raise InputError(
+        f"no results/tolerances.csv above {Path.cwd()}; run the chapter inside a checkout of cosserat"
+    )
+
+
+def data(case: str) -> xr.Dataset:
+    """The stored Dataset of a case."""
+    return load(results() / "cases" / f"{case}.nc")
+
+
+def figure(name: str, caption: str) -> HTML:
+    """A drawn figure with its number and a caption."""
+    picture = base64.b64encode((results() / "figures" / f"{name}.svg").read_bytes()).decode()
+    title = entry(name).title
+    text = f"<b>{escape(title)}.</b> {caption}"
+    image = f'<img alt="{escape(title)}" src="data:image/svg+xml;base64,{picture}">'
+    return HTML(f'<figure class="plot" id="{name}">{image}<figcaption>{text}</figcaption></figure>')
+
+
+def figure_names() -> list[str]:
+    """Every figure there is."""
+    return list(FIGURES)
+
+
+def rows(*prefixes: str) -> HTML:
+    """The rows of the report whose ids begin so, as a table; the chapter cannot be built if one of them fails.
+
+    Raises
+    ------
+    OutOfToleranceError : a claim does not hold.
+    InputError : there is no such row.
+    """
+    found = [row for row in read_report(results() / "report.csv") if row["id"].startswith(prefixes)]
+    if not found:
+        raise InputError(f"the report has no row that begins with {' or '.join(prefixes)}")
+    failed = [row["id"] for row in found if row["verdict"] == "FAILS"]
+    if failed:
+        raise OutOfToleranceError(
+            f"rows {', '.join(failed)} of the results table fail; see results/report.csv"
+        )
+    lines = [
+        [
+            row["id"],
+            row["quantity"],
+            row["published"],
+            amount(row["expected"], row["units"]),
+            amount(row["measured"], row["units"]),
+            f"{float(row['error_over_tolerance']):.2f}",
+            row["verdict"],
+        ]
+        for row in found
+    ]
+    return table(
+        lines, ("row", "quantity", "published", "expected", "measured", "error / tolerance", "verdict")
+    )
+
+
+def amount(number: str, unit: str) -> str:
+    """A number of the report with four digits and its unit."""
+    return f"{float(number):.4g}" + ("" if unit == "1" else f" {unit}")
+
+
+def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
+    """A plain table."""
+    head = "".join(f"<th>{escape(name)}</th>" for name in columns)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{escape(str(value))}</td>" for value in line) + "</tr>" for line in lines
+    )
+    return HTML(f'<table class="rows"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>')
+
+
+def errata(*standings: str) -> dict[str, Erratum]:
+    """The entries of the errata table with one of the standings, or all."""
+    known = read_errata(results() / "errata.toml")
+    return {name: item for name, item in known.items() if not standings or item.standing in standings}
+
+
+def source(thing: Any) -> Markdown:
+    """The lines of the library that define a function or class."""
+    return _code(thing, inspect.getsource(getattr(thing, "py_func", thing)))
+
+
+def excerpt(thing: Any, first: str, last: str) -> Markdown:
+    """The lines of a function from the one that holds `first` up to the one that holds `last`, left out."""
+    lines = inspect.getsource(getattr(thing, "py_func", thing)).splitlines()
+    start = next(number for number, line in enumerate(lines) if first in line)
+    stop = next(number for number, line in enumerate(lines) if last in line and number > start)
+    return _code(thing, "\n".join(lines[start:stop]))
+
+
+def _code(thing: Any, text: str) -> Markdown:
+    place = f"{thing.__module__.replace('.', '/')}.py"
+    return Markdown(
+        f"`{thing.__qualname__}` in `{place}`\n\n```python\n{textwrap.dedent(text).strip()}\n```"
+    )
+
+
+def say(text: str) -> Markdown:
+    """A sentence with measured numbers in it."""
+    return Markdown(text)

@@ -1,0 +1,88 @@
+"""Which figures there are, what they show, and the cases they are drawn from."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cosserat.errors import InputError
+from cosserat.parameters import nearest
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One figure: its title, the module of `cosserat.figures` that draws it, and the cases it needs."""
+
+    title: str
+    module: str
+    cases: tuple[str, ...]
+
+
+FIGURES: dict[str, Entry] = {
+    "fig_3_8": Entry(
+        "Fig. 3.8: equilibria of the four static problems",
+        "chapter3",
+        ("hanging_bar", "clamped_free", "clamped_clamped", "necking"),
+    ),
+    "fig_3_9": Entry("Fig. 3.9: bar hanging under its own weight", "chapter3", ("hanging_bar",)),
+    "fig_3_10": Entry(
+        "Fig. 3.10: clamped-free Timoshenko beam",
+        "chapter3",
+        ("clamped_free", "clamped_free_ends_halved"),
+    ),
+    "fig_3_11": Entry(
+        "Fig. 3.11: clamped-clamped Timoshenko beam",
+        "chapter3",
+        ("clamped_clamped", "clamped_clamped_ends_halved"),
+    ),
+    "fig_3_12": Entry("Fig. 3.12: necking", "chapter3", ("necking", "necking_printed")),
+}
+"""Figures by the name of the function that draws them."""
+
+
+def draw(name: str, data: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw a figure from its Datasets by case name.
+
+    Raises
+    ------
+    InputError : no figure of that name.
+    """
+    from cosserat.figures.style import settings
+
+    module = importlib.import_module(f"cosserat.figures.{entry(name).module}")
+    with settings():
+        figure: Figure = getattr(module, name)(data)
+    return figure
+
+
+def draw_to(name: str, folder: Path, path: Path) -> None:
+    """Draw a figure from the files `<case>.nc` of a folder and write it as SVG.
+
+    Raises
+    ------
+    InputError : no figure of that name, or a file is missing or unreadable.
+    """
+    from cosserat.data.dataset import check_destination, load
+    from cosserat.figures.style import write
+
+    check_destination(path)
+    write(draw(name, {case: load(folder / f"{case}.nc") for case in entry(name).cases}), path)
+
+
+def entry(name: str) -> Entry:
+    """The entry of a figure.
+
+    Raises
+    ------
+    InputError : no figure of that name.
+    """
+    if name not in FIGURES:
+        raise InputError(f"there is no figure '{name}'{nearest(name, list(FIGURES))}")
+    return FIGURES[name]

@@ -1,0 +1,82 @@
+"""How every figure looks, and how it is written: the same bytes for the same data."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+INK, PAPER, EXACT, COMPUTED, VARIANT, BODY = (
+    "#222222",
+    "#ffffff",
+    "#7a7a7a",
+    "#0b5fa5",
+    "#c4501b",
+    "#c9dced",
+)
+
+_SETTINGS: Any = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "axes.titlesize": 9,
+    "axes.titlelocation": "left",
+    "axes.grid": True,
+    "grid.color": "#e6e6e6",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 4.5,
+    "svg.hashsalt": "cosserat",
+    "savefig.facecolor": PAPER,
+}
+
+
+def settings() -> AbstractContextManager[None]:
+    """The settings that hold while a figure is drawn."""
+    return mpl.rc_context(_SETTINGS)
+
+
+def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tuple[Figure, list[Axes]]:
+    """A figure of that size in inches with its axes in reading order."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False)
+    return figure, [ax for line in axes for ax in line]
+
+
+def write(figure: Figure, path: Path) -> None:
+    """Write an SVG without a date, under a temporary name first."""
+    temporary = path.with_name(f".{path.name}.part")
+    with settings():
+        figure.savefig(temporary, format="svg", metadata={"Date": None})
+    temporary.replace(path)
+
+
+def exact_curve(ax: Axes, xi: Array, values: Array, label: str, *, dashed: bool = False) -> None:
+    """A closed form, as a line."""
+    ax.plot(xi, values, color=EXACT, linestyle="--" if dashed else "-", label=label, zorder=2)
+
+
+def computed_points(ax: Axes, xi: Array, values: Array, label: str, *, variant: bool = False) -> None:
+    """Computed values, one marker a vertex; a variant is drawn hollow."""
+    colour = VARIANT if variant else COMPUTED
+    ax.plot(
+        xi,
+        values,
+        linestyle="none",
+        marker="s" if variant else "o",
+        markerfacecolor="none" if variant else colour,
+        markeredgecolor=colour,
+        label=label,
+        zorder=3,
+    )

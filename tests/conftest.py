@@ -1,0 +1,62 @@
+"""Shared pieces of the tests: a rod of any size, and random states of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+from cosserat.models.rod_statics import Rod, RodStatics
+
+settings.register_profile("project", deadline=None, derandomize=True, max_examples=40)
+settings.load_profile("project")
+
+ROOT = Path(__file__).parents[1]
+
+
+def make_rod(**changes):
+    """The rod of section 3.5 with changes."""
+    import cosserat
+
+    return cosserat.case("necking").problem.rod.replace(**changes)
+
+
+def random_state(rod: Rod, seed: int, size: float = 0.3, turn: float | None = None):
+    """A strained and rotated configuration, shape (4 N,): relative strains up to about `size`."""
+    rng = np.random.default_rng(seed)
+    geometry = rod.geometry()
+    h, director = geometry.edge_length.mean(), geometry.director_length.mean()
+    x = geometry.X + size * h * rng.uniform(-1, 1, geometry.X.shape)
+    d = geometry.D + size * director * rng.uniform(-1, 1, geometry.D.shape)
+    angle = rng.uniform(-np.pi, np.pi) if turn is None else turn
+    c, s = np.cos(angle), np.sin(angle)
+    R = np.array([[c, -s], [s, c]])
+    return np.hstack([x @ R.T + rng.uniform(-3, 3, 2), d @ R.T]).ravel()
+
+
+def assembled(body, q):
+    """Energy, gradient (n,) and dense Hessian (n, n) at q."""
+    from cosserat.solvers.banded import to_dense
+
+    gradient = np.empty(q.size)
+    band = np.empty((q.size, body.half_bandwidth + 1))
+    energy = body.assemble(q, gradient, band)
+    return energy, gradient, to_dense(band)
+
+
+@pytest.fixture(scope="session")
+def solved():
+    """Every published case, solved once, by name."""
+    import cosserat
+
+    return {name: cosserat.run(case) for name, case in cosserat.cases().items()}
+
+
+@pytest.fixture
+def problem() -> RodStatics:
+    """The clamped-free beam."""
+    import cosserat
+
+    return cosserat.case("clamped_free").problem

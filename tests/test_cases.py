@@ -1,0 +1,161 @@
+"""Cases and parameters: what is right is read with its units, what is wrong is refused with one sentence."""
+
+import pytest
+from conftest import ROOT
+
+import cosserat
+from cosserat.cases.catalogue import parse
+from cosserat.errors import InputError
+from cosserat.models.planar_rod import Geometry, Lumped
+
+BEAM = """
+[mine]
+{like}
+{line}
+"""
+
+
+@pytest.fixture
+def load_mine(tmp_path):
+    def load(line):
+        file = tmp_path / "my.toml"
+        like = "" if "like" in line else 'like = "clamped_free"'
+        file.write_text(BEAM.format(like=like, line=line))
+        return cosserat.case("mine", file)
+
+    return load
+
+
+def test_units_are_converted_to_si(load_mine):
+    rod = load_mine(
+        'rod.young = "2 N/mm^2"\nrod.length = "30 cm"\nrod.shear_correction = "5/6"'
+    ).problem.rod
+    assert rod.young == pytest.approx(2e6)
+    assert rod.length == pytest.approx(0.3)
+    assert rod.shear_correction == pytest.approx(5 / 6)
+
+
+def test_python_takes_si_numbers_and_texts_alike():
+    case = cosserat.case("clamped_free")
+    assert case.vary("a", rod={"length": 2}).problem == case.vary("a", rod={"length": "200 cm"}).problem
+
+
+def test_vary_changes_nothing_else():
+    case = cosserat.case("clamped_free")
+    longer = case.vary("longer", rod={"length": 7})
+    assert longer.problem.replace(rod=longer.problem.rod.replace(length=5)) == case.problem
+    assert case.problem.rod.length == 5
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ('rod.lenght = "5 m"', r"'rod\.lenght' is not a key; did you mean 'length'\?"),
+        ("gravty = 3", r"'gravty' is not a key; did you mean 'gravity'\?"),
+        ("rod.calibration.c9 = 1", r"'rod\.calibration\.c9' is not a key; did you mean"),
+        ("rod.length = 5", r"'rod\.length' is 5, without a unit; write it with its unit"),
+        ('rod.length = "5 kg"', r"'rod\.length' is \"5 kg\", in kg; write it with its unit"),
+        ('rod.length = "5"', r"'rod\.length' is \"5\", in no unit at all"),
+        ('rod.length = "five m"', r"'rod\.length' is \"five m\""),
+        ("rod.length = true", r"'rod\.length' is True, not a number"),
+        ('rod.length = "nan m"', r"'rod\.length' is 'nan m'; it must be a finite number"),
+        ("rod.poisson = nan", r"'rod\.poisson' is nan; it must be a finite number"),
+        ("rod.poisson = inf", r"'rod\.poisson' is inf; it must be a finite number"),
+        ('rod.poisson = "0.3 m"', r"'rod\.poisson' is \"0\.3 m\", in m; write a number"),
+        ("rod.poisson = 0.5", r"'rod\.poisson' is 0\.5; it must be below 0\.5"),
+        ("rod.poisson = -1", r"'rod\.poisson' is -1; it must be above -1"),
+        ('rod.length = "0 m"', r"'rod\.length' is 0 m; it must be above 0"),
+        ('rod.length = "-5 m"', r"'rod\.length' is -5 m; it must be above 0"),
+        ('rod.young = "-1 GPa"', r"'rod\.young' is -1e\+09 Pa; it must be above 0"),
+        ('rod.height = "0 m"', r"'rod\.height' is 0 m"),
+        ("rod.vertices = 2", r"'rod\.vertices' is 2; it must be at least 3"),
+        ("rod.vertices = 20.0", r"'rod\.vertices' is 20\.0; it must be a whole number"),
+        ('rod.vertices = "20"', r"'rod\.vertices' is '20'; it must be a whole number"),
+        ('rod.end_sections = "half"', r"'rod\.end_sections' is 'half'; it must be 'full' or 'halved'"),
+        ("rod = 3", r"it must be a table of keys|'rod' is 3"),
+        (
+            'supports = [{ at = "first", hold = ["x4"] }]',
+            r"'supports\.0\.hold\.0' is 'x4'; it must be 'x3'",
+        ),
+        ('supports = [{ at = 20, hold = ["x3"] }]', r"'at' is 20, but the rod's vertices are 0 to 19"),
+        ('supports = [{ hold = ["x3"] }]', r"'supports\.0\.at' is missing"),
+        ('supports = "first"', r"'supports' is 'first'; it must be a list"),
+        ('kind = "rod static"', r"'kind' is 'rod static'; did you mean 'rod statics'\?"),
+        ('like = "clamped_fre"', r"'like' names no case: 'clamped_fre'; did you mean 'clamped_free'\?"),
+        ('like = "mine"', r"'like' leads back to itself"),
+    ],
+)
+def test_bad_values_are_refused_with_name_value_and_remedy(load_mine, line, sentence):
+    with pytest.raises(InputError, match=sentence) as caught:
+        load_mine(line)
+    assert "\n" not in str(caught.value)
+
+
+def test_every_fault_of_a_case_is_named_at_once(load_mine):
+    with pytest.raises(InputError, match="'rod.lenght' is not a key") as caught:
+        load_mine('rod.lenght = "5 m"\nrod.poisson = 0.7')
+    assert "'rod.poisson' is 0.7" in str(caught.value)
+
+
+def test_a_missing_key_is_named(tmp_path):
+    file = tmp_path / "my.toml"
+    file.write_text(
+        '[mine]\nkind = "rod statics"\nsupports = []\n[mine.rod]\nvertices = 5\nlength = "1 m"\n'
+    )
+    with pytest.raises(
+        InputError, match=r"case 'mine': 'rod.height' is missing; .*'rod.calibration' is missing"
+    ):
+        cosserat.case("mine", file)
+
+
+def test_unknown_cases_and_unreadable_files_are_refused(tmp_path):
+    with pytest.raises(InputError, match="there is no case 'clamped_fre'; did you mean 'clamped_free'"):
+        cosserat.run("clamped_fre")
+    with pytest.raises(InputError, match="cannot read the case file"):
+        cosserat.case("mine", tmp_path / "none.toml")
+    broken = tmp_path / "broken.toml"
+    broken.write_text("[mine\n")
+    with pytest.raises(InputError, match=r"broken\.toml is not TOML"):
+        cosserat.case("mine", broken)
+
+
+def test_a_case_survives_its_own_json():
+    for case in cosserat.cases().values():
+        assert parse(case.model_dump_json()) == case
+
+
+def test_cases_are_frozen():
+    with pytest.raises(Exception, match="frozen"):
+        cosserat.case("clamped_free").problem.rod.length = 3
+
+
+def test_assumptions_of_the_cases_are_marked():
+    text = (ROOT / "cosserat/cases/chapter3.toml").read_text()
+    assert text.count("ASSUME") >= 5
+
+
+def test_lumped_properties_may_vary_along_the_rod():
+    """Table 3.1 is an array for each property: a rod stiffer on its right half strains half as much there."""
+    import numpy as np
+    from conftest import make_rod
+
+    from cosserat.models.published import PublishedRod, stiffnesses
+    from cosserat.solvers.newton import NewtonSettings, equilibrium
+
+    rod = make_rod(vertices=11, poisson=0)
+    geometry = Geometry.straight(11, 5.0, 0.25)
+    vertex, edge = (
+        Lumped.uniform(n, area=0.25, second_moment=0.25**2 / 12, young=1e9, poisson=0.0)
+        for n in (11, 10)
+    )
+    young = np.where(np.arange(10) < 5, 1e9, 2e9)
+    edge = Lumped(edge.area, edge.second_moment, young, young / 2, edge.poisson)
+    body = PublishedRod(stiffnesses(geometry, vertex, edge, 5 / 6, rod.calibration, "full", "halved"))
+    held = np.zeros((11, 4), dtype=bool)
+    held[0] = True
+    load = np.zeros((11, 4))
+    load[-1, 0] = 100.0
+    start = np.hstack([geometry.X, geometry.D])
+    state = equilibrium(body, start.ravel(), load.ravel(), held.ravel(), NewtonSettings(), "two halves")
+    strain = np.diff(state.q.reshape(11, 4)[:, 0]) / geometry.edge_length - 1
+    np.testing.assert_allclose(strain, 100.0 / (young * 0.25), rtol=1e-5)

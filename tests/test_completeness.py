@@ -1,0 +1,228 @@
+"""What could be listed by hand and forgotten: set equalities, the direction of imports, and a clean repository."""
+
+import ast
+import re
+import subprocess
+
+import pytest
+from conftest import ROOT
+from numba.core.dispatcher import Dispatcher
+
+import cosserat
+from cosserat.data.provenance import computing_sources
+from cosserat.figures.catalogue import FIGURES
+from cosserat.table.errata import read_errata
+
+PACKAGE = ROOT / "cosserat"
+ERRATA = read_errata(ROOT / "results/errata.toml")
+CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
+
+# Each room may import from the rooms before it, never from those after it.
+ROOMS = (
+    "errors",
+    "parameters",
+    "outcome",
+    "analytic",
+    "solvers",
+    "models",
+    "cases",
+    "data",
+    "run",
+    "table",
+    "figures",
+    "book",
+    "__main__",
+)
+
+
+def tracked():
+    done = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
+    return [ROOT / line for line in done.stdout.splitlines()]
+
+
+def room_of(module):
+    return module.split(".")[1]
+
+
+def imports_of(file):
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("cosserat"):
+            names = (
+                [f"{node.module}.{a.name}" for a in node.names]
+                if node.module == "cosserat"
+                else [node.module]
+            )
+            yield from names
+        elif isinstance(node, ast.Import):
+            yield from (a.name for a in node.names if a.name.startswith("cosserat"))
+
+
+@pytest.mark.parametrize(
+    "file", sorted(PACKAGE.rglob("*.py")), ids=lambda f: str(f.relative_to(PACKAGE))
+)
+def test_imports_follow_one_direction(file):
+    own = file.relative_to(PACKAGE).parts[0].removesuffix(".py")
+    if own == "__init__":
+        return
+    for module in imports_of(file):
+        assert ROOMS.index(room_of(module)) <= ROOMS.index(own), f"{own} imports {module}"
+
+
+def test_solvers_import_no_model_and_formulas_import_nothing_of_ours():
+    for file in (PACKAGE / "solvers").glob("*.py"):
+        assert {room_of(m) for m in imports_of(file)} <= {"errors", "parameters", "solvers"}
+    assert not list(imports_of(PACKAGE / "analytic.py"))
+
+
+def test_the_solver_does_not_know_how_many_numbers_a_vertex_has():
+    for file in (PACKAGE / "solvers").glob("*.py"):
+        assert not re.search(r"\* 4\b|\b4 \*|reshape\(", file.read_text()), file
+
+
+def test_a_cached_kernel_calls_only_kernels_of_its_own_file():
+    """Numba's cache of a function does not see edits of another file, so none may be called from there."""
+    import importlib
+
+    for file in computing_sources():
+        name = ".".join(file.relative_to(ROOT).with_suffix("").parts)
+        module = importlib.import_module(name)
+        for value in vars(module).values():
+            if isinstance(value, Dispatcher) and value.py_func.__module__ == name:
+                called = [vars(module).get(word) for word in value.py_func.__code__.co_names]
+                assert all(c.py_func.__module__ == name for c in called if isinstance(c, Dispatcher)), (
+                    value
+                )
+
+
+def test_errata_and_their_evidence_are_the_same_set():
+    functions = {
+        f"tests/{file.name}::{node.name}"
+        for file in (ROOT / "tests").glob("test_*.py")
+        for node in ast.parse(file.read_text()).body
+        if isinstance(node, ast.FunctionDef)
+    }
+    for name, entry in ERRATA.items():
+        assert entry.evidence.split("[")[0] in functions, name
+    named = {entry.evidence.split("[")[0] for entry in ERRATA.values()}
+    mine = {f for f in functions if re.search(r"::test_E\d", f) and "test_errata" in f}
+    ids = {re.match(r".*::test_(E\d+)_(\d+)", f).expand(r"\1.\2") for f in mine}
+    assert ids <= set(ERRATA)
+    assert named <= functions
+
+
+def test_figures_drawn_are_the_figures_shown():
+    shown = {
+        name for file in CHAPTERS for name in re.findall(r'page\.figure\(\s*"(\w+)"', file.read_text())
+    }
+    assert shown == set(FIGURES)
+
+
+def test_every_row_that_is_attempted_is_shown_in_a_chapter():
+    import csv
+
+    prefixes = {
+        p
+        for f in CHAPTERS
+        for call in re.findall(r"page\.rows\(([^)]*)\)", f.read_text())
+        for p in re.findall(r'"([^"]+)"', call)
+    }
+    with (ROOT / "results/tolerances.csv").open(newline="") as file:
+        rows = [row["id"] for row in csv.DictReader(file) if row["standing"] != "not attempted"]
+    assert not [row for row in rows if not row.startswith(tuple(prefixes))]
+    assert not [p for p in prefixes if not any(row.startswith(p) for row in rows)]
+
+
+def test_equations_cited_in_the_code_are_in_the_thesis_and_those_of_the_models_in_a_chapter():
+    pattern = r"(?<![\d.])([123]\.\d{1,2}\.\d{1,3})(?![\d.])"
+    cited = {
+        number
+        for folder in ("models", "data", "figures", "table")
+        for file in (PACKAGE / folder).glob("*.py")
+        for number in re.findall(pattern, file.read_text())
+    }
+    text = (ROOT / "../shared/hemingway-2020-thesis.txt").resolve()
+    if text.exists():
+        printed = set(re.findall(pattern, text.read_text()))
+        assert cited <= printed, cited - printed
+    chapters = "".join(file.read_text() for file in CHAPTERS)
+    for number in (
+        "3.3.19",
+        "3.3.21",
+        "3.3.24",
+        "3.4.7",
+        "3.4.11",
+        "3.4.13",
+        "3.5.2",
+        "3.5.5",
+        "3.5.8",
+        "3.5.9",
+    ):
+        assert number in cited | set(re.findall(pattern, (PACKAGE / "analytic.py").read_text())), number
+        assert rf"\tag{{{number}}}" in chapters, number
+
+
+def test_chapters_type_no_result():
+    """No number of more than three digits stands in a chapter's prose or code outside equations and citations."""
+    for file in CHAPTERS:
+        text = re.sub(
+            r"\$.*?\$|\(\d\.\d+\.\d+\)|\(\d\.\d+\.\d+\)-\(\d\.\d+\.\d+\)",
+            "",
+            file.read_text(),
+            flags=re.DOTALL,
+        )
+        assert not re.findall(r"\d\.\d{3,}", re.sub(r"\d\.\d+\.\d+", "", text)), file
+
+
+def test_the_lock_names_no_host_and_hashes_everything():
+    lock = (ROOT / "requirements.lock").read_text()
+    assert "://" not in lock
+    assert not re.search(r"index|pypi", lock)
+    pins = re.findall(r"^[a-zA-Z0-9_.-]+==", lock, flags=re.MULTILINE)
+    blocks = re.split(r"\n(?=[a-zA-Z0-9_.-]+==)", lock)
+    assert len(pins) > 50
+    assert all("--hash=sha256:" in block for block in blocks if "==" in block.split("\n")[0])
+
+
+def test_the_lock_pins_what_the_project_asks_for():
+    lock = (ROOT / "requirements.lock").read_text().lower()
+    asked = re.findall(
+        r"^[a-z][\w-]*", (ROOT / "requirements.in").read_text().lower(), flags=re.MULTILINE
+    )
+    assert [name for name in asked if f"\n{name}==" not in lock] == []
+
+
+def test_every_dependency_is_explained_in_the_readme():
+    readme = (ROOT / "README.md").read_text()
+    asked = re.findall(r"^[a-zA-Z][\w-]*", (ROOT / "requirements.in").read_text(), flags=re.MULTILINE)
+    assert [name for name in asked if f"`{name}`" not in readme] == []
+
+
+def test_nothing_that_a_rule_writes_is_tracked():
+    allowed = ("tolerances.csv", "errata.toml", "reference", "captions")
+    for file in tracked():
+        parts = file.relative_to(ROOT).parts
+        assert parts[0] != "results" or parts[1] in allowed, file
+        assert file.suffix != ".ipynb", file
+
+
+def test_the_version_stands_in_one_place():
+    import importlib.metadata
+
+    version = importlib.metadata.version("cosserat")
+    changelog = (ROOT / "CHANGELOG.md").read_text()
+    assert f"## {version}" in changelog
+    assert f"version: {version}" in (ROOT / "CITATION.cff").read_text()
+
+
+def test_modules_and_functions_stay_small():
+    for file in PACKAGE.rglob("*.py"):
+        text = file.read_text()
+        assert text.count("\n") <= 400, file
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.FunctionDef) and node.name not in ("_assemble", "_parser"):
+                assert node.end_lineno - node.lineno <= 60, f"{file}: {node.name}"
+
+
+def test_public_names_are_documented():
+    for name in cosserat.__all__:
+        assert getattr(cosserat, name).__doc__, name

@@ -1,0 +1,103 @@
+"""Datasets and files: units on all, no clock, the same bytes twice, whole or absent."""
+
+import hashlib
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import cosserat
+from cosserat.data import dataset as files
+from cosserat.data.variables import LABELS, VARIABLES
+from cosserat.errors import InputError
+from cosserat.outcome import Outcome
+
+
+def digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_every_variable_says_what_it_is(solved):
+    for data in solved.values():
+        for name, variable in data.variables.items():
+            if name in LABELS:
+                assert variable.attrs["long_name"]
+                continue
+            entry = VARIABLES[name]
+            assert variable.dims == entry.dims
+            for key in ("units", "long_name", "symbol", "equation"):
+                assert variable.attrs[key] == getattr(entry, key)
+            assert np.isfinite(variable).all()
+
+
+def test_every_described_variable_is_written(solved):
+    written = {str(name) for data in solved.values() for name in data.variables}
+    assert written == set(VARIABLES) | set(LABELS)
+
+
+def test_units_are_units():
+    import pint
+
+    registry = pint.UnitRegistry()
+    for entry in VARIABLES.values():
+        assert registry(entry.units.replace("m-1", "1/m")) is not None
+
+
+def test_attributes_hold_parameters_statistics_and_origin_but_no_clock(solved):
+    data = solved["necking"]
+    assert json.loads(data.attrs["parameters"])["problem"]["rod"]["poisson"] == 0.3
+    assert files.case_of(data) == cosserat.case("necking")
+    assert files.statistics_of(data)["iterations"] >= 1
+    assert "sha256:" in data.attrs["source"]
+    assert set(json.loads(data.attrs["environment"])) == {"python", "numpy", "scipy", "numba"}
+    assert not any(word in " ".join(map(str, data.attrs)) for word in ("date", "time", "history"))
+
+
+def test_the_same_case_twice_gives_the_same_bytes(tmp_path):
+    for number in (1, 2):
+        cosserat.save(cosserat.run("clamped_free"), tmp_path / f"{number}.nc")
+    assert digest(tmp_path / "1.nc") == digest(tmp_path / "2.nc")
+
+
+def test_a_file_reads_back_as_it_was(tmp_path, solved):
+    cosserat.save(solved["necking"], tmp_path / "a.nc")
+    xr.testing.assert_identical(cosserat.load(tmp_path / "a.nc"), solved["necking"])
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_rest(tmp_path, solved, monkeypatch):
+    path = tmp_path / "a.nc"
+    path.write_text("old")
+
+    def fail(self, target, **_):
+        Path(target).write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", fail)
+    with pytest.raises(InputError, match="No space left"):
+        cosserat.save(solved["necking"], path)
+    assert path.read_text() == "old"
+    assert [file.name for file in tmp_path.iterdir()] == ["a.nc"]
+
+
+def test_bad_destinations_and_files_are_refused(tmp_path, solved):
+    with pytest.raises(InputError, match=r"folder .*none does not exist"):
+        cosserat.save(solved["necking"], tmp_path / "none" / "a.nc")
+    with pytest.raises(InputError, match="is a folder"):
+        cosserat.save(solved["necking"], tmp_path)
+    with pytest.raises(InputError, match="there is no file"):
+        cosserat.load(tmp_path / "none.nc")
+    (tmp_path / "bad.nc").write_bytes(b"not netCDF at all")
+    with pytest.raises(InputError, match=r"cannot read .*bad\.nc as netCDF"):
+        cosserat.load(tmp_path / "bad.nc")
+    with pytest.raises(InputError, match="no attribute 'parameters'"):
+        files.case_of(xr.Dataset())
+    with pytest.raises(InputError, match="of another version"):
+        files.case_of(xr.Dataset(attrs={"parameters": '{"name": "x"}'}))
+
+
+def test_values_that_are_not_finite_never_become_a_dataset():
+    case = cosserat.case("clamped_free")
+    with pytest.raises(ValueError, match="variable 'mu' is not finite"):
+        files.to_dataset(case, Outcome({"mu": np.array([1.0, np.nan])}, {}))

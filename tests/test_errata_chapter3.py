@@ -1,0 +1,248 @@
+"""Evidence for the errata of Chapter 3: the printed form fails, the corrected form passes."""
+
+import numpy as np
+import pytest
+from conftest import assembled, make_rod, random_state
+
+import cosserat
+from cosserat import analytic
+from cosserat.models.planar_rod import rigid_motions, signed_angle, strains, vertex_tangents
+from cosserat.models.published import stretching
+from cosserat.table import readouts
+
+
+def gradient_by_differences(energy, q, h=1e-6):
+    return np.array([(energy(q + h * e) - energy(q - h * e)) / (2 * h) for e in np.eye(q.size)])
+
+
+def first_term(rod, q, printed):
+    """The first term of eq. (3.4.11), with the vertex stretch in the middle as printed or with the edge stretch."""
+    geometry = rod.geometry()
+    x, d = np.hsplit(q.reshape(-1, 4), 2)
+    s = strains(geometry, x, d)
+    k1 = rod.body(geometry).stiffness.k1
+    middle = s.mu[:-1] if printed else s.mu_edge
+    return (k1 / 2 * (s.mu_edge**2 - middle + 1 / s.mu_edge) * geometry.edge_length).sum()
+
+
+def test_E3_1_mixed_prescripts_push_the_reference_out_of_equilibrium():
+    rod = make_rod(vertices=6)
+    geometry = rod.geometry()
+    q = np.hstack([geometry.X, geometry.D]).ravel()
+    printed = gradient_by_differences(lambda p: first_term(rod, p, True), q)
+    corrected = gradient_by_differences(lambda p: first_term(rod, p, False), q)
+    k1 = rod.body(geometry).stiffness.k1[0]
+    assert np.abs(printed).max() > 0.2 * k1
+    assert np.abs(corrected).max() < 1e-6 * k1
+
+
+def test_E3_1_missing_half_doubles_the_axial_stiffness():
+    """Pi_e with k1 (...) instead of k1/2 (...): its second derivative by the stretch is 2 EA at c1 = 1/2, nu = 0."""
+    EA, c1 = 1.0, 0.5
+    _, _, curvature = stretching(1.0)
+    assert c1 * EA * curvature == pytest.approx(2 * EA)
+    assert c1 * EA * curvature / 2 == pytest.approx(EA)
+
+
+def test_E3_2_printed_poisson_coupling_misses_its_own_calibration(solved):
+    ratios = {}
+    for name in ("necking", "necking_printed"):
+        reading = readouts.at_midspan(readouts.necking_curve(solved[name]))
+        ratios[name] = reading.measured / reading.expected
+    assert abs(ratios["necking"] - 1) < 0.01
+    assert abs(ratios["necking_printed"] - 1) > 2.5
+
+
+@pytest.mark.parametrize(("poisson", "definite"), [(0.37, True), (0.38, False)])
+def test_E3_2_printed_coupling_is_indefinite_beyond_a_poissons_ratio_of_0_376(poisson, definite):
+    for coupling, stable in (("printed", definite), ("halved", True)):
+        rod = make_rod(vertices=200, poisson=poisson, poisson_coupling=coupling)
+        geometry = rod.geometry()
+        _, _, hessian = assembled(rod.body(geometry), np.hstack([geometry.X, geometry.D]).ravel())
+        assert (np.linalg.eigvalsh(hessian)[0] > -1e-9 * np.abs(hessian).max()) == stable
+
+
+def test_E3_3_quarter_contradicts_the_stated_coefficient(solved):
+    _, _, curvature = stretching(1.0)
+    with_quarter, without = 0.25 / (curvature / 2), 1 / (curvature / 2)
+    assert with_quarter == 1 / 8
+    assert without == 1 / 2
+    bar = readouts.at_tip(readouts.hanging_bar_curve(solved["hanging_bar"]))
+    assert bar.measured / bar.expected == pytest.approx(1, abs=1e-4)  # and the tip goes as 1 / c1
+
+
+CORRECTIONS = ("E3.4", "E3.5", "E3.6", "E3.7", "E3.8")
+
+
+def force_lists(rod, q, corrections):
+    """Eqs. (3.4.17)-(3.4.19) as printed, but for the named corrections: forces on the unknowns, shape (N, 4)."""
+    geometry = rod.geometry()
+    k = rod.body(geometry).stiffness
+    x, d = np.hsplit(q.reshape(-1, 4), 2)
+    n = len(x)
+    e = np.diff(x, axis=0)
+    m = np.hypot(*e.T)
+    t = e / m[:, None]
+    tv = vertex_tangents(x)
+    r = np.hypot(*d.T)
+    dh = d / r[:, None]
+    s = strains(geometry, x, d)
+    E, L, D = geometry.edge_length, geometry.voronoi_length, geometry.director_length
+    phi = np.zeros(n)
+    phi[1:-1] = signed_angle(t[:-1], t[1:])
+    chord = np.concatenate([m[:1], np.hypot(*(x[2:] - x[:-2]).T), m[-1:]])
+
+    def across(unit, v):
+        return v - (v @ unit) * unit
+
+    f1 = k.k1 / 2 * (2 * s.mu_edge - 1 - s.mu_edge**-2)
+    p2 = k.k2 * L / (2 * D) * (2 * s.lam - 1 - s.lam**-2)
+    f3 = np.zeros(n)
+    f3[1:-1] = (k.k3 / L)[1:-1] / ((1 + np.cos(phi[1:-1])) ** 2 * m[:-1] * m[1:])
+    if "E3.4" in corrections:
+        f3 *= 4
+    shear = k.k4 * L * np.tan(s.theta) / np.cos(s.theta) ** 2
+    jump = k.k5 / E * np.diff(s.theta)
+    gradient = np.concatenate([[0], jump]) - np.concatenate([jump, [0]])
+    f4 = shear / np.cos(s.theta) / chord
+    if "E3.6" in corrections:
+        f4 = (shear + gradient) / np.cos(s.theta) / chord
+    p4 = shear / np.cos(s.theta) / r
+    p5 = gradient / np.cos(s.theta) / (r if "E3.5" in corrections else 1)
+    stretch = k.k6 / E * np.diff(s.lam)
+    p6 = (np.concatenate([stretch, [0]]) - np.concatenate([[0], stretch])) / D
+    f7 = k.k7 / 2 * (s.lam - 1)
+    p7 = k.k7 * L / D * (s.mu - 1)
+    if "E3.8" in corrections:
+        f7[[0, -1]] = p7[[0, -1]] = 0.0
+
+    F = np.zeros((n, 2))
+    for K in range(
+        n - 1
+    ):  # edges: f1 and f7 along their tangents; (3.4.18) writes 0 f7 in row 1, not in row 0
+        low = f1[K] + f7[K + 1] + (f7[K] if K > 0 else 0.0)
+        high = f1[K] + f7[K] + f7[K + 1] if n - 2 > K else f1[K] + f7[K]
+        F[K] += (f1[K] + f7[K] + f7[K + 1] if n - 2 == K else low) * t[K]
+        F[K + 1] -= high * t[K]
+    for K in range(
+        1, n - 1
+    ):  # bending at K acts on its neighbours and, with the opposite sum, on itself
+        before, after = f3[K] * across(t[K - 1], e[K]), f3[K] * across(t[K], e[K - 1])
+        F[K - 1] -= before
+        F[K] += before - after
+        F[K + 1] += after
+    for K in range(
+        n
+    ):  # shear at K acts on the ends of its chord; the boundary vertices' own share is not printed
+        force = f4[K] * across(tv[K], dh[K])
+        if K > 0 or "E3.7" in corrections:
+            F[max(K - 1, 0)] -= force
+        if n - 1 > K or "E3.7" in corrections:
+            F[min(K + 1, n - 1)] += force
+    P = np.array(
+        [(p4[K] + p5[K]) * across(dh[K], tv[K]) + (p6[K] - p2[K] - p7[K]) * dh[K] for K in range(n)]
+    )
+    return np.hstack([F, P])
+
+
+def compared(corrections, seed=11, n=8):
+    rod = make_rod(vertices=n, poisson_coupling="printed")
+    q = random_state(rod, seed)
+    _, gradient, _ = assembled(rod.body(rod.geometry()), q)
+    lists = force_lists(rod, q, corrections)
+    return np.abs(lists + gradient.reshape(n, 4)).max() / np.abs(gradient).max(), lists, q
+
+
+def test_force_lists_with_every_correction_are_the_gradient():
+    for seed in range(5):
+        assert compared(CORRECTIONS, seed)[0] < 1e-12
+
+
+@pytest.mark.parametrize("missing", CORRECTIONS)
+def test_printed_force_lists_miss_the_gradient_without_each_correction(missing):
+    rest = tuple(name for name in CORRECTIONS if name != missing)
+    for seed in range(5):
+        assert compared(rest, seed)[0] > 1e-4
+        assert compared(CORRECTIONS, seed)[0] < 1e-12
+
+
+def test_balance_does_not_notice_the_missing_four():
+    """Without E3.4 the lists still sum to zero and turn nothing: only the energy shows the fault."""
+    rest = tuple(name for name in CORRECTIONS if name != "E3.4")
+    error, lists, q = compared(rest)
+    assert error > 1e-4
+    for motion in rigid_motions(q.reshape(-1, 4)):
+        assert abs((lists * motion).sum()) < 1e-11 * np.abs(lists).max() * np.abs(motion).sum()
+
+
+def test_E3_7_printed_end_forces_leave_a_free_rod_unbalanced():
+    rest = tuple(name for name in CORRECTIONS if name != "E3.7")
+    _, printed, _ = compared(rest)
+    _, corrected, _ = compared(CORRECTIONS)
+    scale = np.abs(corrected).max()
+    assert np.abs(printed[:, :2].sum(axis=0)).max() > 1e-4 * scale
+    assert np.abs(corrected[:, :2].sum(axis=0)).max() < 1e-12 * scale
+
+
+def test_E3_10_printed_director_force_does_half_the_couple():
+    """A force P on the director d turns the section with d x P; d reaches the surface at lambda H / 2."""
+    H, lam, M = 0.5, 1.1, 3.0
+    for angle in (0.0, 0.7, 2.5):
+        unit = np.array([np.sin(angle), np.cos(angle)])
+        turned = np.array(
+            [-unit[1], unit[0]]
+        )  # a unit couple along the axis of turning, crossed with unit
+        for factor, moment in ((1, M / 2), (2, M)):
+            P = factor * M / (lam * H) * turned
+            d = lam * H / 2 * unit
+            assert d[0] * P[1] - d[1] * P[0] == pytest.approx(moment)
+
+
+def test_E3_12_vanishing_director_has_infinite_energy():
+    rod = make_rod(vertices=5)
+    geometry = rod.geometry()
+    D = geometry.D.copy()
+    D[0] = 0.0
+    assert assembled(rod.body(geometry), np.hstack([geometry.X, D]).ravel())[0] == np.inf
+
+
+@pytest.mark.parametrize("theory", ["printed", "two directors", "plane strain", "free section"])
+def test_E3_13_printed_decay_does_not_balance_the_director_forces(theory):
+    """k6 lambda'' = (k2 - k7^2 / k1)(lambda - 1 - far value), from linear elasticity with mu I for each director."""
+    nu = 0.3
+    lame, mu = nu / ((1 + nu) * (1 - 2 * nu)), 1 / (2 * (1 + nu))  # E = A = I = 1
+    along, across = lame + 2 * mu, lame + 2 * mu
+    balance = {
+        "two directors": (2 * (lame + across) - (2 * lame) ** 2 / along) / (2 * mu),
+        "plane strain": (across - lame**2 / along) / mu,
+        "free section": (
+            (across - lame**2 / across) - (lame - lame**2 / across) ** 2 / (along - lame**2 / across)
+        )
+        / mu,
+    }
+    unit = analytic.Beam(
+        length=1, area=1, second_moment=1, young=1, poisson=nu, line_density=1, shear_correction=1
+    )
+    squared = analytic.necking_decay(unit, theory) ** 2
+    if theory == "printed":
+        assert all(abs(squared / value - 1) > 0.2 for value in balance.values())
+        assert squared == pytest.approx(balance["two directors"] / 2)
+    else:
+        assert squared == pytest.approx(balance[theory])
+
+
+def test_E3_14_printed_necking_curve_loses_its_digits():
+    problem = cosserat.case("necking").problem
+    beam = readouts.beam_of(problem)
+    beta = analytic.necking_decay(beam, "printed")
+    xi = np.linspace(0, beam.length, 101)
+    printed, ours = (
+        form(beam, 1e3, beta, xi)
+        for form in (analytic.necking_strain_as_printed, analytic.necking_strain)
+    )
+    amplitude = np.abs(ours).max()
+    assert np.abs(printed - ours).max() > 0.3 * amplitude
+    mirrored = ours[::-1]
+    assert np.abs(ours - mirrored).max() < 1e-14
+    near = xi < 0.1 * beam.length  # where the printed form still has its digits both agree
+    np.testing.assert_allclose(printed[near], ours[near], atol=1e-10 * amplitude)

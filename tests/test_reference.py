@@ -1,0 +1,76 @@
+"""Fresh runs against the stored references, and the comparison itself."""
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import cosserat
+from cosserat.errors import InputError
+from cosserat.table.reference import accept, compare
+
+REFERENCES = ROOT / "results/reference"
+
+
+@pytest.mark.parametrize("name", list(cosserat.cases()))
+def test_nothing_moved(solved, name):
+    changes = compare(solved[name], cosserat.load(REFERENCES / f"{name}.nc"))
+    assert changes
+    moved = [str(change) for change in changes if not change.held]
+    assert not moved, "\n".join(moved)
+
+
+def test_every_case_has_a_reference_and_every_reference_a_case():
+    assert {file.stem for file in REFERENCES.glob("*.nc")} == set(cosserat.cases())
+
+
+def test_references_are_small():
+    assert sum(file.stat().st_size for file in REFERENCES.glob("*.nc")) < 2_000_000
+
+
+def changed(data, name, values):
+    return data.assign({name: data[name].copy(data=values)})
+
+
+def test_a_moved_value_is_found_with_its_place(solved):
+    data = solved["clamped_free"]
+    values = data.u.to_numpy().copy()
+    values[7, 1] += 1e-8
+    change = next(c for c in compare(changed(data, "u", values), data) if c.variable == "u")
+    assert not change.held
+    assert change.where == {"vertex": 7, "axis": 1}
+    assert str(change).startswith("u: 1e-08 m at vertex 7, axis 1 (allowed")
+
+
+def test_what_cannot_be_compared_is_refused(solved):
+    data = solved["clamped_free"]
+    bad = data.mu.to_numpy().copy()
+    bad[3] = np.nan
+    with pytest.raises(InputError, match="'mu' holds values that are not finite"):
+        compare(changed(data, "mu", bad), data)
+    with pytest.raises(InputError, match="'mu' holds values that are not finite"):
+        compare(data, changed(data, "mu", bad))
+    other = data.copy()
+    other["u"] = other.u.assign_attrs(units="mm")
+    with pytest.raises(InputError, match="'u' has attributes .*mm"):
+        compare(other, data)
+    with pytest.raises(InputError, match="variables differ"):
+        compare(data.drop_vars("mu"), data)
+    with pytest.raises(InputError, match="attribute 'parameters' differs"):
+        compare(data.assign_attrs(parameters="{}"), data)
+    with pytest.raises(InputError, match="shape"):
+        compare(data.isel(vertex=slice(1, None)), data)
+
+
+def test_accepting_asks_for_a_reason_and_keeps_it(solved, tmp_path):
+    path = tmp_path / "clamped_free.nc"
+    with pytest.raises(InputError, match="says too little"):
+        accept(solved["clamped_free"], path, "because")
+    assert not path.exists()
+    assert accept(solved["clamped_free"], path, "first result of this case") == [
+        "no reference was stored before"
+    ]
+    moved = changed(solved["clamped_free"], "u", solved["clamped_free"].u.to_numpy() * 1.1)
+    report = accept(moved, path, "the load was doubled by mistake")
+    assert report[0].startswith("u: 0.0036")
+    history = cosserat.load(path).attrs["history"]
+    assert history == "first result of this case\nthe load was doubled by mistake"

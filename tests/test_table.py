@@ -1,0 +1,183 @@
+"""The judge can fail, and the rows load: what the results table claims is what the numbers say."""
+
+import pytest
+from conftest import ROOT
+
+import cosserat
+from cosserat.errors import InputError, OutOfToleranceError
+from cosserat.table.errata import read_errata
+from cosserat.table.measure import check, measure
+from cosserat.table.readouts import READOUTS, midspan
+from cosserat.table.tolerances import Judged, Row, read_report, read_table, write_report
+
+TABLE = ROOT / "results/tolerances.csv"
+ROWS = read_table(TABLE)
+ATTEMPTED = [row for row in ROWS if row.standing != "not attempted"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("cases")
+    for name in cosserat.cases():
+        cosserat.save(cosserat.run(name), place / f"{name}.nc")
+    return place
+
+
+def a_row(**changes):
+    known = {
+        "id": "r",
+        "where": "here",
+        "quantity": "q",
+        "units": "m",
+        "published": "2 mm",
+        "kind": "printed",
+        "case": "clamped_free",
+        "readout": "clamped_free_tip",
+        "tolerance": 1e-5,
+        "tolerance_kind": "abs",
+        "claim": "within",
+        "why": "because",
+        "standing": "reproduced",
+    }
+    return Row.read({**known, **changes}, "row")
+
+
+def judged(measured, expected=2e-3, **changes):
+    return Judged.model_construct(row=a_row(**changes), expected=expected, measured=measured)
+
+
+def test_every_claim_of_the_table_holds(folder, tmp_path):
+    report = tmp_path / "report.csv"
+    write_report(measure(ROWS, folder), report)
+    assert "0 claims fail" in check(read_report(report))
+
+
+@pytest.mark.parametrize("row", ATTEMPTED, ids=lambda row: row.id)
+def test_just_inside_and_just_outside_fall_on_the_right_sides(row):
+    expected = row.expected if row.expected is not None else 0.7 * (row.tolerance_kind == "rel")
+    allowed = row.tolerance * (abs(expected) if row.tolerance_kind == "rel" else 1)
+    for sign in (-1, 1):
+        inside = Judged.model_construct(
+            row=row, expected=expected, measured=expected + sign * allowed * 0.999
+        )
+        outside = Judged.model_construct(
+            row=row, expected=expected, measured=expected + sign * allowed * 1.001
+        )
+        assert inside.holds == (row.claim == "within")
+        assert outside.holds == (row.claim == "outside")
+
+
+@pytest.mark.parametrize("measured", [float("nan"), float("inf"), None])
+@pytest.mark.parametrize("claim", ["within", "outside"])
+def test_a_number_that_is_no_number_makes_no_claim_true(measured, claim):
+    item = judged(measured, claim=claim, standing="assumption", erratum="E1")
+    assert not item.holds
+    assert item.verdict == "FAILS"
+
+
+def test_a_tolerance_a_thousand_times_its_error_is_reported_loose():
+    assert judged(2e-3 + 0.9e-8).verdict == "within, loose"
+    assert judged(2e-3 + 1.1e-8).verdict == "within"
+
+
+def test_published_texts_are_read_with_their_units():
+    assert a_row().expected == pytest.approx(2e-3)
+    assert a_row(published="1/2", units="1").expected == 0.5
+    with pytest.raises(Exception, match="which is not a number with a unit"):
+        _ = a_row(published="about two").expected
+
+
+def test_published_numbers_are_never_typed_twice():
+    """Only `printed` rows take their number from the page; the others get it from a closed form."""
+    for row in ATTEMPTED:
+        if row.kind == "printed":
+            assert row.expected is not None
+        else:
+            assert row.expected is None
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"why": None}, "'why' is missing"),
+        ({"tolerance": None}, "needs tolerance"),
+        ({"case": None}, "needs case"),
+        ({"tolerance": "0"}, "it must be above 0"),
+        ({"readout": "tip"}, "unknown read-out 'tip'"),
+        ({"standing": "erratum"}, "names no entry of the errata"),
+        ({"claim": "outside"}, "cannot stand as 'reproduced'"),
+        ({"tolerence": "1"}, "did you mean 'tolerance'"),
+        ({"standing": "done"}, "it must be 'reproduced'"),
+    ],
+)
+def test_incomplete_rows_do_not_load(change, sentence):
+    kept = {key: value for key, value in change.items() if value is not None}
+    known = {
+        key: value for key, value in a_row().model_dump().items() if key not in change and value != ""
+    }
+    with pytest.raises(InputError, match=sentence):
+        Row.read({**known, **kept}, "row")
+
+
+def test_an_id_that_stands_twice_is_refused(tmp_path):
+    lines = TABLE.read_text().splitlines()
+    (tmp_path / "t.csv").write_text("\n".join([*lines, lines[1]]))
+    with pytest.raises(InputError, match="the id 3.4.14-c1 stands more than once"):
+        read_table(tmp_path / "t.csv")
+
+
+def test_a_claim_that_fails_is_named_after_the_report_is_written(folder, tmp_path):
+    strict = [row.replace(tolerance=1e-12) if row.id == "F3.10-tip" else row for row in ROWS]
+    report = tmp_path / "report.csv"
+    write_report(measure(strict, folder), report)
+    assert report.exists()
+    with pytest.raises(OutOfToleranceError, match=r"F3\.10-tip: tip displacement .* measured -0\.0369"):
+        check(read_report(report))
+
+
+def test_an_erratum_that_stops_being_one_is_noticed(folder, tmp_path):
+    """A row claimed outside its tolerance fails once it lies within."""
+    wide = [row.replace(tolerance=10.0) if row.id == "F3.12-midspan-printed" else row for row in ROWS]
+    report = tmp_path / "report.csv"
+    write_report(measure(wide, folder), report)
+    with pytest.raises(OutOfToleranceError, match=r"F3\.12-midspan-printed"):
+        check(read_report(report))
+
+
+def test_files_of_another_case_and_missing_files_are_refused(folder, tmp_path):
+    with pytest.raises(InputError, match=r"there is no file .*run the case first"):
+        measure(ROWS, tmp_path)
+    for file in folder.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    (tmp_path / "necking.nc").write_bytes((folder / "clamped_free.nc").read_bytes())
+    with pytest.raises(InputError, match="holds the case 'clamped_free'; run 'necking' again"):
+        measure(ROWS, tmp_path)
+
+
+def test_every_row_names_a_known_case_and_entry_of_the_errata():
+    errata = read_errata(ROOT / "results/errata.toml")
+    for row in ROWS:
+        assert not row.erratum or row.erratum in errata, row.id
+        assert not row.case or row.case in cosserat.cases(), row.id
+        if row.standing in ("erratum", "assumption"):
+            assert errata[row.erratum].standing == row.standing, row.id
+
+
+def test_every_read_out_is_used():
+    assert {row.readout for row in ATTEMPTED} == set(READOUTS)
+
+
+def test_midspan_of_even_and_odd_rods():
+    import numpy as np
+
+    assert midspan(np.array([0.0, 1.0, 5.0])) == 1.0
+    assert midspan(np.array([0.0, 1.0, 2.0, 5.0])) == 1.5
+
+
+def test_missing_tables_are_refused(tmp_path):
+    with pytest.raises(InputError, match="cannot read the table"):
+        read_table(tmp_path / "none.csv")
+    with pytest.raises(InputError, match="there is no report"):
+        read_report(tmp_path / "none.csv")
+    with pytest.raises(InputError, match="cannot read the errata"):
+        read_errata(tmp_path / "none.toml")
