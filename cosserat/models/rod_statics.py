@@ -30,8 +30,10 @@ class _VertexName:
 
     @staticmethod
     def check(value: object) -> str | int:
-        named = value in ("first", "last")
-        if isinstance(value, bool) or not (named or (isinstance(value, int) and value >= 0)):
+        """Read one name of a vertex."""
+        if isinstance(value, str) and value in ("first", "last"):
+            return value
+        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
             raise PydanticCustomError(
                 "type", f"is {value!r}; it must be 'first', 'last' or the index of a vertex"
             )

@@ -14,14 +14,10 @@ from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.solvers.banded import Band, Mask, Vector, absolute_product, hold, solve_positive
 
-_ARMIJO = (
-    1e-4  # least share of the predicted decrease that a step must reach (Nocedal & Wright, section 3.1)
-)
+_ARMIJO = 1e-4  # share of the predicted fall that a step must reach (Nocedal & Wright, section 3.1)
 _SHORTEST = 2.0**-30  # the line search gives up below this share of the Newton step
 _SHIFTS = tuple(4.0**k for k in range(-14, 3))  # shares of the largest diagonal entry, tried in turn
-_ROUNDING = float(
-    np.finfo(float).eps
-)  # of a position, between two of which a force comes from a difference
+_ROUNDING = float(np.finfo(float).eps)  # of a position; forces come from differences of positions
 _NOISE = 1e-8  # share of the energy below which a rise of it is not believed
 
 

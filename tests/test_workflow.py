@@ -1,0 +1,162 @@
+"""Snakemake on a copy of the repository: what reruns after which change, and what a failing claim leaves behind."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+
+import cosserat
+from cosserat.figures.catalogue import FIGURES
+
+pytestmark = pytest.mark.workflow
+
+
+def call(folder, *arguments):
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PYTHONPATH": str(folder), "PATH": path}
+    done = subprocess.run(
+        arguments, cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+def snakemake(folder, *arguments):
+    return call(folder, "snakemake", *arguments)
+
+
+def planned(folder):
+    """Rules that a dry run would use and files that it would make, below results."""
+    code, text = snakemake(folder, "all", "--dry-run")
+    assert code == 0, text
+    rules = set(re.findall(r"^(?:local)?rule (\w+):$", text, re.MULTILINE))
+    outputs = set(re.findall(r"^    output: results/(\S+)", text, re.MULTILINE))
+    return rules - {"all"}, outputs
+
+
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory):
+    """A copy of the tracked files in which everything up to the figures has been made."""
+    folder = tmp_path_factory.mktemp("checkout")
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    for name in listed.stdout.splitlines():
+        if (ROOT / name).is_file():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, folder / name)
+    figures = [f"results/figures/{name}.svg" for name in FIGURES]
+    code, text = snakemake(folder, "results/check.txt", *figures)
+    assert code == 0, text
+    return folder
+
+
+@pytest.fixture
+def edited(checkout):
+    """Edit a file of the checkout for one test."""
+    kept = {}
+
+    def edit(name, old, new):
+        file = checkout / name
+        text = kept.setdefault(file, file.read_text())
+        assert old in text
+        file.write_text(text.replace(old, new))
+
+    yield edit
+    for file, text in kept.items():
+        file.write_text(text)
+
+
+BOOK = {"chapter", "book"}  # not made in the checkout, so always planned
+
+
+def test_nothing_is_left_to_do_but_the_book(checkout):
+    assert planned(checkout)[0] == BOOK
+
+
+def test_one_case_edited_reruns_it_and_its_descendants_only(checkout, edited):
+    edited("cosserat/cases/chapter3.toml", "rod.poisson = 0.3", "rod.poisson = 0.31")
+    rules, outputs = planned(checkout)
+    assert rules == {"simulate", "measure", "check", "figure"} | BOOK
+    cases = {name for name in outputs if name.startswith("cases/")}
+    assert cases == {"cases/necking.nc", "cases/necking_printed.nc"}  # the second is like the first
+    drawn = {name for name in outputs if name.startswith("figures/")}
+    assert drawn == {"figures/fig_3_8.svg", "figures/fig_3_12.svg"}
+
+
+def test_the_solver_edited_reruns_every_simulation(checkout, edited):
+    edited("cosserat/solvers/newton.py", "_ARMIJO = 1e-4", "_ARMIJO = 2e-4")
+    _, outputs = planned(checkout)
+    assert {f"cases/{name}.nc" for name in cosserat.cases()} <= outputs
+
+
+def test_plotting_edited_reruns_no_simulation(checkout, edited):
+    edited("cosserat/figures/style.py", '"font.size": 9', '"font.size": 10')
+    rules, outputs = planned(checkout)
+    assert rules == {"figure"} | BOOK
+    assert {f"figures/{name}.svg" for name in FIGURES} <= outputs
+
+
+def test_a_tolerance_edited_measures_again_and_solves_nothing(checkout, edited):
+    edited("results/tolerances.csv", ',1e-4,rel,within,"lumped', ',2e-4,rel,within,"lumped')
+    assert planned(checkout)[0] == {"measure", "check"} | BOOK
+
+
+def test_a_claim_that_fails_stops_the_workflow_and_leaves_the_report(checkout, edited):
+    edited("results/tolerances.csv", ',1e-4,rel,within,"lumped', ',1e-9,rel,within,"lumped')
+    code, text = snakemake(checkout, "results/check.txt")
+    assert code != 0
+    assert "F3.9-tip: tip displacement of the hanging bar" in text
+    assert "FAILS" in (checkout / "results/report.csv").read_text()
+
+
+def test_a_case_that_cannot_be_solved_stops_the_workflow_with_its_sentence(checkout, edited):
+    edited("cosserat/cases/chapter3.toml", '"1 kN"', '"1e15 N"')
+    code, text = snakemake(checkout, "results/cases/necking.nc")
+    assert code != 0
+    assert "case 'necking': no equilibrium found" in text
+
+
+def test_every_rule_has_a_log_and_a_benchmark():
+    rules = re.split(r"\n(?=rule )", (ROOT / "Snakefile").read_text())[2:]
+    assert len(rules) >= 6
+    for rule in rules:
+        assert "log:" in rule, rule
+        assert "benchmark:" in rule, rule
+
+
+def test_lint_has_no_complaint_but_the_missing_conda_environments(checkout):
+    _, text = call(checkout, "snakemake", "--lint")
+    complaints = [line for line in text.splitlines() if line.startswith("    * ")]
+    assert [line for line in complaints if "Specify a conda environment" not in line] == []
+
+
+@pytest.mark.parametrize(
+    ("stub", "sentence"),
+    [
+        ("exit 1", "cosserat needs Python 3.11 or newer as"),
+        ('case "$2" in *ensurepip*) exit 1;; esac', "apt-get install python3-venv"),
+    ],
+)
+def test_make_says_what_the_machine_lacks(checkout, tmp_path, stub, sentence):
+    python = tmp_path / "python3"
+    python.write_text(f"#!/bin/sh\n{stub}\n")
+    python.chmod(0o755)
+    code, text = call(checkout, "make", f"PYTHON={python}", "VENV=.other")
+    assert code != 0
+    assert sentence in text
+    assert not (checkout / ".other").exists()
+
+
+def test_the_report_is_one_file(checkout):
+    code, text = snakemake(checkout, "results/check.txt", "--report", "report.html")
+    assert code == 0, text
+    assert (checkout / "report.html").stat().st_size > 100_000
