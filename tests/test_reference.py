@@ -73,4 +73,7 @@ def test_accepting_asks_for_a_reason_and_keeps_it(solved, tmp_path):
     report = accept(moved, path, "the load was doubled by mistake")
     assert report[0].startswith("u: 0.0036")
     history = cosserat.load(path).attrs["history"]
-    assert history == "first result of this case\nthe load was doubled by mistake"
+    assert (
+        history
+        == "cosserat run clamped_free\nfirst result of this case\nthe load was doubled by mistake"
+    )

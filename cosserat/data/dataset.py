@@ -53,6 +53,7 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
         "references": THESIS,
         "comment": case.source or "a case of the user",
         "source": source(),
+        "history": f"cosserat run {case.name}",
         "case": case.name,
         "parameters": _sorted_json(json.loads(case.model_dump_json())),
         "solver": _sorted_json(dict(outcome.statistics)),

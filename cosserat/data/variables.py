@@ -39,10 +39,10 @@ VARIABLES: dict[str, Variable] = {
     "xi_edge": Variable(
         ("edge",), "m", "reference arc length of the edge midpoints", r"\xi", "3.3.1", 1e-14
     ),
-    "X": Variable(
+    "x_ref": Variable(
         ("vertex", "axis"), "m", "reference centreline position", r"\mathbf{X}", "3.3.1", 1e-14
     ),
-    "D": Variable(("vertex", "axis"), "m", "reference director", r"\mathbf{D}", "3.3.3", 1e-14),
+    "d_ref": Variable(("vertex", "axis"), "m", "reference director", r"\mathbf{D}", "3.3.3", 1e-14),
     "x": Variable(("vertex", "axis"), "m", "centreline position", r"\mathbf{x}", "3.3.2", 1e-12),
     "d": Variable(("vertex", "axis"), "m", "director", r"\mathbf{d}", "3.3.3", 1e-12),
     "u": Variable(("vertex", "axis"), "m", "centreline displacement", r"\mathbf{u}", "3.3.2", 1e-12),

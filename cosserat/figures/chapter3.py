@@ -57,7 +57,7 @@ def fig_3_8(data: Data) -> Figure:
 def _draw_panel(ax: Axes, data: xr.Dataset, magnified: float) -> None:
     """The rod as the body it stands for, with its supports and loads; lateral surfaces at x + d and x - d."""
     problem = case_of(data).problem
-    X, D = data.X.to_numpy(), data.D.to_numpy()
+    X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
     x, d = X + magnified * data.u.to_numpy(), D + magnified * data.delta.to_numpy()
     _draw_outline(ax, X, D, facecolor="none", edgecolor=EXACT, linestyle=":")
     _draw_outline(ax, x, d, facecolor=BODY, edgecolor=COMPUTED)

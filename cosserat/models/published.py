@@ -215,7 +215,7 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         t0[K], t1[K] = e0 / m[K], e1 / m[K]
     r, d0, d1, c, c0, c1 = np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n)
     theta = np.empty(n)
-    collapsed = m.min() <= 0.0
+    collapsed = bool(m.min() <= 0.0)
     for K in range(n):
         low, high = max(K - 1, 0), min(K + 1, n - 1)  # eqs. (3.3.7)-(3.3.9)
         b0, b1 = q[4 * high] - q[4 * low], q[4 * high + 1] - q[4 * low + 1]
@@ -225,7 +225,7 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         d0[K], d1[K] = q[4 * K + 2] / r[K], q[4 * K + 3] / r[K]
         upright = c0[K] * d1[K] - c1[K] * d0[K]  # b . d, b = t x E1, eq. (3.3.25)
         theta[K] = np.arctan2(-c0[K] * d0[K] - c1[K] * d1[K], upright)  # eqs. (3.3.24), (3.3.26)
-        collapsed = collapsed or not upright > 0.0 or not r[K] > 0.0
+        collapsed = collapsed or bool(not upright > 0.0) or bool(not r[K] > 0.0)
     if collapsed:
         return np.inf
 

@@ -217,8 +217,8 @@ def _fields(geometry: Geometry, body: PublishedRod, state: Equilibrium, load: Ar
     return {
         "xi": arc,
         "xi_edge": (arc[1:] + arc[:-1]) / 2,
-        "X": geometry.X,
-        "D": geometry.D,
+        "x_ref": geometry.X,
+        "d_ref": geometry.D,
         "x": x,
         "d": d,
         "u": x - geometry.X,

@@ -95,10 +95,10 @@ def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
             f"the reason {because!r} says too little; say in a sentence why the numbers may change"
         )
     report = ["no reference was stored before"]
-    history = because
+    history = f"{fresh.attrs['history']}\n{because}"
     if path.exists():
         stored = load(path)
-        history = f"{stored.attrs.get('history', '')}\n{because}".strip()
+        history = f"{stored.attrs['history']}\n{because}"
         try:
             changes = compare(fresh, stored)
             report = [
