@@ -197,6 +197,22 @@ page.figure("fig_3_10", "Filled, our reading of eq. (3.4.10); hollow, the end ar
 # %% tags=["remove-input"]
 page.rows("F3.10")
 
+# %% [markdown]
+# Between two clamps the same equations give
+#
+# $$
+# \mathbf{u} \cdot \mathbf{E}_2 = \left( -\frac{\sigma_1}{24} \frac{\xi^3}{\ell^3} + \frac{\sigma_1}{12} \frac{\xi^2}{\ell^2}
+# + \frac{12\sigma_2 - \sigma_1}{24} \frac{\xi}{\ell} - \frac{\sigma_2}{2} \right) \xi , \tag{3.5.6}
+# $$
+#
+# $$
+# \boldsymbol{\delta} \cdot \mathbf{E}_3 = \frac{\sigma_1}{6} \frac{\xi^3}{\ell^3} - \frac{\sigma_1}{4} \frac{\xi^2}{\ell^2}
+# + \frac{\sigma_1}{12} \frac{\xi}{\ell} . \tag{3.5.7}
+# $$
+
+# %% tags=["remove-input"]
+page.source(analytic.clamped_clamped_displacement)
+
 # %% tags=["remove-input"]
 page.figure("fig_3_11", "The same two readings between two clamps, against eqs. (3.5.6) and (3.5.7).")
 

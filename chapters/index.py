@@ -55,4 +55,4 @@ import cosserat
 
 mine = cosserat.case("clamped_free").vary("long_beam", rod={"length": "10 m", "vertices": 41})
 beam = cosserat.run(mine)
-page.say(f"Its tip sinks by {-beam.u.sel(axis='E2')[-1].item():.3f} m.")
+print(f"Its tip sinks by {-beam.u.sel(axis='E2')[-1].item():.3f} m.")

@@ -11,12 +11,12 @@
 # %% [markdown]
 # # The results table
 #
-# One row for each number or curve that the thesis publishes. *Published* is the text of the page, never corrected.
+# One row for each number or curve that the thesis publishes. *Printed text* is that of the page, never corrected; where the page claims that two curves agree at some coefficients, it is those coefficients.
 # *Expected* is that number in SI units, or what the closed form gives where the page claims agreement with it. *Measured*
 # is what the stored datasets say. The claim of a row is that the measured number lies within its tolerance, or, where
 # the page is wrong or admits a reading that does not fit, that it lies outside.
 
-# %% tags=["remove-input", "full-width"]
+# %% tags=["remove-input"]
 from cosserat.book import page
 from cosserat.table.tolerances import read_report
 
@@ -34,12 +34,12 @@ lines = [
     ]
     for row in attempted
 ]
-page.table(lines, ("row", "quantity", "published", "expected", "measured", "verdict", "standing"))
+page.table(lines, ("row", "quantity", "printed text", "expected", "measured", "verdict", "standing"))
 
 # %% [markdown]
 # ## Why each tolerance is what it is
 
-# %% tags=["remove-input", "full-width"]
+# %% tags=["remove-input"]
 page.table(
     [
         [
@@ -56,7 +56,7 @@ page.table(
 # %% [markdown]
 # ## Not attempted yet
 
-# %% tags=["remove-input", "full-width"]
+# %% tags=["remove-input"]
 later = [row for row in report if row["standing"] == "not attempted"]
 page.table(
     [[row[name] for name in ("id", "where", "quantity", "published", "why")] for row in later],

@@ -1,18 +1,38 @@
 """Directed rods of Green and Naghdi's kind: solvers for E. G. Hemingway's thesis (Berkeley, 2020), and for your rod.
 
-import cosserat
-beam = cosserat.run("clamped_free")                       # a published case, as an xarray.Dataset
-long = cosserat.case("clamped_free").vary("long", rod={"length": "10 m"})
-print(cosserat.run(long).u.sel(axis="E2")[-1].item())     # its tip displacement in m
+    import cosserat
+    beam = cosserat.run("clamped_free")                       # a published case, as an xarray.Dataset
+    long = cosserat.case("clamped_free").vary("long", rod={"length": "10 m"})
+    print(cosserat.run(long).u.sel(axis="E2")[-1].item())     # its tip displacement in m
+
+Names are imported when first used, so that the command line answers at once.
 """
 
-from cosserat.cases.catalogue import Case
-from cosserat.cases.catalogue import find as case
-from cosserat.cases.catalogue import load as load_cases
-from cosserat.cases.catalogue import published as cases
-from cosserat.data.dataset import case_of, load, save
-from cosserat.errors import CosseratError, InputError, NotConvergedError, UnsupportedRodError
-from cosserat.run import run
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from cosserat.cases.catalogue import Case, published
+    from cosserat.cases.catalogue import find as case
+    from cosserat.cases.catalogue import load as load_cases
+    from cosserat.data.dataset import case_of, load, save
+    from cosserat.errors import CosseratError, InputError, NotConvergedError, UnsupportedRodError
+    from cosserat.runner import run
+
+_HOMES = {
+    "Case": ("cosserat.cases.catalogue", "Case"),
+    "case": ("cosserat.cases.catalogue", "find"),
+    "published": ("cosserat.cases.catalogue", "published"),
+    "load_cases": ("cosserat.cases.catalogue", "load"),
+    "case_of": ("cosserat.data.dataset", "case_of"),
+    "load": ("cosserat.data.dataset", "load"),
+    "save": ("cosserat.data.dataset", "save"),
+    "CosseratError": ("cosserat.errors", "CosseratError"),
+    "InputError": ("cosserat.errors", "InputError"),
+    "NotConvergedError": ("cosserat.errors", "NotConvergedError"),
+    "UnsupportedRodError": ("cosserat.errors", "UnsupportedRodError"),
+    "run": ("cosserat.runner", "run"),
+}
 
 __all__ = [
     "Case",
@@ -22,9 +42,21 @@ __all__ = [
     "UnsupportedRodError",
     "case",
     "case_of",
-    "cases",
     "load",
     "load_cases",
+    "published",
     "run",
     "save",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'cosserat' has no attribute '{name}'")
+    module, attribute = _HOMES[name]
+    value = globals()[name] = getattr(importlib.import_module(module), attribute)
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from cosserat.errors import CosseratError, InputError
 
@@ -13,14 +15,24 @@ RESULTS = Path("results")
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run one command; 0 if it did what was asked, 1 if a claim or a solve failed, 2 for a bad input."""
-    options = _parser().parse_args(arguments)
-    command: Callable[[argparse.Namespace], None] = options.command
+    """Run one command.
+
+    Returns 0 if it did what was asked, 1 if a claim or a solve failed, 2 for a bad input, 130 if interrupted.
+    """
     try:
+        options = _parser().parse_args(arguments)
+        command: Callable[[argparse.Namespace], None] = options.command
         command(options)
+        sys.stdout.flush()
     except CosseratError as error:
         print(f"cosserat: {error}", file=sys.stderr)
         return 2 if isinstance(error, InputError) else 1
+    except KeyboardInterrupt:
+        print("cosserat: interrupted; nothing half-done was written", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - whoever read our output has gone
+        return 0
     return 0
 
 
@@ -30,6 +42,9 @@ def _parser() -> argparse.ArgumentParser:
         description="Solve directed-rod problems and reproduce E. G. Hemingway's thesis (Berkeley, 2020).",
         epilog=_epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--version", action=_Version, help="print the version and the digest of the computing code"
     )
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
 
@@ -58,6 +73,10 @@ def _parser() -> argparse.ArgumentParser:
         "print what a netCDF file of ours holds: parameters, solver, range of each variable",
     )
     sub.add_argument("file", type=Path)
+
+    sub = add("plot", _plot, "draw a stored result: the body, its displacement and its strains")
+    sub.add_argument("file", type=Path, help="netCDF file of ours")
+    sub.add_argument("-o", "--output", type=Path, help="SVG file to write (default: beside the file)")
 
     sub = add("figure", _figure, "draw one figure of the thesis from stored results")
     sub.add_argument("figure", help="name of a figure, such as fig_3_10")
@@ -109,6 +128,17 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+class _Version(argparse.Action):
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(nargs=0, **settings)
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from cosserat.data.provenance import source
+
+        print(source())
+        parser.exit()
+
+
 def _epilog() -> str:
     from cosserat.cases.catalogue import titles
 
@@ -118,7 +148,8 @@ def _epilog() -> str:
         f"published cases:\n{listed}\n\n"
         "example:\n"
         "  cosserat run clamped_free        solves it and writes clamped_free.nc here\n"
-        "  cosserat show clamped_free.nc    prints what came out\n\n"
+        "  cosserat show clamped_free.nc    prints what came out\n"
+        "  cosserat plot clamped_free.nc    draws it into clamped_free.svg\n\n"
         "a case of your own, in my.toml, may start from a published one:\n"
         '  [long_beam]\n  like = "clamped_free"\n  rod.length = "10 m"\n\n'
         "  cosserat run long_beam --file my.toml"
@@ -140,8 +171,8 @@ def _run(options: argparse.Namespace) -> None:
 
     case = find(options.case, options.file)
     path = options.output or Path(f"{case.name}.nc")
-    check_destination(path)
-    from cosserat.run import run
+    check_destination(path, ".nc")
+    from cosserat.runner import run
 
     dataset = run(case)
     save(dataset, path)
@@ -156,19 +187,17 @@ def _show(options: argparse.Namespace) -> None:
     from cosserat.data.dataset import case_of, load, statistics_of
 
     dataset = load(options.file)
-    case = case_of(dataset)
+    case, statistics = case_of(dataset), statistics_of(dataset)
     print(f"{case.name}: {case.title}\n{dataset.attrs['source']}")
     print("\nparameters (SI units)")
     for name, value in _flat(case.problem.model_dump()):
         print(f"  {name} = {value}")
-    print(
-        "\nsolver\n" + "\n".join(f"  {name} = {value}" for name, value in statistics_of(dataset).items())
-    )
+    print("\nsolver\n" + "\n".join(f"  {name} = {value}" for name, value in statistics.items()))
     print("\nvariables: least, largest, unit")
     for variable, values in dataset.data_vars.items():
-        about = values.attrs
+        about = {"units": "", "long_name": "", **values.attrs}
         print(
-            f"  {variable!s:<9} {values.min():>11.4g} {values.max():>11.4g} {about['units']:<4} {about['long_name']}"
+            f"  {variable!s:<9} {values.min():>14.7g} {values.max():>14.7g} {about['units']:<4} {about['long_name']}"
         )
 
 
@@ -184,6 +213,20 @@ def _figure(options: argparse.Namespace) -> None:
 
     path = options.output or Path(f"{options.figure}.svg")
     draw_to(options.figure, options.cases, path)
+    print(f"wrote {path}")
+
+
+def _plot(options: argparse.Namespace) -> None:
+    from cosserat.data.dataset import check_destination, load
+    from cosserat.figures.rod import picture
+    from cosserat.figures.style import settings, write
+
+    path = options.output or options.file.with_suffix(".svg")
+    check_destination(path, ".svg")
+    data = load(options.file)
+    with settings():
+        figure = picture(data)
+    write(figure, path)
     print(f"wrote {path}")
 
 
@@ -208,7 +251,7 @@ def _check(options: argparse.Namespace) -> None:
 
 def _accept(options: argparse.Namespace) -> None:
     from cosserat.data.dataset import check_destination
-    from cosserat.run import run
+    from cosserat.runner import run
     from cosserat.table.reference import accept
 
     path = options.references / f"{options.case}.nc"

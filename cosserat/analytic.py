@@ -102,8 +102,9 @@ def necking_decay(beam: Beam, theory: NeckingTheory) -> float:
         "plane strain": 2 * slenderness / (1 - nu),
         "free section": 2 * slenderness * (1 + nu),
     }
-    # derived: with n = const, beta^2 = (k2 - k7^2/k1) / k6, k1, k2, k7 the small-strain stiffnesses.  Two directors:
-    # E / ((1 - nu) mu) A/I; plane strain: E / ((1 - nu^2) mu) A/I; free in E1: E A / (mu I); and E = 2 (1 + nu) mu.
+    # derived: with n constant, beta^2 = (k2 - k7^2 / k1) / k6, where k1, k2, k7 are the small-strain
+    # stiffnesses.  Two directors: E / ((1 - nu) mu) A/I; plane strain: E / ((1 - nu^2) mu) A/I;
+    # free in E1: E A / (mu I); and E = 2 (1 + nu) mu.
     return float(np.sqrt(squared[theory]))
 
 

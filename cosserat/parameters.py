@@ -9,6 +9,8 @@ from __future__ import annotations
 import difflib
 import functools
 import math
+import numbers
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self
@@ -32,8 +34,15 @@ def _units() -> pint.UnitRegistry[float]:
     return pint.UnitRegistry()
 
 
+_NUMBER = re.compile(
+    r"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?nan|[+-]?inf)"
+    r"(?:\s*/\s*(?P<divisor>\d+))?"
+    r"(?:\s*(?P<unit>[A-Za-zµ%°][A-Za-zµ%°0-9 ^*/()-]*))?\s*"
+)
+
+
 def to_si(value: object, unit: str, *, unit_required: bool) -> float:
-    """Read one value as a number in the SI unit `unit`.
+    """Read one value as a number in the SI unit `unit`: a number, or a text such as "2.5 mm", "1e3 kg/m" or "5/6".
 
     Raises
     ------
@@ -42,10 +51,10 @@ def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     remedy = (
         "write a number, such as 0.3" if unit == "1" else f'write it with its unit, such as "2.5 {unit}"'
     )
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
-        raise PydanticCustomError("type", f"is {value!r}, not a number; {remedy}")
     if isinstance(value, str):
         number = _read_text(value, unit, remedy)
+    elif isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise PydanticCustomError("type", f"is {value!r}, not a number; {remedy}")
     elif unit_required and unit != "1":
         raise PydanticCustomError("unit", f"is {value!r}, without a unit; {remedy}")
     else:
@@ -58,16 +67,18 @@ def to_si(value: object, unit: str, *, unit_required: bool) -> float:
 def _read_text(text: str, unit: str, remedy: str) -> float:
     import pint
 
+    found = _NUMBER.fullmatch(text)
+    if found is None or (found["divisor"] and not int(found["divisor"])):
+        raise PydanticCustomError("type", f'is "{text}", which is not a number with a unit; {remedy}')
+    number = float(found["number"]) / int(found["divisor"] or 1)
     try:
-        read: pint.Quantity[float] = _units().Quantity(text)
+        read = _units().Quantity(number, (found["unit"] or "").strip())
         return float(read.to("" if unit == "1" else unit).magnitude)
     except pint.DimensionalityError:
-        found = f"{read.units:~}" or "no unit at all"
-        raise PydanticCustomError("unit", f'is "{text}", in {found}; {remedy}') from None
-    except Exception:  # the unit parser raises errors of many kinds on text that is no quantity
-        raise PydanticCustomError(
-            "type", f'is "{text}", which is not a number with a unit; {remedy}'
-        ) from None
+        shown = (found["unit"] or "").strip() or "no unit at all"
+        raise PydanticCustomError("unit", f'is "{text}", in {shown}; {remedy}') from None
+    except Exception:  # the unit parser raises errors of many kinds on text that is no unit
+        raise PydanticCustomError("type", f'is "{text}", whose unit is not known; {remedy}') from None
 
 
 @dataclass(frozen=True)
@@ -115,11 +126,11 @@ class Count:
 
     def check(self, value: object) -> int:
         """Read and range-check one value."""
-        if isinstance(value, bool) or not isinstance(value, int):
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral):
             raise PydanticCustomError("type", f"is {value!r}; it must be a whole number")
         if value < self.at_least:
             raise PydanticCustomError("range", f"is {value}; it must be at least {self.at_least}")
-        return value
+        return int(value)
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

@@ -51,7 +51,7 @@ def solved():
     """Every published case, solved once, by name."""
     import cosserat
 
-    return {name: cosserat.run(case) for name, case in cosserat.cases().items()}
+    return {name: cosserat.run(case) for name, case in cosserat.published().items()}
 
 
 @pytest.fixture

@@ -27,7 +27,7 @@ ROOMS = (
     "models",
     "cases",
     "data",
-    "run",
+    "runner",
     "table",
     "figures",
     "book",

@@ -81,7 +81,8 @@ def rows(*prefixes: str) -> HTML:
         for row in found
     ]
     return table(
-        lines, ("row", "quantity", "published", "expected", "measured", "error / tolerance", "verdict")
+        lines,
+        ("row", "quantity", "printed text", "expected", "measured", "error / tolerance", "verdict"),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
@@ -13,7 +14,7 @@ from pydantic import ValidationError
 
 from cosserat.errors import InputError
 from cosserat.models.rod_statics import RodStatics
-from cosserat.parameters import Parameters, nearest
+from cosserat.parameters import Parameters, explain, nearest
 
 PUBLISHED = ("chapter3.toml",)
 """Case files of the package, beside this module."""
@@ -55,9 +56,7 @@ def titles() -> dict[str, str]:
     """Names and titles of the published cases, without building them."""
     tables = _published_tables()
     return {
-        name: str(_inherit(name, tables, ()).get("title", name))
-        for name in tables
-        if not name.startswith("_")
+        name: str(table.get("title", name)) for name, table in tables.items() if not name.startswith("_")
     }
 
 
@@ -83,7 +82,7 @@ def load(file: Path) -> Mapping[str, Case]:
     InputError : the file cannot be read, is not TOML, or one of its cases is not valid.
     """
     try:
-        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+        tables = tomllib.loads(file.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise InputError(
             f"cannot read the case file {file}: {error.strerror}; give the path of a TOML file"
@@ -92,6 +91,13 @@ def load(file: Path) -> Mapping[str, Case]:
         raise InputError(
             f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml for an example"
         ) from None
+    stray = [key for key, value in tables.items() if not isinstance(value, dict)]
+    if stray:
+        raise InputError(
+            f"{file}: '{stray[0]}' stands outside a case; put it below the case's name, such as [my_rod]"
+        )
+    if not tables:
+        raise InputError(f"{file} holds no case; begin one with its name, such as [my_rod]")
     return _build_all(tables, _published_tables() | tables)
 
 
@@ -105,7 +111,10 @@ def parse(parameters: str) -> Case:
     try:
         return Case.model_validate_json(parameters)
     except ValidationError as error:
-        raise InputError(f"these parameters are of another version of cosserat: {error}") from None
+        raise InputError(
+            f"the stored parameters are of another version of cosserat ({explain(error, Case, 'parameters')}); "
+            "run the case again"
+        ) from None
 
 
 def _published_tables() -> dict[str, Any]:
@@ -121,9 +130,13 @@ def _build_all(asked: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, 
 
 
 def _build(name: str, known: Mapping[str, Any]) -> Case:
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
+        raise InputError(f"the case name {name!r} cannot name a file; use letters, digits, '_' and '-'")
     table = _inherit(name, known, ())
-    title, source, kind = (table.pop(key, "") for key in ("title", "source", "kind"))
-    if kind not in KINDS:
+    own = known[name]
+    title, source = (own.get(key, "") for key in ("title", "source"))  # a title is not inherited
+    kind = table.pop("kind", "")
+    if not isinstance(kind, str) or kind not in KINDS:
         raise InputError(f"case '{name}': 'kind' is {kind!r}{nearest(str(kind), list(KINDS))}")
     problem = KINDS[kind].read(table, f"case '{name}'")
     return Case(name=name, title=str(title) or name, source=str(source), problem=problem)
@@ -135,11 +148,11 @@ def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict
         raise InputError(
             f"case '{name}': its 'like' leads back to itself ({' -> '.join((*seen, name))}); break the circle"
         )
-    table = known.get(name)
-    if not isinstance(table, dict):
-        where = f"case '{seen[-1]}': 'like'" if seen else f"'{name}'"
-        raise InputError(f"{where} names no case: {name!r}{nearest(name, list(known))}")
-    own = dict(table)
+    if name not in known:
+        raise InputError(
+            f"case '{seen[-1]}': 'like' names no case: {name!r}{nearest(name, list(known))}"
+        )
+    own = {key: value for key, value in known[name].items() if key not in ("title", "source")}
     base = own.pop("like", None)
     return _merge(_inherit(str(base), known, (*seen, name)), own) if base is not None else own
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
-import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -75,23 +76,58 @@ def case_of(dataset: xr.Dataset) -> Case:
 
 
 def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
-    """The solver's statistics that a Dataset carries."""
-    return dict(json.loads(dataset.attrs["solver"]))
+    """The solver's statistics that a Dataset carries.
+
+    Raises
+    ------
+    InputError : it carries none.
+    """
+    try:
+        return dict(json.loads(dataset.attrs["solver"]))
+    except (KeyError, ValueError, TypeError):
+        raise InputError(
+            "this Dataset has no readable attribute 'solver'; use one that cosserat wrote"
+        ) from None
 
 
-def check_destination(path: Path) -> None:
+def check_destination(path: Path, suffix: str = "") -> None:
     """Refuse a file that could not be written, before anything is computed.
 
     Raises
     ------
-    InputError : the folder is missing or the path is a folder.
+    InputError : the folder is missing or cannot be written to, or the path is a folder, a device or of another kind.
     """
+    remedy = "choose another with --output"
     if not path.parent.is_dir():
-        raise InputError(
-            f"the folder {path.parent} does not exist; make it first or choose another with --output"
-        )
+        raise InputError(f"the folder {path.parent} does not exist; make it first or {remedy}")
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the name of a file with --output")
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path} is no ordinary file; {remedy}")
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(f"the folder {path.parent} cannot be written to; {remedy}")
+    if suffix and path.suffix != suffix:
+        raise InputError(f"{path} would be written as {suffix[1:]}; let its name end in '{suffix}'")
+
+
+@contextlib.contextmanager
+def whole_or_absent(path: Path) -> Iterator[Path]:
+    """A temporary name beside `path` to write to; it takes the place of `path` when the block ends well.
+
+    Raises
+    ------
+    InputError : the system refuses to write.
+    """
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        yield temporary
+        temporary.replace(path)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"cannot write {path}: {reason}; check name, space and permissions") from None
+    finally:
+        with contextlib.suppress(OSError):
+            temporary.unlink()
 
 
 def save(dataset: xr.Dataset, path: Path) -> None:
@@ -103,24 +139,14 @@ def save(dataset: xr.Dataset, path: Path) -> None:
     ------
     InputError : the destination cannot be written.
     """
-    check_destination(path)
+    check_destination(path, ".nc")
     encoding = {
         str(name): {"_FillValue": None}
         for name, variable in dataset.variables.items()
         if variable.dtype.kind == "f"
     }
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-    os.close(handle)
-    try:
+    with whole_or_absent(path) as temporary:
         dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except OSError as error:
-        raise InputError(
-            f"cannot write {path}: {error.strerror or error}; check space and permissions"
-        ) from None
-    finally:
-        Path(temporary).unlink(missing_ok=True)
 
 
 def load(path: Path) -> xr.Dataset:
@@ -130,6 +156,8 @@ def load(path: Path) -> xr.Dataset:
     ------
     InputError : the file is missing or cannot be read as netCDF.
     """
+    if path.is_dir():
+        raise InputError(f"{path} is a folder; give the name of a netCDF file")
     if not path.is_file():
         raise InputError(
             f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"

@@ -9,7 +9,16 @@ import platform
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
-_COMPUTING = ("errors.py", "outcome.py", "parameters.py", "run.py", "solvers", "models", "cases", "data")
+_COMPUTING = (
+    "errors.py",
+    "outcome.py",
+    "parameters.py",
+    "runner.py",
+    "solvers",
+    "models",
+    "cases",
+    "data",
+)
 
 
 def computing_sources() -> list[Path]:

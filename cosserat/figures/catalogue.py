@@ -72,7 +72,7 @@ def draw_to(name: str, folder: Path, path: Path) -> None:
     from cosserat.data.dataset import check_destination, load
     from cosserat.figures.style import write
 
-    check_destination(path)
+    check_destination(path, ".svg")
     write(draw(name, {case: load(folder / f"{case}.nc") for case in entry(name).cases}), path)
 
 

@@ -3,26 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat import analytic
 from cosserat.data.dataset import case_of
-from cosserat.figures.style import (
-    BODY,
-    COMPUTED,
-    EXACT,
-    INK,
-    VARIANT,
-    canvas,
-    computed_points,
-    exact_curve,
-)
+from cosserat.figures.rod import draw_body
+from cosserat.figures.style import canvas, computed_points, exact_curve
 from cosserat.table.readouts import beam_of, tension_of, weight_of
 
 Array = NDArray[np.float64]
@@ -42,7 +32,7 @@ def fig_3_8(data: Data) -> Figure:
         ("necking", "(d) necking", 80_000),
     ]
     for ax, (name, title, magnified) in zip(axes, panels, strict=True):
-        _draw_panel(ax, data[name], magnified)
+        draw_body(ax, data[name], magnified)
         ax.set_title(f"{title}, displacements × {magnified}")
         ax.set_aspect("equal")
         ax.set(
@@ -52,41 +42,6 @@ def fig_3_8(data: Data) -> Figure:
             ylabel=r"along $\mathbf{E}_2$ [m]",
         )
     return figure
-
-
-def _draw_panel(ax: Axes, data: xr.Dataset, magnified: float) -> None:
-    """The rod as the body it stands for, with its supports and loads; lateral surfaces at x + d and x - d."""
-    problem = case_of(data).problem
-    X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
-    x, d = X + magnified * data.u.to_numpy(), D + magnified * data.delta.to_numpy()
-    _draw_outline(ax, X, D, facecolor="none", edgecolor=EXACT, linestyle=":")
-    _draw_outline(ax, x, d, facecolor=BODY, edgecolor=COMPUTED)
-    ax.quiver(
-        *x.T, *d.T, angles="xy", scale_units="xy", scale=1, color=COMPUTED, width=0.003, headwidth=5
-    )
-    ax.plot(*x.T, color=INK, linestyle="--", linewidth=0.9)
-    for support in problem.supports:
-        index = {"first": 0, "last": -1}[support.at] if isinstance(support.at, str) else support.at
-        section = np.column_stack([x[index] - 1.7 * D[index], x[index] + 1.7 * D[index]])
-        whole = {"d3", "d2"} <= set(support.hold)  # else the section may still stretch
-        ax.plot(*section, color=INK, linewidth=3.0 if whole else 1.2, solid_capstyle="butt", zorder=4)
-    if problem.gravity is not None:
-        along = np.array([1.0, 0.0]) if problem.gravity.along == "E3" else np.array([0.0, -1.0])
-        _draw_arrow(ax, np.array([2.5, 1.15]), along, "$g$")
-    for force, foot in zip(problem.forces, (x[0], x[-1]), strict=False):
-        _draw_arrow(ax, foot, np.array([1.0 if force.along == "E3" else -1.0, 0.0]), "$n$")
-
-
-def _draw_outline(ax: Axes, x: Array, d: Array, **colours: Any) -> None:
-    ax.fill(*np.vstack([x + d, (x - d)[::-1]]).T, linewidth=0.9, **colours)
-
-
-def _draw_arrow(ax: Axes, foot: Array, along: Array, label: str) -> None:
-    arrow = {"arrowstyle": "-|>", "color": VARIANT, "linewidth": 1.4}
-    ax.annotate("", tuple(foot + 0.7 * along), tuple(foot), arrowprops=arrow)
-    ax.annotate(
-        label, tuple(foot + 0.5 * along), xytext=(4, 4), textcoords="offset points", color=VARIANT
-    )
 
 
 def fig_3_9(data: Data) -> Figure:
@@ -164,6 +119,7 @@ def _beam(
         title="(b) directors",
     )
     left.legend()
+    right.legend()
     return figure
 
 

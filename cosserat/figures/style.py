@@ -12,6 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from cosserat.data.dataset import whole_or_absent
+
 Array = NDArray[np.float64]
 
 INK, PAPER, EXACT, COMPUTED, VARIANT, BODY = (
@@ -56,10 +58,8 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
 
 def write(figure: Figure, path: Path) -> None:
     """Write an SVG without a date, under a temporary name first."""
-    temporary = path.with_name(f".{path.name}.part")
-    with settings():
+    with settings(), whole_or_absent(path) as temporary:
         figure.savefig(temporary, format="svg", metadata={"Date": None})
-    temporary.replace(path)
 
 
 def exact_curve(ax: Axes, xi: Array, values: Array, label: str, *, dashed: bool = False) -> None:

@@ -18,6 +18,7 @@ _ARMIJO = 1e-4  # share of the predicted fall that a step must reach (Nocedal & 
 _SHORTEST = 2.0**-30  # the line search gives up below this share of the Newton step
 _SHIFTS = tuple(4.0**k for k in range(-14, 3))  # shares of the largest diagonal entry, tried in turn
 _ROUNDING = float(np.finfo(float).eps)  # of a position; forces come from differences of positions
+_BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answer worthless
 _NOISE = 1e-8  # share of the energy below which a rise of it is not believed
 
 
@@ -75,9 +76,10 @@ def equilibrium(
     NotConvergedError : no equilibrium within the tolerance; nothing half-converged is returned.
     """
     step = _Descent(body, held, settings, name)
-    result = step.run(start, load / settings.load_steps)
-    for number in range(2, settings.load_steps + 1):
-        result = step.run(result.q, load * (number / settings.load_steps))
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused, not warned of
+        result = step.run(start, load / settings.load_steps)
+        for number in range(2, settings.load_steps + 1):
+            result = step.run(result.q, load * (number / settings.load_steps))
     return result
 
 
@@ -103,6 +105,10 @@ class _Descent:
                 float(np.abs(load).max()), float(np.abs(self.gradient[self.held]).max(initial=0.0))
             )
             tolerance = max(self.settings.tolerance * scale, rounding)
+            if rounding > _BLUR * scale > 0:
+                raise self._failure(
+                    f"rounding the positions makes forces up to {rounding:.2g} N", residual, scale
+                )
             if residual <= tolerance:
                 reaction = np.where(self.held, self.gradient - load, 0.0)
                 return Equilibrium(
@@ -171,8 +177,8 @@ class _Descent:
     def _failure(self, reason: str, residual: float, tolerance: float) -> NotConvergedError:
         return NotConvergedError(
             f"{self.name}: no equilibrium found: {reason} (iteration {self.iterations}, largest unbalanced force "
-            f"{residual:.3g} N, allowed {tolerance:.3g} N); try a smaller load, more 'newton.load_steps' or more "
-            "'newton.max_iterations', and check that the body is stable under this load",
+            f"{residual:.3g} N, allowed {tolerance:.3g} N); try a smaller load, more 'newton.load_steps', more "
+            "'newton.max_iterations' or fewer vertices, and check that the body is stable under this load",
             iterations=self.iterations,
             residual=residual,
             tolerance=tolerance,

@@ -13,6 +13,7 @@ from typing import Annotated, Literal, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
+from cosserat.data.dataset import whole_or_absent
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters, Quantity, to_si
 from cosserat.table.readouts import READOUTS
@@ -117,6 +118,7 @@ class Judged(Parameters):
         return "within, loose" if ratio is not None and 0 < ratio < _LOOSE else "within"
 
 
+VERDICTS = ("within", "within, loose", "outside, as claimed", "not attempted", "FAILS")
 REPORT_COLUMNS = (*Row.model_fields, "expected", "measured", "error", "error_over_tolerance", "verdict")
 
 
@@ -141,6 +143,8 @@ def read_table(path: Path) -> list[Row]:
         )
         for number, line in enumerate(lines, start=2)
     ]
+    if not rows:
+        raise InputError(f"the table {path} has no rows; restore it from the repository")
     ids = [row.id for row in rows]
     twice = sorted({name for name in ids if ids.count(name) > 1})
     if twice:
@@ -159,12 +163,10 @@ def write_report(judged: list[Judged], path: Path) -> None:
             line[name] = getattr(item, name)
         line["verdict"] = item.verdict
         lines.append({key: _cell(value) for key, value in line.items()})
-    temporary = path.with_name(f".{path.name}.part")
-    with temporary.open("w", encoding="utf-8", newline="") as file:
+    with whole_or_absent(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, REPORT_COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(lines)
-    temporary.replace(path)
 
 
 def read_report(path: Path) -> list[dict[str, str]]:
@@ -172,15 +174,22 @@ def read_report(path: Path) -> list[dict[str, str]]:
 
     Raises
     ------
-    InputError : there is no report yet.
+    InputError : there is no report yet, or it is not a whole one.
     """
     try:
         with path.open(encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
+            reader = csv.DictReader(file)
+            rows = list(reader)
     except OSError:
         raise InputError(
             f"there is no report {path}; make it with 'snakemake all' or 'cosserat measure'"
         ) from None
+    except (UnicodeDecodeError, csv.Error):
+        raise InputError(f"{path} is not a report; make one with 'cosserat measure'") from None
+    whole = rows and tuple(reader.fieldnames or ()) == REPORT_COLUMNS
+    if not whole or {row["verdict"] for row in rows} - set(VERDICTS):
+        raise InputError(f"{path} is not a whole report; make it again with 'cosserat measure'")
+    return rows
 
 
 def _cell(value: object) -> str:
