@@ -98,6 +98,10 @@ def check_destination(path: Path, suffix: str = "") -> None:
     InputError : the folder is missing or cannot be written to, or the path is a folder, a device or of another kind.
     """
     remedy = "choose another with --output"
+    try:
+        path.exists()
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path} cannot name a file ({error}); {remedy}") from None
     if not path.parent.is_dir():
         raise InputError(f"the folder {path.parent} does not exist; make it first or {remedy}")
     if path.is_dir():
