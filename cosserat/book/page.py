@@ -88,7 +88,7 @@ def rows(*prefixes: str) -> HTML:
 
 def amount(number: str, unit: str) -> str:
     """A number of the report with four digits and its unit."""
-    return f"{float(number):.4g}" + ("" if unit == "1" else f" {unit}")
+    return f"{float(number):.4g}" + ("" if unit == "1" else f"\u00a0{unit}")
 
 
 def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:

@@ -110,6 +110,9 @@ def stiffnesses(
     )
 
 
+_NO_VECTOR, _NO_BAND = np.empty(0), np.empty((0, 14))  # what the kernel is given for derivatives not asked
+
+
 @dataclass(frozen=True)
 class PublishedRod:
     """The published rod as a solver sees it: an energy with its gradient and banded Hessian."""
@@ -126,12 +129,20 @@ class PublishedRod:
 
         The energy is infinite where a section or an edge has shrunk to nothing or a shear angle has reached pi/2.
         """
-        return float(_assemble(q, self.stiffness, gradient, band, np.empty(7)))
+        return float(_assemble(q, self.stiffness, 2, gradient, band, np.empty(7)))
+
+    def energy(self, q: Vector) -> float:
+        """Strain energy [J] at q, as `assemble` gives it."""
+        return float(_assemble(q, self.stiffness, 0, _NO_VECTOR, _NO_BAND, np.empty(7)))
+
+    def differentiate(self, q: Vector, gradient: Vector) -> float:
+        """Strain energy [J] at q; overwrites its gradient, shape (4 N,) [N]."""
+        return float(_assemble(q, self.stiffness, 1, gradient, _NO_BAND, np.empty(7)))
 
     def energy_terms(self, q: Vector) -> Array:
         """The seven terms of eq. (3.4.11) at q, in the order of `TERMS`, shape (7,) [J]."""
         terms = np.empty(7)
-        _assemble(q, self.stiffness, np.empty(q.size), np.empty((q.size, 14)), terms)
+        _assemble(q, self.stiffness, 0, _NO_VECTOR, _NO_BAND, terms)
         return terms
 
 
@@ -201,7 +212,10 @@ def _edge_block(
 
 
 @njit(cache=True, error_model="numpy")
-def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Array) -> float:
+def _assemble(
+    q: Vector, rod: Stiffness, order: int, gradient: Vector, band: Band, terms: Array
+) -> float:
+    """The energy and its seven terms; with order 1 also the gradient, with order 2 the Hessian too."""
     n = rod.voronoi.size
     gradient[:] = 0.0
     band[:, :] = 0.0
@@ -287,6 +301,10 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         W_m[K - 1] += rod.k7[K] / 2 * stretch
         W_m[K] += rod.k7[K] / 2 * stretch
 
+    total: float = terms.sum()
+    if order == 0:
+        return total
+
     # Third pass: the chain rule.  First what each edge, chord and director feels by itself ...
     for K in range(n - 1):
         p, s = 4 * K, 4 * K + 4
@@ -297,6 +315,8 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         gradient[p + 1] -= f1
         gradient[s] += f0
         gradient[s + 1] += f1
+        if order == 1:
+            continue
         _edge_block(band, p, s, t0[K], t1[K], W_mm[K], W_m[K] / m[K], -turning / (m[K] * m[K]))
     for K in range(n):
         p, s, u = 4 * max(K - 1, 0), 4 * min(K + 1, n - 1), 4 * K + 2
@@ -308,6 +328,8 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         gradient[s + 1] += W_theta[K] * g1
         gradient[u] += W_theta[K] * h0 + W_lam[K] * d0[K] / rod.director[K]
         gradient[u + 1] += W_theta[K] * h1 + W_lam[K] * d1[K] / rod.director[K]
+        if order == 1:
+            continue
         stiff = W_thetatheta[K]
         _edge_block(band, p, s, c0[K], c1[K], 0.0, stiff / (c[K] * c[K]), W_theta[K] / (c[K] * c[K]))
         _cross(band, s, g0, g1, u, h0, h1, stiff)
@@ -315,6 +337,9 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
         _square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod.director[K])
         _twist(band, u, d0[K], d1[K], -W_theta[K] / (r[K] * r[K]))
         _square(band, u, d0[K] / rod.director[K], d1[K] / rod.director[K], W_lamlam[K])
+
+    if order == 1:
+        return total
 
     # ... then what couples neighbours.
     for K in range(1, n - 1):
@@ -349,5 +374,4 @@ def _assemble(q: Vector, rod: Stiffness, gradient: Vector, band: Band, terms: Ar
             _cross(band, 4 * J + 2, i0, i1, at, v0, v1, w)
         w = W_lam_next[K] / (rod.director[K] * rod.director[J])
         _cross(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
-    total: float = terms.sum()
     return total
