@@ -24,6 +24,7 @@
 # :maxdepth: 2
 #
 # ch3_statics
+# ch3_motion
 # results_table
 # errata
 # ```

@@ -7,9 +7,12 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from cosserat.errors import CosseratError, InputError
+from cosserat.errors import CosseratError, DivergedError, InputError, NotConvergedError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 RESULTS = Path("results")
 
@@ -167,19 +170,45 @@ def _cases(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace) -> None:
     from cosserat.cases.catalogue import find
-    from cosserat.data.dataset import check_destination, save, statistics_of
+    from cosserat.data.dataset import check_destination, save
+    from cosserat.data.parts import Parts
 
     case = find(options.case, options.file)
     path = options.output or Path(f"{case.name}.nc")
     check_destination(path, ".nc")
     from cosserat.runner import run
 
-    dataset = run(case)
+    try:
+        dataset = run(case, result=path, progress=_report_progress)
+    except (NotConvergedError, DivergedError, KeyboardInterrupt) as stopped:
+        kept = Parts(path).folder
+        if not kept.is_dir():
+            raise
+        if isinstance(stopped, KeyboardInterrupt):
+            raise CosseratError(
+                f"interrupted; run the same command again to go on from {kept}"
+            ) from None
+        raise type(stopped)(f"{stopped}; what was computed is in {kept}") from None
     save(dataset, path)
+    Parts(path).remove()
+    print(f"{case.name}: {_done(dataset)}; wrote {path}")
+
+
+def _report_progress(share: float, words: str) -> None:
+    """A line that overwrites itself on a terminal, and nothing elsewhere."""
+    if sys.stderr.isatty():
+        print(f"\r{share:4.0%}  {words}   ", end="" if share < 1 else "\n", file=sys.stderr, flush=True)
+
+
+def _done(dataset: xr.Dataset) -> str:
+    from cosserat.data.dataset import statistics_of
+
     done = statistics_of(dataset)
-    print(
-        f"{case.name}: {done['iterations']} Newton iterations, largest unbalanced force {done['residual_N']:.2g} N "
-        f"(allowed {done['tolerance_N']:.2g} N); wrote {path}"
+    if "steps" in done:
+        return f"{dataset.sizes['time'] - 1} frames in {done['steps']} steps"
+    return (
+        f"{done['iterations']} Newton iterations, largest unbalanced force {done['residual_N']:.2g} N "
+        f"(allowed {done['tolerance_N']:.2g} N)"
     )
 
 

@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
 
@@ -82,6 +83,29 @@ def clamped_clamped_director(beam: Beam, g: float, xi: Array) -> Array:
     s = xi / beam.length
     s1, _ = sigma(beam, g)
     return s1 / 6 * s**3 - s1 / 4 * s**2 + s1 / 12 * s
+
+
+def first_root() -> float:
+    """beta_1 L, the first root of cosh cos + 1 = 0, eq. (3.5.13)."""
+    return float(brentq(lambda x: np.cosh(x) * np.cos(x) + 1, 1.8, 1.9, xtol=1e-15))
+
+
+def first_beam_mode(length: float, xi: Array) -> tuple[Array, Array]:
+    """First mode of a clamped-free beam, eq. (3.5.16), with a tip displacement of one, and its slope [1/m]."""
+    b = first_root()
+    ratio = (np.cos(b) + np.cosh(b)) / (
+        np.sin(b) + np.sinh(b)
+    )  # at the tip, not at x as printed (E3.20)
+    s = b * xi / length
+    shape: Array = np.cosh(s) - np.cos(s) + ratio * (np.sin(s) - np.sinh(s))
+    slope: Array = np.sinh(s) + np.sin(s) + ratio * (np.cos(s) - np.cosh(s))
+    return shape / 2, b / length * slope / 2
+
+
+def first_frequency(beam: Beam) -> float:
+    """omega_1 of a clamped-free Bernoulli-Euler beam, eq. (3.5.15) [rad/s]."""
+    factor = first_root() ** 2 / beam.length**2
+    return float(factor * np.sqrt(beam.young * beam.second_moment / beam.line_density))
 
 
 def necking_decay(beam: Beam, theory: NeckingTheory) -> float:

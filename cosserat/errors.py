@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 
 class CosseratError(Exception):
     """Base of every error the package raises on purpose; the command line prints it without a traceback."""
@@ -24,11 +26,22 @@ class NotConvergedError(CosseratError):
     residual, tolerance : the largest unbalanced force and the one that was allowed [N].
     """
 
-    def __init__(self, message: str, *, iterations: int, residual: float, tolerance: float) -> None:
+    def __init__(
+        self,
+        message: str,
+        *,
+        iterations: int = 0,
+        residual: float = math.nan,
+        tolerance: float = math.nan,
+    ) -> None:
         super().__init__(message)
         self.iterations = iterations
         self.residual = residual
         self.tolerance = tolerance
+
+
+class DivergedError(CosseratError):
+    """A motion grew without bound; what was computed before is kept."""
 
 
 class OutOfToleranceError(CosseratError):

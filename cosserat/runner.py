@@ -2,21 +2,87 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.dataset import to_dataset
+from cosserat.data.parts import Parts
+from cosserat.models.rod_motion import RodMotion
+from cosserat.outcome import Outcome
+
+Progress = Callable[[float, str], None]
+"""Told the share done, from 0 to 1, and a few words."""
 
 
-def run(case: Case | str) -> xr.Dataset:
+def run(case: Case | str, *, result: Path | None = None, progress: Progress | None = None) -> xr.Dataset:
     """Solve a case, given itself or by the name of a published one.
 
     The Snakemake rule, a notebook and a script all come through here.
 
+    result : where the Dataset will be saved; a long run keeps its parts beside it and goes on from them when it
+        is run again, to the same numbers.
+    progress : told how far a long run is.
+
     Raises
     ------
-    InputError : no case of that name, or its rod is not supported.
-    NotConvergedError : no solution within the tolerance.
+    InputError : no case of that name, its rod is not supported, or the stored parts are of another run.
+    NotConvergedError, DivergedError : no solution; what a motion computed before stays in its parts.
     """
     known = find(case) if isinstance(case, str) else case
-    return to_dataset(known, known.problem.solve(f"case '{known.name}'"))
+    name = f"case '{known.name}'"
+    if isinstance(known.problem, RodMotion):
+        outcome = _in_parts(known, known.problem, name, Parts(result) if result else None, progress)
+    else:
+        outcome = known.problem.solve(name)
+    return to_dataset(known, outcome)
+
+
+def _in_parts(
+    case: Case, problem: RodMotion, name: str, store: Parts | None, progress: Progress | None
+) -> Outcome:
+    state = problem.begin(name)
+    done: list[Outcome] = []
+    for number in range(problem.parts):
+        stored = store.load(number) if store else None
+        if store and stored is not None:
+            if not done:
+                store.refuse_others(stored, to_dataset(case, Outcome({}, {})))
+            outcome = _outcome(stored)
+            state = problem.resume(dict(outcome.fields))
+        else:
+            outcome, state, stopped = problem.part(number, state, name)
+            if store and outcome.fields:
+                store.save(number, to_dataset(case, outcome), whole=stopped is None)
+            if stopped:
+                raise stopped
+        done.append(outcome)
+        if progress:
+            progress(
+                (number + 1) / problem.parts,
+                f"{outcome.fields['time'][-1]:.4g} of {problem.duration:g} s",
+            )
+    return _joined(done)
+
+
+def _outcome(stored: xr.Dataset) -> Outcome:
+    from cosserat.data.dataset import statistics_of
+    from cosserat.data.variables import VARIABLES
+
+    fields = {str(name): stored[name].to_numpy() for name in stored.variables if name in VARIABLES}
+    return Outcome(fields, statistics_of(stored))
+
+
+def _joined(parts: list[Outcome]) -> Outcome:
+    """One outcome: what has a time is joined along it, statistics are summed."""
+    from cosserat.data.variables import VARIABLES
+
+    fields = {}
+    for name, first in parts[0].fields.items():
+        timed = first.ndim > len(VARIABLES[name].dims) or "time" in VARIABLES[name].dims
+        fields[name] = np.concatenate([part.fields[name] for part in parts]) if timed else first
+    statistics = {key: sum(part.statistics[key] for part in parts) for key in parts[0].statistics}
+    return Outcome(fields, statistics)

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from cosserat.models.rod_statics import Rod, RodStatics
+from cosserat.models.rod import Rod
+from cosserat.models.rod_statics import RodStatics
 
 settings.register_profile("project", deadline=None, derandomize=True, max_examples=40)
 settings.load_profile("project")

@@ -177,7 +177,7 @@ def test_files_that_only_look_like_ours_are_refused(capsys, tmp_path, solved):
 def test_an_interrupted_run_says_so_and_writes_nothing(capsys, tmp_path, monkeypatch):
     from cosserat import runner
 
-    def interrupt(*_):
+    def interrupt(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(runner, "run", interrupt)

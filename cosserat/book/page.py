@@ -18,7 +18,7 @@ from IPython.display import HTML, Markdown
 
 from cosserat.data.dataset import load
 from cosserat.errors import InputError, OutOfToleranceError
-from cosserat.figures.catalogue import FIGURES, entry
+from cosserat.figures.catalogue import entry
 from cosserat.table.errata import Erratum, read_errata
 from cosserat.table.tolerances import read_report
 
@@ -47,9 +47,18 @@ def figure(name: str, caption: str) -> HTML:
     return HTML(f'<figure class="plot" id="{name}">{image}<figcaption>{text}</figcaption></figure>')
 
 
-def figure_names() -> list[str]:
-    """Every figure there is."""
-    return list(FIGURES)
+def animation(name: str, caption: str) -> HTML:
+    """A drawn animation with a button that stops and starts it."""
+    drawing = (results() / "figures" / f"{name}.svg").read_text(encoding="utf-8")
+    text = f"<b>{escape(entry(name).title)}.</b> {caption}"
+    toggle = (
+        "const s=this.closest('figure').querySelector('svg');"
+        "s.animationsPaused()?s.unpauseAnimations():s.pauseAnimations()"
+    )
+    button = f'<button type="button" onclick="{toggle}">play / pause</button>'
+    return HTML(
+        f'<figure class="plot" id="{name}">{drawing}<div>{button}</div><figcaption>{text}</figcaption></figure>'
+    )
 
 
 def rows(*prefixes: str) -> HTML:

@@ -8,18 +8,23 @@ import tomllib
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import ValidationError
+from pydantic import Field, ValidationError
 
 from cosserat.errors import InputError
+from cosserat.models.rod_motion import RodMotion
 from cosserat.models.rod_statics import RodStatics
 from cosserat.parameters import Parameters, explain, nearest
 
 PUBLISHED = ("chapter3.toml",)
 """Case files of the package, beside this module."""
 
-KINDS: dict[str, type[RodStatics]] = {"rod statics": RodStatics}
+Problem = RodStatics | RodMotion
+KINDS: dict[str, type[RodStatics] | type[RodMotion]] = {
+    "rod statics": RodStatics,
+    "rod motion": RodMotion,
+}
 """Problems by the `kind` that a case names."""
 
 
@@ -29,7 +34,7 @@ class Case(Parameters):
     name: str
     title: str
     source: str = ""
-    problem: RodStatics
+    problem: Annotated[Problem, Field(discriminator="kind")]
 
     def vary(self, name: str, **changes: Any) -> Case:
         """A case of another name with parts of the problem changed: `case.vary("long", rod={"length": "10 m"})`.
@@ -152,9 +157,12 @@ def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict
         raise InputError(
             f"case '{seen[-1]}': 'like' names no case: {name!r}{nearest(name, list(known))}"
         )
+    table: dict[str, Any] = {}
     own = {key: value for key, value in known[name].items() if key not in ("title", "source")}
-    base = own.pop("like", None)
-    return _merge(_inherit(str(base), known, (*seen, name)), own) if base is not None else own
+    bases = own.pop("like", [])
+    for base in bases if isinstance(bases, list) else [bases]:
+        table = _merge(table, _inherit(str(base), known, (*seen, name)))
+    return _merge(table, own)
 
 
 def _merge(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:

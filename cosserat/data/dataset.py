@@ -30,8 +30,10 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
     ValueError : a value is not finite, which no solver may return.
     """
     variables: dict[str, xr.Variable] = {}
-    for name, values in outcome.fields.items():
-        entry = VARIABLES[name]
+    for name, entry in VARIABLES.items():  # in the order of the table, whatever order they came in
+        if name not in outcome.fields:
+            continue
+        values = outcome.fields[name]
         if not np.isfinite(values).all():
             raise ValueError(f"case '{case.name}': variable '{name}' is not finite")
         about = {
@@ -40,7 +42,8 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
             "symbol": entry.symbol,
             "equation": entry.equation,
         }
-        variables[name] = xr.Variable(entry.dims, np.asarray(values, dtype=np.float64), about)
+        dims = entry.dims if values.ndim == len(entry.dims) else ("time", *entry.dims)
+        variables[name] = xr.Variable(dims, np.asarray(values, dtype=np.float64), about)
     used = {str(dim) for variable in variables.values() for dim in variable.dims}
     for dim, (labels, meaning) in LABELS.items():
         if dim not in used:

@@ -16,7 +16,7 @@ class Variable:
         1e-15 m; strains of an edge to that over its length; forces to that strain times the axial stiffness.
     """
 
-    dims: tuple[str, ...]
+    dims: tuple[str, ...]  # of a state; a motion puts `time` before them
     units: str
     long_name: str
     symbol: str
@@ -31,7 +31,7 @@ LABELS: dict[str, tuple[tuple[str, ...], str]] = {
 }
 """Labels of the dimensions that are not counted: values and meaning."""
 
-COORDINATES = ("xi", "xi_edge")
+COORDINATES = ("xi", "xi_edge", "time")
 """Variables that place the others."""
 
 VARIABLES: dict[str, Variable] = {
@@ -63,5 +63,21 @@ VARIABLES: dict[str, Variable] = {
     ),
     "energy": Variable(
         ("term",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-10
+    ),
+    "time": Variable(("time",), "s", "time", "t", "3.3.50", 1e-14),
+    "x_rate": Variable(
+        ("vertex", "axis"), "m s-1", "centreline velocity", r"\dot{\mathbf{x}}", "3.3.27", 1e-9
+    ),
+    "d_rate": Variable(
+        ("vertex", "axis"), "m s-1", "director velocity", r"\dot{\mathbf{d}}", "3.3.27", 1e-9
+    ),
+    "kinetic_energy": Variable(("time",), "J", "kinetic energy", "T", "3.3.33", 1e-9),
+    "strain_energy": Variable(
+        ("time",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9
+    ),
+    "load_potential": Variable(("time",), "J", "potential of the dead loads", "-W", "3.3.40", 1e-9),
+    "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-9),
+    "angular_momentum": Variable(
+        ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-9
     ),
 }

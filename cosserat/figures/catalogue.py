@@ -43,12 +43,15 @@ FIGURES: dict[str, Entry] = {
         ("clamped_clamped", "clamped_clamped_ends_halved"),
     ),
     "fig_3_12": Entry("Fig. 3.12: necking", "chapter3", ("necking", "necking_printed")),
+    "fig_3_13": Entry("Fig. 3.13: free vibration", "motion", ("vibration_c4_2", "vibration_c4_20")),
+    "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
+    "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),
 }
 """Figures by the name of the function that draws them."""
 
 
-def draw(name: str, data: Mapping[str, xr.Dataset]) -> Figure:
-    """Draw a figure from its Datasets by case name.
+def draw(name: str, data: Mapping[str, xr.Dataset]) -> Figure | str:
+    """Draw a figure, or the text of an animated SVG, from its Datasets by case name.
 
     Raises
     ------
@@ -58,7 +61,7 @@ def draw(name: str, data: Mapping[str, xr.Dataset]) -> Figure:
 
     module = importlib.import_module(f"cosserat.figures.{entry(name).module}")
     with settings():
-        figure: Figure = getattr(module, name)(data)
+        figure: Figure | str = getattr(module, name)(data)
     return figure
 
 

@@ -56,9 +56,12 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
     return figure, [ax for line in axes for ax in line]
 
 
-def write(figure: Figure, path: Path) -> None:
-    """Write an SVG without a date, under a temporary name first."""
+def write(figure: Figure | str, path: Path) -> None:
+    """Write an SVG without a date, whole or not at all; a text is an SVG already."""
     with settings(), whole_or_absent(path) as temporary:
+        if isinstance(figure, str):
+            temporary.write_text(figure, encoding="utf-8")
+            return
         figure.savefig(temporary, format="svg", metadata={"Date": None})
 
 

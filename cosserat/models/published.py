@@ -110,7 +110,10 @@ def stiffnesses(
     )
 
 
-_NO_VECTOR, _NO_BAND = np.empty(0), np.empty((0, 14))  # what the kernel is given for derivatives not asked
+_NO_VECTOR, _NO_BAND = (
+    np.empty(0),
+    np.empty((0, 14)),
+)  # what the kernel is given for derivatives not asked
 
 
 @dataclass(frozen=True)

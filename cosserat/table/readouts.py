@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from cosserat import analytic
 from cosserat.data.dataset import case_of
-from cosserat.models.rod_statics import RodStatics
+from cosserat.models.rod import RodProblem
 
 Array = NDArray[np.float64]
 
@@ -28,7 +29,7 @@ class Reading:
     expected: float | None = None
 
 
-def beam_of(problem: RodStatics) -> analytic.Beam:
+def beam_of(problem: RodProblem) -> analytic.Beam:
     """The beam that the closed forms know, with the rod's parameters."""
     rod = problem.rod
     return analytic.Beam(
@@ -42,13 +43,13 @@ def beam_of(problem: RodStatics) -> analytic.Beam:
     )
 
 
-def weight_of(problem: RodStatics) -> float:
+def weight_of(problem: RodProblem) -> float:
     """g of a problem under its own weight [m/s^2]."""
     assert problem.gravity is not None
     return problem.gravity.g
 
 
-def tension_of(problem: RodStatics) -> float:
+def tension_of(problem: RodProblem) -> float:
     """n of a bar pulled at its last vertex [N]."""
     return problem.forces[-1].force
 
@@ -120,6 +121,40 @@ def _share(curves: tuple[Array, Array]) -> Reading:
     return Reading(float(np.abs(computed - exact).max() / np.abs(exact).max()), 0.0)
 
 
+def period(times: Array, values: Array) -> float:
+    """Period of the sinusoid that fits a record best, in least squares, near its strongest line [s]."""
+    line = np.abs(np.fft.rfft(values - values.mean()))
+    step = times[1] - times[0]
+    strongest = 2 * np.pi * (1 + int(line[1:].argmax())) / (step * times.size)
+    width = 2 * np.pi / (step * times.size)
+
+    def misfit(omega: float) -> float:
+        columns = np.column_stack([np.ones_like(times), np.cos(omega * times), np.sin(omega * times)])
+        return float(((values - columns @ np.linalg.lstsq(columns, values, rcond=None)[0]) ** 2).sum())
+
+    best = minimize_scalar(
+        misfit,
+        bounds=(strongest - width, strongest + width),
+        method="bounded",
+        options={"xatol": 1e-9 * strongest},
+    )
+    return float(2 * np.pi / best.x)
+
+
+def _kinetic_energy_period(data: xr.Dataset) -> Reading:
+    return Reading(period(data.time.to_numpy(), data.kinetic_energy.to_numpy()))
+
+
+def _displacement_period(data: xr.Dataset) -> Reading:
+    tip = data.x.sel(axis="E2").isel(vertex=-1).to_numpy()
+    return Reading(period(data.time.to_numpy(), tip))
+
+
+def _beam_theory_period(data: xr.Dataset) -> Reading:
+    """Of the kinetic energy, by eq. (3.5.15): half the period of the beam."""
+    return Reading(float(np.pi / analytic.first_frequency(beam_of(case_of(data).problem))))
+
+
 def _stretching_coefficient(data: xr.Dataset) -> Reading:
     """The c1 at which the tip would stand where eq. (3.5.2) puts it; the tip displacement goes as 1 / c1."""
     computed, exact = hanging_bar_curve(data)
@@ -137,6 +172,11 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "clamped_clamped_midspan": lambda data: at_midspan(clamped_clamped_curve(data)),
     "clamped_clamped_profile": lambda data: _share(clamped_clamped_curve(data)),
     "clamped_clamped_directors": lambda data: _share(clamped_clamped_directors(data)),
+    "first_root": lambda _: Reading(analytic.first_root() / np.pi),
+    "first_factor": lambda _: Reading(analytic.first_root() ** 2),
+    "kinetic_energy_period": _kinetic_energy_period,
+    "displacement_period": _displacement_period,
+    "beam_theory_period": _beam_theory_period,
     "necking_midspan": lambda data: at_midspan(necking_curve(data)),
     "necking_profile": lambda data: _share(necking_curve(data)),
 }

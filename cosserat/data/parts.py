@@ -1,0 +1,52 @@
+"""Parts of a long run on disk: each a whole netCDF file, so that a run can be cut anywhere and go on."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from cosserat.data.dataset import load, save
+from cosserat.errors import InputError
+
+_MUST_AGREE = ("parameters", "source", "environment")
+
+
+@dataclass(frozen=True)
+class Parts:
+    """The folder `<result>.parts` beside a result that is being computed."""
+
+    result: Path
+
+    @property
+    def folder(self) -> Path:
+        """Where the parts are."""
+        return self.result.with_name(f"{self.result.name}.parts")
+
+    def load(self, number: int) -> xr.Dataset | None:
+        """A stored part, or None if it has not been computed yet."""
+        path = self._path(number)
+        return load(path) if path.is_file() else None
+
+    def save(self, number: int, part: xr.Dataset, *, whole: bool = True) -> None:
+        """Store a part; one that its run could not finish goes to `stopped.nc`, from which nothing goes on."""
+        self.folder.mkdir(exist_ok=True)
+        save(part, self._path(number) if whole else self.folder / "stopped.nc")
+
+    def remove(self) -> None:
+        """Forget the parts once the result stands."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def refuse_others(self, part: xr.Dataset, fresh: xr.Dataset) -> None:
+        """Raise InputError if a stored part is of another case, code or environment than the run that goes on."""
+        for key in _MUST_AGREE:
+            if part.attrs.get(key) != fresh.attrs.get(key):
+                raise InputError(
+                    f"{self.folder} holds parts of a run with other {key}; continuing would mix the two: "
+                    "remove that folder to begin anew, or go back to what it was begun with"
+                )
+
+    def _path(self, number: int) -> Path:
+        return self.folder / f"{number:05d}.nc"

@@ -1,0 +1,176 @@
+"""Motion of the discrete planar rod, eqs. (3.3.43)-(3.3.50), from a given start, with frames at equal times."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat import analytic
+from cosserat.errors import CosseratError, DivergedError, NotConvergedError
+from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, rigid_motions
+from cosserat.models.rod import Direction, RodProblem, unit_vector
+from cosserat.outcome import Outcome
+from cosserat.parameters import Parameters, Quantity
+from cosserat.solvers.modes import Modes, modes
+from cosserat.solvers.motion import (
+    IntegratorSettings,
+    State,
+    System,
+    advance,
+    band_product,
+    kinetic_energy,
+    refuse_unstable_step,
+)
+
+Array = NDArray[np.float64]
+
+FRAMES_PER_PART = 50
+"""Frames computed between two stored parts of a long run."""
+
+
+class Start(Parameters):
+    """Where a motion begins: a shape, and velocities of the whole rod."""
+
+    shape: Literal["reference", "first beam mode"] = "reference"
+    """"first beam mode" bends the rod as eq. (3.5.16) says and turns the directors with it."""
+    amplitude: Annotated[float, Quantity("m", "A_1", "3.5.16")] = 0.0
+    speed: Annotated[float, Quantity("m/s")] = 0.0
+    along: Direction = "E3"
+    spin: Annotated[float, Quantity("rad/s")] = 0.0
+    """Rate of rotation about the first vertex, from E3 towards E2."""
+
+
+class RodMotion(RodProblem):
+    """A rod moving from a start, perhaps damped, under dead loads."""
+
+    kind: Literal["rod motion"] = "rod motion"
+    start: Start = Start()
+    duration: Annotated[float, Quantity("s", above=0)]
+    every: Annotated[float, Quantity("s", above=0)]
+    """Time between two frames."""
+    damping: Annotated[float, Quantity("1", r"\zeta", "section 3.5", at_least=0)] = 0.0
+    """Share of the critical damping of the lowest mode.  ASSUME a force -2 zeta omega_1 M v: the page names none."""
+    integrator: IntegratorSettings
+
+    @property
+    def frames(self) -> int:
+        """Number of frames after the first."""
+        return max(1, round(self.duration / self.every))
+
+    @property
+    def parts(self) -> int:
+        """Number of parts in which a run is stored."""
+        return -(-self.frames // FRAMES_PER_PART)
+
+    def system(self, geometry: Geometry) -> System:
+        """What moves: body, mass, loads, supports and drag."""
+        held = self.held().ravel()
+        free = None if held.any() else _rigid_fields
+        system = System(
+            self.rod.body(geometry), self.mass(geometry), self.loads(geometry).ravel(), held, 0.0, free
+        )
+        if not self.damping:
+            return system
+        lowest = modes(system, reference(geometry), 1).angular_frequency[0]
+        return System(system.body, system.mass, system.load, held, 2 * self.damping * lowest, free)
+
+    def mass(self, geometry: Geometry) -> Array:
+        """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""
+        part = self.rod.line_density * geometry.voronoi_length
+        band = np.zeros((part.size, len(UNKNOWNS), 3))
+        band[:, :2, 0] = part[:, None]
+        band[:, 2:, 0] = part[:, None] * self.rod.second_inertia
+        band[:, :2, 2] = part[:, None] * self.rod.first_inertia
+        return band.reshape(-1, 3)
+
+    def modes(self, count: int) -> Modes:
+        """The lowest natural frequencies and shapes about the reference configuration."""
+        geometry = self.rod.geometry()
+        return modes(self.system(geometry), reference(geometry), count)
+
+    def begin(self, name: str) -> State:
+        """The state at time zero.
+
+        Raises
+        ------
+        InputError : the integrator's fixed step is beyond its stability limit there.
+        """
+        geometry = self.rod.geometry()
+        X, D, xi = geometry.X.copy(), geometry.D.copy(), geometry.arc_length
+        if self.start.shape == "first beam mode":
+            shape, slope = analytic.first_beam_mode(self.rod.length, xi)
+            turn = np.arctan(self.start.amplitude * slope)
+            X[:, 1] += self.start.amplitude * shape
+            D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
+        q = np.where(self.held(), np.hstack([geometry.X, geometry.D]), np.hstack([X, D]))
+        v = np.zeros_like(q)
+        v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)
+        v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
+        v[self.held()] = 0.0
+        state = State(q.ravel(), v.ravel())
+        refuse_unstable_step(self.system(geometry), state.q, self.integrator, name)
+        return state
+
+    def part(self, number: int, state: State, name: str) -> tuple[Outcome, State, CosseratError | None]:
+        """Frames of one part, from the state in which the part before it ended; the first part has the start too.
+
+        Where the integrator cannot go on, the frames before that and its error come back.
+        """
+        geometry = self.rod.geometry()
+        system = self.system(geometry)
+        first = number * FRAMES_PER_PART
+        states, steps, stopped = ([state] if number == 0 else []), 0, None
+        begin = first + 1 - len(states)
+        for _ in range(first, min(first + FRAMES_PER_PART, self.frames)):
+            try:
+                state, done = advance(system, state, self.duration / self.frames, self.integrator, name)
+            except (NotConvergedError, DivergedError) as error:
+                stopped = error
+                break
+            states.append(state)
+            steps += done
+        numbers = begin + np.arange(len(states), dtype=np.float64)
+        fields = (
+            _frames(geometry, system, states, numbers * (self.duration / self.frames)) if states else {}
+        )
+        return Outcome(fields, {"steps": steps}), state, stopped
+
+    def resume(self, fields: dict[str, Array]) -> State:
+        """The state in which a stored part ended, from its fields."""
+        return State(
+            np.hstack([fields["x"][-1], fields["d"][-1]]).ravel(),
+            np.hstack([fields["x_rate"][-1], fields["d_rate"][-1]]).ravel(),
+        )
+
+
+def reference(geometry: Geometry) -> Array:
+    """The unknowns of the reference configuration, shape (4 N,)."""
+    return np.hstack([geometry.X, geometry.D]).ravel()
+
+
+def _rigid_fields(q: Array) -> Array:
+    return rigid_motions(q.reshape(-1, len(UNKNOWNS))).reshape(3, -1)
+
+
+def _frames(geometry: Geometry, system: System, states: list[State], times: Array) -> dict[str, Array]:
+    q = np.array([state.q for state in states]).reshape(len(states), -1, len(UNKNOWNS))
+    v = np.array([state.v for state in states]).reshape(q.shape)
+    start = reference(geometry)
+    momenta = np.array([_rigid_fields(s.q) @ band_product(system.mass, s.v) for s in states])
+    return {
+        "time": times,
+        "xi": geometry.arc_length,
+        "x_ref": geometry.X,
+        "d_ref": geometry.D,
+        "x": q[..., :2],
+        "d": q[..., 2:],
+        "x_rate": v[..., :2],
+        "d_rate": v[..., 2:],
+        "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
+        "strain_energy": np.array([system.body.energy(state.q) for state in states]),
+        "load_potential": np.array([-system.load @ (state.q - start) for state in states]),
+        "momentum": momenta[:, :2],
+        "angular_momentum": momenta[:, 2],
+    }

@@ -1,0 +1,79 @@
+"""A long run killed at random moments: every file left is whole, and the run goes on to the same bytes."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import cosserat
+
+LONG = """
+[long]
+like = "vibration_c4_20"
+duration = "1 s"
+every = "1 ms"
+"""
+
+
+def start(folder, name):
+    return subprocess.Popen(
+        [sys.executable, "-m", "cosserat", "run", "long", "--file", "long.toml", "-o", name],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+@pytest.mark.workflow
+def test_ten_kills_leave_whole_files_and_the_same_bytes(tmp_path):
+    (tmp_path / "long.toml").write_text(LONG)
+    begin = time.perf_counter()
+    whole = start(tmp_path, "whole.nc")
+    _, errors = whole.communicate()
+    assert whole.returncode == 0, errors
+    lasts = time.perf_counter() - begin
+    rng = np.random.default_rng(2026)
+    kills = parts_seen = 0
+    while kills < 10:
+        running = start(tmp_path, "cut.nc")
+        time.sleep(float(rng.uniform(0.3, 0.8)) * lasts)
+        running.send_signal(signal.SIGKILL)
+        running.communicate()
+        assert running.returncode == -signal.SIGKILL or (tmp_path / "cut.nc").exists()
+        kills += 1
+        folder = tmp_path / "cut.nc.parts"
+        whole_parts = sorted(folder.glob("*.nc")) if folder.exists() else []
+        for part in whole_parts:  # hidden names are what was being written when the kill came
+            assert np.isfinite(cosserat.load(part).x).all()
+        parts_seen = max(parts_seen, len(whole_parts))
+        if (tmp_path / "cut.nc").exists():  # it got to its end: begin anew, to be killed again
+            assert (tmp_path / "cut.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
+            (tmp_path / "cut.nc").unlink()
+    assert parts_seen > 0
+    last = start(tmp_path, "cut.nc")
+    _, errors = last.communicate()
+    assert last.returncode == 0, errors
+    assert (tmp_path / "cut.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["cut.nc", "long.toml", "whole.nc"]
+
+
+@pytest.mark.workflow
+def test_ctrl_c_says_how_to_go_on(tmp_path):
+    (tmp_path / "long.toml").write_text(LONG)
+    running = start(tmp_path, "cut.nc")
+    for _ in range(200):
+        time.sleep(0.05)
+        if (tmp_path / "cut.nc.parts").exists():
+            break
+    running.send_signal(signal.SIGINT)
+    _, errors = running.communicate()
+    assert running.returncode in (1, 130)
+    assert "interrupted; run the same command again to go on from cut.nc.parts" in errors
+    assert errors.count("\n") == 1

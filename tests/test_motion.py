@@ -1,0 +1,366 @@
+"""Motion of the published rod: what is kept, how fast errors fall, what is refused, and Fig. 3.13."""
+
+import numpy as np
+import pytest
+
+import cosserat
+from cosserat import analytic
+from cosserat.errors import DivergedError, InputError
+from cosserat.models import rod_motion
+from cosserat.models.planar_rod import rigid_motions
+from cosserat.solvers import motion
+from cosserat.table import readouts
+
+BEAM = cosserat.case("vibration_c4_20")
+AMPLITUDE = 1e-6  # m: in larger motions stiff axial waves, too fast to resolve, hide the order
+
+
+def vibrating(name="beam", **changes):
+    return cosserat.run(BEAM.vary(name, **changes))
+
+
+def parts_of(case):
+    problem = case.problem
+    geometry = problem.rod.geometry()
+    return problem, problem.system(geometry), problem.begin(case.name)
+
+
+def free_flight(**changes):
+    """A rod in the air: it flies, spins and vibrates."""
+    return BEAM.vary(
+        "flight",
+        supports=[],
+        start={"amplitude": 0.05, "speed": 2.0, "along": "E2", "spin": 20.0},
+        **changes,
+    )
+
+
+def total_energy(data):
+    return (data.kinetic_energy + data.strain_energy + data.load_potential).to_numpy()
+
+
+def test_energy_is_kept_over_a_hundred_periods_at_a_hundred_steps_each():
+    problem, system, state = parts_of(BEAM)
+    period = 2 * np.pi / problem.modes(1).angular_frequency[0]
+    start = system.body.energy(state.q) + motion.kinetic_energy(system, state)
+    settings = motion.IntegratorSettings(step=period / 100)
+    worst = 0.0
+    for _ in range(100):
+        state, steps = motion.advance(system, state, period, settings, "beam")
+        assert steps == 100
+        now = system.body.energy(state.q) + motion.kinetic_energy(system, state)
+        worst = max(worst, abs(now / start - 1))
+    assert worst < 1e-8
+
+
+def test_a_large_motion_keeps_energy_where_the_plain_midpoint_rule_does_not():
+    """A tip displacement of a tenth of the length: sigma z is what keeps the energy."""
+    large = {"duration": 0.1, "every": 1e-3, "start": {"amplitude": 0.1}, "integrator": {"step": 1e-4}}
+    data = vibrating(**large)
+    energy = total_energy(data)
+    assert np.abs(energy / energy[0] - 1).max() < 1e-10
+    _, system, state = parts_of(BEAM.vary("large", **large))
+    plain = motion._Implicit(system, "plain")
+    plain._correction = lambda q, change, before: np.zeros_like(change)
+    for _ in range(1000):
+        state = plain.step(state, 1e-4)
+    after = system.body.energy(state.q) + motion.kinetic_energy(system, state)
+    assert abs(after / energy[0] - 1) > 1e-6
+
+
+def test_a_free_rod_keeps_momentum_and_angular_momentum_to_rounding():
+    data = cosserat.run(free_flight(duration=0.2, every=2e-3))
+    for name in ("momentum", "angular_momentum"):
+        values = data[name].to_numpy().reshape(data.sizes["time"], -1)
+        assert np.abs(values - values[0]).max() < 1e-11 * np.abs(values[0]).max(), name
+    assert np.abs(total_energy(data) / total_energy(data)[0] - 1).max() < 1e-10
+    assert data.strain_energy.max() > 0.05 * data.kinetic_energy.max()  # it did bend
+
+
+def in_its_first_mode(amplitude, **changes):
+    """The beam displaced by a micrometre in its own first mode, in which no stiff mode moves."""
+    problem, system, _ = parts_of(BEAM.vary("beam", **changes))
+    start = rod_motion.reference(problem.rod.geometry())
+    shape = problem.modes(1).shape[0]
+    return system, motion.State(start + amplitude * shape / np.abs(shape).max(), np.zeros(start.size))
+
+
+def after(settings, duration=0.03, amplitude=AMPLITUDE):
+    system, state = in_its_first_mode(amplitude)
+    return motion.advance(
+        system, state, duration, motion.IntegratorSettings.read(settings, "s", units_required=False), "b"
+    )[0].q
+
+
+def test_the_implicit_method_is_of_second_order():
+    exact = after({"method": "rk45", "step": 1.0, "tolerance": 1e-11})
+    steps = np.array([1e-3, 5e-4, 2.5e-4, 1.25e-4])
+    errors = [np.abs(after({"step": h}) - exact).max() for h in steps]
+    orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
+    assert (np.abs(orders - 2) < 0.1).all(), orders
+
+
+def test_the_fixed_explicit_method_is_of_fourth_order():
+    exact = after({"method": "rk45", "step": 1.0, "tolerance": 1e-12}, 3e-4, 0.01)
+    steps = np.array([1e-5, 5e-6, 2.5e-6])
+    errors = [np.abs(after({"method": "rk4", "step": h}, 3e-4, 0.01) - exact).max() for h in steps]
+    orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
+    assert (np.abs(orders - 4) < 0.5).all(), (orders, errors)
+
+
+def test_both_integrators_agree():
+    """The thesis's adaptive Runge-Kutta and the implicit method after half a period, to 1e-5 of the amplitude."""
+    explicit = after({"method": "rk45", "step": 1.0, "tolerance": 1e-10})
+    implicit = after({"step": 2e-5})
+    assert np.abs(explicit - implicit).max() < 1e-5 * AMPLITUDE
+
+
+def test_modes_and_time_integration_agree(solved):
+    data = solved["vibration_c4_20"]
+    measured = readouts.period(data.time.to_numpy(), data.x.sel(axis="E2").isel(vertex=-1).to_numpy())
+    assert measured == pytest.approx(2 * np.pi / BEAM.problem.modes(1).angular_frequency[0], rel=1e-3)
+
+
+def test_modes_are_orthonormal_and_free_rods_have_three_of_no_frequency():
+    problem = free_flight().problem
+    found = problem.modes(6)
+    system = problem.system(problem.rod.geometry())
+    products = np.array(
+        [[a @ motion.band_product(system.mass, b) for b in found.shape] for a in found.shape]
+    )
+    np.testing.assert_allclose(products, np.eye(6), atol=1e-9)
+    assert (found.angular_frequency[:3] < 1e-2 * found.angular_frequency[3]).all()
+
+
+def test_modes_tend_to_timoshenkos_rod_in_tension():
+    """Axial frequencies of a clamped-free bar are (2 n - 1) pi c / 2 l: known, and free of the calibration."""
+    problem = cosserat.case("relaxing_hanging_bar").problem
+    bar = problem.replace(rod=problem.rod.replace(vertices=60))
+    found = bar.modes(30)
+    axial = [
+        w
+        for w, s in zip(found.angular_frequency, found.shape, strict=True)
+        if np.abs(s[0::4]).max() > 10 * np.abs(s[1::4]).max()
+    ]
+    rod = bar.rod
+    speed = np.sqrt(rod.young * rod.area / rod.line_density)
+    np.testing.assert_allclose(axial[:2], np.array([1, 3]) * np.pi * speed / (2 * rod.length), rtol=2e-3)
+
+
+def test_E3_18_printed_period_is_that_of_the_kinetic_energy(solved):
+    data = solved["vibration_c4_20"]
+    kinetic = readouts.READOUTS["kinetic_energy_period"](data).measured
+    tip = readouts.READOUTS["displacement_period"](data).measured
+    assert kinetic == pytest.approx(0.0298, rel=1e-2)
+    assert tip == pytest.approx(2 * kinetic, rel=1e-3)
+    assert abs(kinetic - 0.03) < 0.005 < abs(tip - 0.03)
+    beam = readouts.READOUTS["beam_theory_period"](data).measured
+    assert abs(beam - 0.031) < 0.0005 < abs(2 * beam - 0.031)
+
+
+def test_E3_19_open_parameters_hardly_move_the_period():
+    def lowest(**changes):
+        return BEAM.vary("other", **changes).problem.modes(1).angular_frequency[0]
+
+    assert abs(lowest(rod={"calibration": {"c4": 20.1}}) / lowest() - 1) < 1e-4
+    small = vibrating(start={"amplitude": 0.005})
+    whole = vibrating()
+    periods = [readouts.READOUTS["displacement_period"](data).measured for data in (small, whole)]
+    assert abs(periods[0] / periods[1] - 1) < 1e-3
+
+
+def test_E3_20_corrected_mode_solves_the_beam_equation_and_the_printed_one_does_not():
+    length, b = 1.0, analytic.first_root()
+    assert b / np.pi == pytest.approx(0.59686, abs=5e-6)
+    assert b * np.pi == pytest.approx(5.89, abs=0.01)  # what "beta pi / L" would be
+    assert b**2 == pytest.approx(3.5160, abs=5e-5)
+    assert abs(b**2 - 3.5161) > 5e-5
+    xi = np.linspace(0, length, 4001)
+    ours, slope = analytic.first_beam_mode(length, xi)
+    assert ours[-1] == pytest.approx(1)
+    assert ours[0] == slope[0] == 0
+    np.testing.assert_allclose(np.gradient(ours, xi, edge_order=2)[1:-1], slope[1:-1], atol=1e-6)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = (np.cos(b) + np.cosh(b)) / (np.sin(b * xi) + np.sinh(b * xi))
+        printed = np.cosh(b * xi) - np.cos(b * xi) + ratio * (np.sin(b * xi) - np.sinh(b * xi))
+    assert np.isnan(printed[0])
+
+    def misfit(shape):  # fourth derivative less b^4 times the shape, by differences over 0.01
+        k, h = 40, 40 * (xi[1] - xi[0])
+        fourth = (
+            shape[4 * k :]
+            - 4 * shape[3 * k : -k]
+            + 6 * shape[2 * k : -2 * k]
+            - 4 * shape[k : -3 * k]
+            + shape[: -4 * k]
+        )
+        return np.abs(fourth / h**4 - b**4 * shape[2 * k : -2 * k])[100:-100].max() / b**4
+
+    assert misfit(ours) < 1e-3
+    assert misfit(printed) > 0.1
+    sign = analytic.first_beam_mode(length, xi)[0]
+    curvature = np.gradient(np.gradient(sign, xi), xi)
+    assert abs(curvature[-3]) < 2e-2 * np.abs(curvature).max()  # no moment at the tip
+
+
+@pytest.mark.parametrize("vertices", [5, 50])
+def test_E3_21_kinetic_energy_of_a_translation_counts_the_length_once(vertices):
+    case = BEAM.vary(
+        "flying", supports=[], rod={"vertices": vertices}, start={"amplitude": 0.0, "speed": 3.0}
+    )
+    problem, system, state = parts_of(case)
+    mass = problem.rod.line_density * problem.rod.length
+    assert motion.kinetic_energy(system, state) == pytest.approx(mass * 9 / 2)
+    part = problem.rod.geometry().voronoi_length
+    twice = (problem.rod.line_density * part * part * 9 / 2).sum()
+    assert abs(twice / (mass * 9 / 2) - 1) > 0.5
+
+
+def test_kinetic_energy_and_angular_momentum_of_a_spinning_rod():
+    """About its end: J = rho A (l^3 / 3 + l H^2 / 12); lumping adds the share of the trapezoidal rule."""
+    case = BEAM.vary("spinning", supports=[], start={"amplitude": 0.0, "spin": 7.0})
+    problem, system, state = parts_of(case)
+    rod = problem.rod
+    h = rod.length / (rod.vertices - 1)
+    J = rod.line_density * (rod.length**3 / 3 + rod.length * h**2 / 6 + rod.length * rod.height**2 / 12)
+    assert motion.kinetic_energy(system, state) == pytest.approx(J * 49 / 2, rel=1e-12)
+    spin = rigid_motions(state.q.reshape(-1, 4))[2].ravel() @ motion.band_product(system.mass, state.v)
+    assert spin == pytest.approx(J * 7, rel=1e-12)
+
+
+def test_a_falling_rod_falls_as_bodies_do():
+    case = BEAM.vary(
+        "falling",
+        supports=[],
+        start={"amplitude": 0.0},
+        gravity={"g": 9.81, "along": "-E2"},
+        duration=0.1,
+    )
+    data = cosserat.run(case)
+    fallen = data.x.sel(axis="E2").mean("vertex")
+    np.testing.assert_allclose(fallen, -9.81 / 2 * data.time**2, atol=1e-9)
+    assert np.abs(total_energy(data)).max() < 1e-9 * data.kinetic_energy.max()
+
+
+@pytest.mark.parametrize("name", ["hanging_bar", "clamped_free", "clamped_clamped", "necking"])
+def test_relaxation_reaches_newtons_equilibrium(solved, name):
+    """As the thesis found its equilibria: equal to Newton's to 1e-6 of the largest displacement, almost at rest."""
+    settled, newton = solved[f"relaxing_{name}"], solved[name]
+    size = float(np.abs(newton.u).max())
+    for variable in ("x", "d"):
+        assert np.abs(settled[variable][-1] - newton[variable]).max() < 1e-6 * size, variable
+    assert settled.kinetic_energy[-1] < 1e-8 * settled.strain_energy[-1]
+    assert settled.kinetic_energy.max() > 1e-2 * settled.strain_energy[-1]
+
+
+def test_damping_takes_energy_and_never_gives_it(solved):
+    for name in ("relaxing_clamped_free", "relaxing_hanging_bar"):
+        energy = total_energy(solved[name])
+        assert (np.diff(energy) < 1e-9 * np.abs(energy).max()).all()
+
+
+def test_the_stability_limit_is_where_the_motion_diverges():
+    _, system, state = parts_of(BEAM)
+    limit = motion.stable_step(system, state.q)
+    for share, bounded in ((0.95, True), (1.15, False)):
+        settings = motion.IntegratorSettings(method="rk4", step=share * limit)
+        try:
+            after, _ = motion.advance(system, state, 3000 * share * limit, settings, "beam")
+            energy = system.body.energy(after.q) + motion.kinetic_energy(system, after)
+            grown = energy > 10 * system.body.energy(state.q)
+        except DivergedError:
+            grown = True
+        assert grown != bounded
+
+
+def test_a_step_beyond_the_limit_is_refused_with_the_limit():
+    with pytest.raises(
+        InputError,
+        match=r"'integrator\.step' is 0\.001 s, but this rod is stable .* only up to 2\.\d+e-05 s",
+    ):
+        vibrating(integrator={"method": "rk4", "step": 1e-3})
+
+
+def test_a_diverging_run_stops_with_a_sentence_and_keeps_its_frames(tmp_path):
+    """A rod whose step is stable at rest, then pressed so hard that it stiffens beyond that."""
+    pressed = BEAM.vary(
+        "pressed",
+        start={"amplitude": 1e-3},
+        forces=[{"at": "last", "along": "-E3", "force": 3e7}],
+        duration=0.2,
+        every=2e-5,
+        integrator={"method": "rk4", "step": 2e-5},
+    )
+    with pytest.raises(
+        DivergedError, match="case 'pressed': the motion diverged with 'rk4'; take a shorter"
+    ):
+        cosserat.run(pressed, result=tmp_path / "pressed.nc")
+    kept = sorted((tmp_path / "pressed.nc.parts").iterdir())
+    assert kept
+    assert np.isfinite(cosserat.load(kept[-1]).x).all()
+
+
+def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
+    case = BEAM.vary("beam", duration=0.05, every=2.5e-4)
+    cosserat.save(cosserat.run(case), tmp_path / "whole.nc")
+
+    class StopError(Exception):
+        pass
+
+    def stop(share, words):
+        raise StopError
+
+    for expected in range(1, case.problem.parts):
+        with pytest.raises(StopError):
+            cosserat.run(
+                case,
+                result=tmp_path / "cut.nc",
+                progress=None if expected > 9 else _once(stop, expected),
+            )
+        assert len(list((tmp_path / "cut.nc.parts").iterdir())) == expected
+    cosserat.save(cosserat.run(case, result=tmp_path / "cut.nc"), tmp_path / "cut.nc")
+    assert (tmp_path / "cut.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
+
+
+def _once(stop, part):
+    seen = []
+
+    def progress(share, words):
+        seen.append(share)
+        if len(seen) == part:
+            stop(share, words)
+
+    return progress
+
+
+def test_parts_of_another_run_are_refused(tmp_path):
+    short = {"duration": 0.02, "every": 2.5e-4}
+    first = BEAM.vary("beam", **short)
+
+    def stop(share, words):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        cosserat.run(first, result=tmp_path / "a.nc", progress=stop)
+    with pytest.raises(InputError, match="parts of a run with other parameters; .* remove that folder"):
+        cosserat.run(BEAM.vary("beam", **short, rod={"young": 2e9}), result=tmp_path / "a.nc")
+
+
+def test_cost_of_a_step_grows_no_faster_than_the_rod():
+    """From 20 to 200 to 2000 vertices; the best of three, so that other work on the machine counts little."""
+    import time
+
+    costs = []
+    for n, steps in ((20, 200), (200, 60), (2000, 12)):
+        _, system, state = parts_of(BEAM.vary("beam", rod={"vertices": n}))
+        settings = motion.IntegratorSettings(step=2.5e-4)
+        motion.advance(system, state, 5e-4, settings, "warm")
+        best = np.inf
+        for _ in range(3):
+            start = time.perf_counter()
+            motion.advance(system, state, steps * 2.5e-4, settings, "timed")
+            best = min(best, (time.perf_counter() - start) / steps)
+        costs.append(best)
+    assert costs[1] < 11 * costs[0]
+    assert costs[2] < 14 * costs[1]
+    assert costs[2] < 110 * costs[0]
