@@ -25,6 +25,7 @@
 #
 # ch3_statics
 # ch3_motion
+# ch3_calibration
 # results_table
 # errata
 # ```

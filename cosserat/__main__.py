@@ -204,6 +204,8 @@ def _done(dataset: xr.Dataset) -> str:
     from cosserat.data.dataset import statistics_of
 
     done = statistics_of(dataset)
+    if "misfit_evaluations" in done:
+        return f"{done['misfit_evaluations']} evaluations of the misfits"
     if "steps" in done:
         return f"{dataset.sizes['time'] - 1} frames in {done['steps']} steps"
     return (

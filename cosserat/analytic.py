@@ -108,6 +108,21 @@ def first_frequency(beam: Beam) -> float:
     return float(factor * np.sqrt(beam.young * beam.second_moment / beam.line_density))
 
 
+def clamped_free_tip_of_published_rod(beam: Beam, g: float, c3: float, c4: float, c5: float) -> float:
+    """Tip displacement to which the published rod tends under refinement [m]; not in the thesis.
+
+    derived: in the limit the energy is that of k3 alpha'^2 + k4 theta^2 + k5 theta'^2 over 2, alpha the angle of the
+    tangent and theta of shear.  The director carries no load, so k5 theta'' = k4 theta: shear lives in a layer beside
+    the clamp, theta = -alpha(0) exp(-xi sqrt(k4 / k5)), whose energy sqrt(k4 k5) alpha(0)^2 / 2 is a spring between
+    clamp and tangent.  The moment M there turns the beam by M / sqrt(k4 k5); the rest bends with k3.
+    """
+    weight, length = beam.line_density * g, beam.length
+    shear = beam.shear_correction * beam.young / (2 * (1 + beam.poisson)) * beam.area
+    bending = beam.young * beam.second_moment
+    hinge = weight * length**2 / 2 / np.sqrt(c4 * shear * c5 * bending)
+    return float(-weight * length**4 / (8 * c3 * bending) - hinge * length)
+
+
 def necking_decay(beam: Beam, theory: NeckingTheory) -> float:
     """beta [1/m]: how fast the section stretch reaches its far value beside an end that cannot contract.
 

@@ -13,6 +13,7 @@ from typing import Annotated, Any
 from pydantic import Field, ValidationError
 
 from cosserat.errors import InputError
+from cosserat.models.calibration import CalibrationProcedure
 from cosserat.models.rod_motion import RodMotion
 from cosserat.models.rod_statics import RodStatics
 from cosserat.parameters import Parameters, explain, nearest
@@ -20,10 +21,11 @@ from cosserat.parameters import Parameters, explain, nearest
 PUBLISHED = ("chapter3.toml",)
 """Case files of the package, beside this module."""
 
-Problem = RodStatics | RodMotion
-KINDS: dict[str, type[RodStatics] | type[RodMotion]] = {
+Problem = RodStatics | RodMotion | CalibrationProcedure
+KINDS: dict[str, type[RodStatics] | type[RodMotion] | type[CalibrationProcedure]] = {
     "rod statics": RodStatics,
     "rod motion": RodMotion,
+    "calibration": CalibrationProcedure,
 }
 """Problems by the `kind` that a case names."""
 
@@ -162,6 +164,10 @@ def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict
     bases = own.pop("like", [])
     for base in bases if isinstance(bases, list) else [bases]:
         table = _merge(table, _inherit(str(base), known, (*seen, name)))
+    for key, value in own.items():
+        if isinstance(value, dict) and "like" in value:  # a whole case as a part of this one
+            part = {inner: given for inner, given in value.items() if inner != "like"}
+            own[key] = _merge(_inherit(str(value["like"]), known, (*seen, name)), part)
     return _merge(table, own)
 
 

@@ -27,6 +27,9 @@ class Variable:
 LABELS: dict[str, tuple[tuple[str, ...], str]] = {
     "axis": (AXES, "component in the plane of motion"),
     "unknown": (UNKNOWNS, "unknown of a vertex, eq. (3.3.42)"),
+    "stretching_coefficient": (("c1",), "coefficient of eq. (3.4.13)"),
+    "beam_coefficient": (("c3", "c4", "c5"), "coefficient of eq. (3.4.13)"),
+    "section_coefficient": (("c2", "c6", "c7"), "coefficient of eq. (3.4.13)"),
     "term": (TERMS, "term of the strain energy, eq. (3.4.11)"),
 }
 """Labels of the dimensions that are not counted: values and meaning."""
@@ -80,4 +83,39 @@ VARIABLES: dict[str, Variable] = {
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-9
     ),
+    "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
 }
+
+for _problem, _dim in (
+    ("hanging_bar", "stretching"),
+    ("clamped_free", "beam"),
+    ("clamped_clamped", "beam"),
+    ("necking", "section"),
+):
+    _name = _problem.replace("_", " ")
+    _directions = f"{_dim}_direction"
+    VARIABLES |= {
+        # what a fit leaves open is known to no better than the root of the rounding of its misfit
+        f"{_problem}_coefficients": Variable(
+            ("mesh", f"{_dim}_coefficient"),
+            "1",
+            f"coefficients fitted to the {_name}",
+            "c",
+            "3.4.13",
+            1e30,
+        ),
+        f"{_problem}_misfit": Variable(
+            ("mesh",), "1", f"root mean square misfit of the {_name} at the fit", "", "3.4.13", 1e-7
+        ),
+        f"{_problem}_singular_values": Variable(
+            ("mesh", _directions),
+            "1",
+            f"sensitivity of the {_name} to log c, by direction",
+            "",
+            "3.4.13",
+            1e30,
+        ),
+        f"{_problem}_published": Variable(
+            ("mesh",), "1", f"{_name} over its formula at the published coefficients", "", "3.4.13", 1e-8
+        ),
+    }

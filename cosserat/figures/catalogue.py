@@ -43,6 +43,7 @@ FIGURES: dict[str, Entry] = {
         ("clamped_clamped", "clamped_clamped_ends_halved"),
     ),
     "fig_3_12": Entry("Fig. 3.12: necking", "chapter3", ("necking", "necking_printed")),
+    "fig_calibration": Entry("Calibration and the number of vertices", "calibration", ("calibration",)),
     "fig_3_13": Entry("Fig. 3.13: free vibration", "motion", ("vibration_c4_2", "vibration_c4_20")),
     "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
     "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),

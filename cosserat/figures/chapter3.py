@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat import analytic
-from cosserat.data.dataset import case_of
 from cosserat.figures.rod import draw_body
 from cosserat.figures.style import canvas, computed_points, exact_curve
-from cosserat.table.readouts import beam_of, tension_of, weight_of
+from cosserat.models.calibration import beam_of
+from cosserat.table.readouts import problem_of, tension_of, weight_of
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -48,7 +48,7 @@ def fig_3_9(data: Data) -> Figure:
     """The hanging bar: displacement, and what the formula leaves out."""
     figure, (left, right) = canvas(7.2, 2.9, 1, 2)
     bar = data["hanging_bar"]
-    problem = case_of(bar).problem
+    problem = problem_of(bar)
     xi, fine = bar.xi.to_numpy(), _fine(bar)
     exact = analytic.hanging_bar_displacement(beam_of(problem), weight_of(problem), fine)
     computed = bar.u.sel(axis="E3").to_numpy()
@@ -98,7 +98,7 @@ def _beam(
     equations: tuple[str, str],
 ) -> Figure:
     figure, (left, right) = canvas(7.2, 3.1, 1, 2)
-    problem = case_of(full).problem
+    problem = problem_of(full)
     fine, surface = _fine(full), problem.rod.height / 2
     exact_curve(left, fine, displacement(beam_of(problem), weight_of(problem), fine) * 1e3, equations[0])
     exact_curve(
@@ -127,7 +127,7 @@ def fig_3_12(data: Data) -> Figure:
     """Necking: the section strain, the page's decay and ours, and the coupling as printed."""
     figure, (left, right) = canvas(7.2, 3.3, 1, 2)
     necked, printed = data["necking"], data["necking_printed"]
-    problem = case_of(necked).problem
+    problem = problem_of(necked)
     beam, n, xi, fine = beam_of(problem), tension_of(problem), necked.xi.to_numpy(), _fine(necked)
     theories: list[tuple[analytic.NeckingTheory, str]] = [
         ("printed", r"eqs. (3.5.8), (3.5.9) as printed"),
@@ -149,4 +149,4 @@ def fig_3_12(data: Data) -> Figure:
 
 
 def _fine(data: xr.Dataset) -> Array:
-    return np.linspace(0.0, case_of(data).problem.rod.length, _FINE)
+    return np.linspace(0.0, problem_of(data).rod.length, _FINE)

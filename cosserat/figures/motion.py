@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat import analytic
-from cosserat.data.dataset import case_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
-from cosserat.table.readouts import beam_of
+from cosserat.models.calibration import beam_of
+from cosserat.table.readouts import problem_of
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -30,7 +30,7 @@ def fig_3_13(data: Data) -> Figure:
         run = data[name]
         left.plot(run.time, run.kinetic_energy, color=colour, label=label, linewidth=1.0)
         right.plot(run.time, run.x.sel(axis="E2").isel(vertex=-1) * 1e3, color=colour, linewidth=1.0)
-    omega = analytic.first_frequency(beam_of(case_of(data["vibration_c4_20"]).problem))
+    omega = analytic.first_frequency(beam_of(problem_of(data["vibration_c4_20"])))
     last = float(data["vibration_c4_20"].time[-1])
     for ax, length in ((left, np.pi / omega), (right, 2 * np.pi / omega)):
         for start in np.arange(0, last, length):
@@ -50,7 +50,7 @@ def fig_3_13(data: Data) -> Figure:
 def anim_vibration(data: Data) -> str:
     """The beam with high shear stiffness over one period, displacements magnified."""
     run = data["vibration_c4_20"]
-    period = 4 * np.pi / analytic.first_frequency(beam_of(case_of(run).problem)) / 2
+    period = 4 * np.pi / analytic.first_frequency(beam_of(problem_of(run))) / 2
     return _animation(run.sel(time=slice(0, 0.963 * period)), magnified=10.0, seconds=2.0)
 
 

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.data.dataset import case_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.table.readouts import problem_of
 
 Array = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ def picture(data: xr.Dataset) -> Figure:
     axes[1].remove()
     top = figure.add_subplot(grid[0, :])
     largest = float(np.abs(data.u).max())
-    length = case_of(data).problem.rod.length
+    length = problem_of(data).rod.length
     magnified = max(1.0, float(f"{_SHOWN * length / largest:.0e}")) if largest > 0 else 1.0
     draw_body(top, data, magnified)
     top.set_aspect("equal", adjustable="datalim")
@@ -47,7 +47,7 @@ def picture(data: xr.Dataset) -> Figure:
 
 def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
     """The rod as the body it stands for, with its supports and loads; lateral surfaces at x + d and x - d."""
-    problem = case_of(data).problem
+    problem = problem_of(data)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
     x, d = X + magnified * data.u.to_numpy(), D + magnified * data.delta.to_numpy()
     _draw_outline(ax, X, D, facecolor="none", edgecolor=EXACT, linestyle=":")

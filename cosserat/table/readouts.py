@@ -16,6 +16,8 @@ from scipy.optimize import minimize_scalar
 
 from cosserat import analytic
 from cosserat.data.dataset import case_of
+from cosserat.errors import InputError
+from cosserat.models.calibration import beam_of
 from cosserat.models.rod import RodProblem
 
 Array = NDArray[np.float64]
@@ -29,18 +31,19 @@ class Reading:
     expected: float | None = None
 
 
-def beam_of(problem: RodProblem) -> analytic.Beam:
-    """The beam that the closed forms know, with the rod's parameters."""
-    rod = problem.rod
-    return analytic.Beam(
-        length=rod.length,
-        area=rod.area,
-        second_moment=rod.second_moment,
-        young=rod.young,
-        poisson=rod.poisson,
-        line_density=rod.line_density,
-        shear_correction=rod.shear_correction,
-    )
+def problem_of(data: xr.Dataset) -> RodProblem:
+    """The rod problem that a Dataset was computed from.
+
+    Raises
+    ------
+    InputError : it was not computed from one.
+    """
+    problem = case_of(data).problem
+    if not isinstance(problem, RodProblem):
+        raise InputError(
+            f"the case '{data.attrs['case']}' is not of one rod; use the result of one that is"
+        )
+    return problem
 
 
 def weight_of(problem: RodProblem) -> float:
@@ -62,28 +65,28 @@ def midspan(values: Array) -> float:
 
 def hanging_bar_curve(data: xr.Dataset) -> tuple[Array, Array]:
     """u . E3 at the vertices, computed and by eq. (3.5.2) [m]."""
-    problem = case_of(data).problem
+    problem = problem_of(data)
     exact = analytic.hanging_bar_displacement(beam_of(problem), weight_of(problem), data.xi.to_numpy())
     return data.u.sel(axis="E3").to_numpy(), exact
 
 
 def clamped_free_curve(data: xr.Dataset) -> tuple[Array, Array]:
     """u . E2 at the vertices, computed and by eq. (3.5.3) [m]."""
-    problem = case_of(data).problem
+    problem = problem_of(data)
     exact = analytic.clamped_free_displacement(beam_of(problem), weight_of(problem), data.xi.to_numpy())
     return data.u.sel(axis="E2").to_numpy(), exact
 
 
 def clamped_free_directors(data: xr.Dataset) -> tuple[Array, Array]:
     """delta . E3 at the lateral surface, computed and by eqs. (3.5.1), (3.5.4) [m]."""
-    problem = case_of(data).problem
+    problem = problem_of(data)
     exact = analytic.clamped_free_director(beam_of(problem), weight_of(problem), data.xi.to_numpy())
     return data.delta.sel(axis="E3").to_numpy(), exact * problem.rod.height / 2
 
 
 def clamped_clamped_curve(data: xr.Dataset) -> tuple[Array, Array]:
     """u . E2 at the vertices, computed and by eq. (3.5.6) [m]."""
-    problem = case_of(data).problem
+    problem = problem_of(data)
     exact = analytic.clamped_clamped_displacement(
         beam_of(problem), weight_of(problem), data.xi.to_numpy()
     )
@@ -92,14 +95,14 @@ def clamped_clamped_curve(data: xr.Dataset) -> tuple[Array, Array]:
 
 def clamped_clamped_directors(data: xr.Dataset) -> tuple[Array, Array]:
     """delta . E3 at the lateral surface, computed and by eqs. (3.5.1), (3.5.7) [m]."""
-    problem = case_of(data).problem
+    problem = problem_of(data)
     exact = analytic.clamped_clamped_director(beam_of(problem), weight_of(problem), data.xi.to_numpy())
     return data.delta.sel(axis="E3").to_numpy(), exact * problem.rod.height / 2
 
 
 def necking_curve(data: xr.Dataset, theory: analytic.NeckingTheory = "printed") -> tuple[Array, Array]:
     """lambda - 1 at the vertices, computed and by eq. (3.5.8) with beta of the named theory [1]."""
-    problem = case_of(data).problem
+    problem = problem_of(data)
     beam = beam_of(problem)
     beta = analytic.necking_decay(beam, theory)
     exact = analytic.necking_strain(beam, tension_of(problem), beta, data.xi.to_numpy())
@@ -152,13 +155,26 @@ def _displacement_period(data: xr.Dataset) -> Reading:
 
 def _beam_theory_period(data: xr.Dataset) -> Reading:
     """Of the kinetic energy, by eq. (3.5.15): half the period of the beam."""
-    return Reading(float(np.pi / analytic.first_frequency(beam_of(case_of(data).problem))))
+    return Reading(float(np.pi / analytic.first_frequency(beam_of(problem_of(data)))))
 
 
 def _stretching_coefficient(data: xr.Dataset) -> Reading:
     """The c1 at which the tip would stand where eq. (3.5.2) puts it; the tip displacement goes as 1 / c1."""
     computed, exact = hanging_bar_curve(data)
-    return Reading(case_of(data).problem.rod.calibration.c1 * float(computed[-1] / exact[-1]))
+    return Reading(problem_of(data).rod.calibration.c1 * float(computed[-1] / exact[-1]))
+
+
+def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Reading]:
+    """A coefficient as the calibration recovers it at the published number of vertices."""
+
+    def read(data: xr.Dataset) -> Reading:
+        fitted = data[f"{problem}_coefficients"].isel(
+            mesh=int(np.argmax(data.vertices.to_numpy() == 20))
+        )
+        (dim,) = fitted.dims
+        return Reading(float(fitted.sel({dim: coefficient})))
+
+    return read
 
 
 READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
@@ -172,6 +188,12 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "clamped_clamped_midspan": lambda data: at_midspan(clamped_clamped_curve(data)),
     "clamped_clamped_profile": lambda data: _share(clamped_clamped_curve(data)),
     "clamped_clamped_directors": lambda data: _share(clamped_clamped_directors(data)),
+    "recovered_c2": _recovered("necking", "c2"),
+    "recovered_c3": _recovered("clamped_free", "c3"),
+    "recovered_c4": _recovered("clamped_free", "c4"),
+    "recovered_c5": _recovered("clamped_free", "c5"),
+    "recovered_c6": _recovered("necking", "c6"),
+    "recovered_c7": _recovered("necking", "c7"),
     "first_root": lambda _: Reading(analytic.first_root() / np.pi),
     "first_factor": lambda _: Reading(analytic.first_root() ** 2),
     "kinetic_energy_period": _kinetic_energy_period,
