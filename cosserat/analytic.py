@@ -11,7 +11,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
 
@@ -87,6 +86,8 @@ def clamped_clamped_director(beam: Beam, g: float, xi: Array) -> Array:
 
 def first_root() -> float:
     """beta_1 L, the first root of cosh cos + 1 = 0, eq. (3.5.13)."""
+    from scipy.optimize import brentq
+
     return float(brentq(lambda x: np.cosh(x) * np.cos(x) + 1, 1.8, 1.9, xtol=1e-15))
 
 

@@ -79,9 +79,9 @@ VARIABLES: dict[str, Variable] = {
         ("time",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9
     ),
     "load_potential": Variable(("time",), "J", "potential of the dead loads", "-W", "3.3.40", 1e-9),
-    "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-9),
+    "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-7),
     "angular_momentum": Variable(
-        ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-9
+        ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7
     ),
     "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
 }

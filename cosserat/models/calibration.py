@@ -7,17 +7,19 @@ largest ordinate.  The logarithms of the coefficients are fitted, so that they s
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import OptimizeResult, least_squares
 
 from cosserat import analytic
 from cosserat.models.rod import RodProblem
 from cosserat.models.rod_statics import RodStatics
 from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 Array = NDArray[np.float64]
 
@@ -67,6 +69,8 @@ class CalibrationProcedure(Parameters):
 
     def fit(self, problem: str, vertices: int, name: str) -> OptimizeResult:
         """Least squares over the coefficients of one problem at one mesh, from the published ones."""
+        from scipy.optimize import least_squares
+
         posed, coefficients = getattr(self, problem), ASSIGNED[problem]
         start = np.log([getattr(posed.rod.calibration, c) for c in coefficients])
 

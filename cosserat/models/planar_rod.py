@@ -61,6 +61,21 @@ class Geometry:
         D[:, 1] = director_length
         return cls(X, D)
 
+    @classmethod
+    def arc(cls, vertices: int, length: float, director_length: Array, curvature: float) -> Geometry:
+        """A rod bent from the origin into an arc that turns from E3 towards E2, its directors along b, eq. (3.3.25).
+
+        length is that of the polygon, whose vertices lie on a circle.  The directors are orthogonal to the vertex
+        tangents, so that no shear is intrinsic.
+        """
+        edge = length / (vertices - 1)
+        turn = 2 * np.arcsin(curvature * edge / 2)
+        angles = turn * (np.arange(vertices - 1) + 0.5)
+        steps = edge * np.column_stack([np.cos(angles), np.sin(angles)])
+        X = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
+        tangents = vertex_tangents(X)
+        return cls(X, director_length[:, None] * np.column_stack([-tangents[:, 1], tangents[:, 0]]))
+
     @property
     def edge_length(self) -> Array:
         """||E||, shape (N - 1,) [m], eq. (3.3.4)."""

@@ -21,7 +21,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from cosserat.models.planar_rod import Geometry, Lumped
+from cosserat.models.planar_rod import Geometry, Lumped, signed_angle
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.banded import Band, Vector
 
@@ -56,6 +56,7 @@ class Stiffness(NamedTuple):
 
     edge, voronoi, director : ||E|| (N - 1,), L (N,) and ||D|| (N,) [m].
     k1 (N - 1,), k2 (N,), k4 (N,), k7 (N,) [N]; k3 (N,), k5 (N - 1,), k6 (N - 1,) [N m^2].
+    intrinsic : (N,) half the Voronoi length times the curvature K of the unbent rod, eq. (3.3.23) [1].
     """
 
     edge: Array
@@ -68,10 +69,12 @@ class Stiffness(NamedTuple):
     k5: Array
     k6: Array
     k7: Array
+    intrinsic: Array
 
 
 EndSections = Literal["full", "halved"]
 PoissonCoupling = Literal["halved", "printed"]
+IntrinsicCurvature = Literal["subtracted", "printed"]
 
 
 def stiffnesses(
@@ -82,12 +85,15 @@ def stiffnesses(
     c: Calibration,
     end_sections: EndSections,
     poisson_coupling: PoissonCoupling,
+    intrinsic_curvature: IntrinsicCurvature = "subtracted",
 ) -> Stiffness:
     """Eq. (3.4.13), with the two readings that the page leaves open.
 
     end_sections : "halved" halves the areas of the boundary vertices, eq. (3.4.10), on top of their half length.
     poisson_coupling : "printed" takes 2 sum k7 (lambda - 1)(mu - 1) L in eq. (3.4.11) as it stands; "halved" drops
         the 2, which is what the published c7 = 1.66 fits (erratum E3.2).
+    intrinsic_curvature : "subtracted" measures bending from the reference, as section 3.2 asks; "printed" from the
+        straight rod, as eq. (3.4.11) stands: a curved reference is then not at rest (E3.24).
     """
     end_factor = np.ones(vertex.area.size)
     if end_sections == "halved":
@@ -107,7 +113,16 @@ def stiffnesses(
         k5=c.c5 * edge.young * edge.second_moment,
         k6=c.c6 * edge.young * edge.second_moment / (1 + edge.poisson),
         k7=c.c7 * vertex_lame * area * vertex.poisson * coupling,
+        intrinsic=_reference_turns(geometry) * (intrinsic_curvature == "subtracted"),
     )
+
+
+def _reference_turns(geometry: Geometry) -> Array:
+    """tan(Phi / 2) at the interior vertices of the reference, zero at the others, eqs. (3.3.15), (3.3.23)."""
+    edges = np.diff(geometry.X, axis=0)
+    turns = np.zeros(geometry.X.shape[0])
+    turns[1:-1] = np.tan(signed_angle(edges[:-1], edges[1:]) / 2)
+    return turns
 
 
 _NO_VECTOR, _NO_BAND = (
@@ -156,10 +171,11 @@ def stretching(s: float) -> tuple[float, float, float]:
 
 
 @njit(cache=True)
-def squared_tangent(angle: float) -> tuple[float, float, float]:
-    """tan^2 and two derivatives: the characteristic of Fig. 3.7(b)."""
+def squared_tangent(angle: float, rest: float) -> tuple[float, float, float]:
+    """(tan(angle) - rest)^2 and two derivatives by the angle: with rest = 0, the characteristic of Fig. 3.7(b)."""
     t = np.tan(angle)
-    return t * t, 2 * t * (1 + t * t), 2 * (1 + t * t) * (1 + 3 * t * t)
+    s = 1 + t * t
+    return (t - rest) ** 2, 2 * (t - rest) * s, 2 * s * s + 4 * (t - rest) * t * s
 
 
 @njit(cache=True)
@@ -282,7 +298,7 @@ def _assemble(
         W_lam[K] += rod.k2[K] / 2 * first * L
         W_lamlam[K] += rod.k2[K] / 2 * second * L
 
-        value, first, second = squared_tangent(theta[K])
+        value, first, second = squared_tangent(theta[K], 0.0)
         terms[3] += rod.k4[K] / 2 * value * L
         W_theta[K] += rod.k4[K] / 2 * first * L
         W_thetatheta[K] += rod.k4[K] / 2 * second * L
@@ -290,8 +306,8 @@ def _assemble(
         L = rod.voronoi[K]
         turn = t0[K - 1] * t1[K] - t1[K - 1] * t0[K]
         phi = np.arctan2(turn, t0[K - 1] * t0[K] + t1[K - 1] * t1[K])  # eqs. (3.3.15), (3.3.18)
-        # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23)
-        value, first, second = squared_tangent(phi / 2)
+        # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23), less the intrinsic K of the reference
+        value, first, second = squared_tangent(phi / 2, rod.intrinsic[K])
         terms[2] += 2 * rod.k3[K] / L * value
         W_phi[K] = rod.k3[K] / L * first
         W_phiphi[K] = rod.k3[K] / (2 * L) * second

@@ -9,14 +9,17 @@ from numpy.typing import NDArray
 from pydantic import GetCoreSchemaHandler, model_validator
 from pydantic_core import PydanticCustomError, core_schema
 
-from cosserat.models.planar_rod import UNKNOWNS, Geometry, Lumped
+from cosserat.models.couples import Coupled
+from cosserat.models.planar_rod import UNKNOWNS, Geometry
 from cosserat.models.published import (
     Calibration,
     EndSections,
+    IntrinsicCurvature,
     PoissonCoupling,
     PublishedRod,
     stiffnesses,
 )
+from cosserat.models.section import Station, lump, mean, share
 from cosserat.parameters import Count, Parameters, Quantity
 
 Array = NDArray[np.float64]
@@ -54,7 +57,7 @@ def unit_vector(direction: Direction) -> Array:
 
 
 class Rod(Parameters):
-    """A straight homogeneous rod of rectangular section, section 3.5."""
+    """A rod of rectangular sections, section 3.5: straight and homogeneous unless it is said to be otherwise."""
 
     energy: Literal["published"] = "published"
     vertices: Annotated[int, Count("N", "3.3.1", at_least=3)]
@@ -65,45 +68,72 @@ class Rod(Parameters):
     poisson: Annotated[float, Quantity("1", r"\nu", "section 3.5", above=-1, below=0.5)]
     line_density: Annotated[float, Quantity("kg/m", r"\rho_0", "section 3.5", above=0)]
     shear_correction: Annotated[float, Quantity("1", "k", "3.4.13", above=0)]
+    stations: tuple[Station, ...] = ()
+    """How width, height and modulus vary along the rod; the mass goes with the area."""
+    centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
+    """Height of the centreline above the lower surface, as a share of the section's; directors reach the upper one."""
+    curvature: Annotated[float, Quantity("1/m", "K", "3.3.23")] = 0.0
+    """Of the reference configuration, an arc that turns from E3 towards E2."""
     calibration: Calibration
     end_sections: EndSections = "full"
     poisson_coupling: PoissonCoupling = "halved"
+    intrinsic_curvature: IntrinsicCurvature = "subtracted"
+
+    @model_validator(mode="after")
+    def _sound(self) -> Self:
+        places = [station.at for station in self.stations]
+        if places != sorted(places):
+            raise PydanticCustomError(
+                "order", "'stations' are not in the order of 'at'; sort them along the rod"
+            )
+        if abs(self.curvature) * self.length / (self.vertices - 1) >= 1:
+            raise PydanticCustomError(
+                "range",
+                "'curvature' turns each edge by more than a radian; use more 'vertices' or a smaller curvature",
+            )
+        return self
 
     @property
     def area(self) -> float:
-        """Area of the section A [m^2]."""
+        """Nominal area of the section A [m^2]."""
         return self.width * self.height
 
     @property
     def second_moment(self) -> float:
-        """Second moment of area about E1, I [m^4]."""
-        return self.width * self.height**3 / 12
+        """Nominal second moment of area about E1 through the centreline, I [m^4]."""
+        return self.area * self.height**2 * (1 / 12 + (0.5 - self.centreline) ** 2)
 
     @property
     def first_inertia(self) -> float:
-        """Y02 of eq. (3.3.28): zero, for a centreline half-way up the section [1]."""
-        return 0.0
+        """Y02 of eq. (3.3.28): mean of y / |D| over the section, y counted from the centreline [1]."""
+        return (0.5 - self.centreline) / (1 - self.centreline)
 
     @property
     def second_inertia(self) -> float:
-        """Y22 of eq. (3.3.28) for a centreline half-way up: mean of (y / (H/2))^2 over the section [1]."""
-        return 1 / 3
+        """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
+        return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
 
     def geometry(self) -> Geometry:
-        """Its reference configuration; the directors reach the lateral surface, at half the height."""
-        return Geometry.straight(self.vertices, self.length, self.height / 2)
+        """Its reference configuration; the directors reach the upper surface."""
+        arc = np.linspace(0.0, self.length, self.vertices)
+        heights = self.height * share(self.stations, "height", arc, before=False)
+        return Geometry.arc(self.vertices, self.length, (1 - self.centreline) * heights, self.curvature)
+
+    def part_masses(self, geometry: Geometry) -> Array:
+        """Mass of the part round each vertex, shape (N,) [kg]."""
+        arc, part = geometry.arc_length, geometry.voronoi_length
+        cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
+        return self.line_density * part * mean(self.stations, lambda w, h, _: w * h, cuts[:-1], cuts[1:])
 
     def body(self, geometry: Geometry) -> PublishedRod:
-        """The elastic body: eq. (3.4.13) with Table 3.1 for a homogeneous rod."""
-        vertex, edge = (
-            Lumped.uniform(
-                count,
-                area=self.area,
-                second_moment=self.second_moment,
-                young=self.young,
-                poisson=self.poisson,
-            )
-            for count in (self.vertices, self.vertices - 1)
+        """The elastic body: eq. (3.4.13) with the averages of Table 3.1."""
+        vertex, edge = lump(
+            self.stations,
+            geometry.arc_length,
+            area=self.area,
+            second_moment=self.second_moment,
+            young=self.young,
+            poisson=self.poisson,
         )
         return PublishedRod(
             stiffnesses(
@@ -114,6 +144,7 @@ class Rod(Parameters):
                 self.calibration,
                 self.end_sections,
                 self.poisson_coupling,
+                self.intrinsic_curvature,
             )
         )
 
@@ -140,6 +171,23 @@ class PointForce(Parameters):
     force: Annotated[float, Quantity("N", "n", "section 3.5")]
 
 
+class LineLoad(Parameters):
+    """A dead force per length on the centreline, over a stretch of it."""
+
+    along: Direction
+    density: Annotated[float, Quantity("N/m")]
+    start: Annotated[float, Quantity("m", at_least=0)] = 0.0
+    end: Annotated[float, Quantity("m", above=0)] | None = None
+    """The end of the rod, if not given."""
+
+
+class Couple(Parameters):
+    """A moment on one section, positive from E3 towards E2, that turns with it: it does the work of a couple."""
+
+    at: Vertex
+    moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
+
+
 class RodProblem(Parameters):
     """A rod, what holds it and what pulls it."""
 
@@ -147,10 +195,12 @@ class RodProblem(Parameters):
     supports: tuple[Support, ...]
     gravity: Gravity | None = None
     forces: tuple[PointForce, ...] = ()
+    line_loads: tuple[LineLoad, ...] = ()
+    couples: tuple[Couple, ...] = ()
 
     @model_validator(mode="after")
     def _vertices_exist(self) -> Self:
-        for at in [item.at for item in self.supports] + [item.at for item in self.forces]:
+        for at in [item.at for items in (self.supports, self.forces, self.couples) for item in items]:
             if isinstance(at, int) and at >= self.rod.vertices:
                 raise PydanticCustomError(
                     "range",
@@ -163,11 +213,27 @@ class RodProblem(Parameters):
         """Dead forces on the unknowns of each vertex, shape (N, 4) [N]."""
         load = np.zeros((self.rod.vertices, len(UNKNOWNS)))
         if self.gravity is not None:
-            weight = self.rod.line_density * self.gravity.g * geometry.voronoi_length
-            load[:, :2] += weight[:, None] * unit_vector(self.gravity.along)
+            weight = (
+                self.gravity.g
+                * self.rod.part_masses(geometry)[:, None]
+                * unit_vector(self.gravity.along)
+            )
+            load[:, :2] += weight
+            load[:, 2:] += self.rod.first_inertia * weight  # the weight acts at the centre of mass
+        for line in self.line_loads:
+            covered = _overlap(geometry, line.start, self.rod.length if line.end is None else line.end)
+            load[:, :2] += line.density * covered[:, None] * unit_vector(line.along)
         for item in self.forces:
             load[self._index(item.at), :2] += item.force * unit_vector(item.along)
         return load
+
+    def body(self, geometry: Geometry) -> PublishedRod | Coupled:
+        """The rod with its couples, which have a potential but are no dead load."""
+        rod = self.rod.body(geometry)
+        if not self.couples:
+            return rod
+        couples = tuple((self._index(item.at), item.moment) for item in self.couples)
+        return Coupled(rod, couples, geometry.D)
 
     def held(self) -> NDArray[np.bool_]:
         """Which unknowns of each vertex keep their value, shape (N, 4)."""
@@ -179,3 +245,11 @@ class RodProblem(Parameters):
 
     def _index(self, at: Vertex) -> int:
         return {"first": 0, "last": self.rod.vertices - 1}[at] if isinstance(at, str) else at
+
+
+def _overlap(geometry: Geometry, start: float, end: float) -> Array:
+    """Length that each vertex's part shares with an interval, shape (N,) [m]."""
+    arc = geometry.arc_length
+    cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
+    shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
+    return shared

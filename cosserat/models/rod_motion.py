@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from cosserat import analytic
 from cosserat.errors import CosseratError, DivergedError, NotConvergedError
 from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, rigid_motions
+from cosserat.models.published import PublishedRod
 from cosserat.models.rod import Direction, RodProblem, unit_vector
 from cosserat.outcome import Outcome
 from cosserat.parameters import Parameters, Quantity
@@ -69,7 +70,7 @@ class RodMotion(RodProblem):
         held = self.held().ravel()
         free = None if held.any() else _rigid_fields
         system = System(
-            self.rod.body(geometry), self.mass(geometry), self.loads(geometry).ravel(), held, 0.0, free
+            self.body(geometry), self.mass(geometry), self.loads(geometry).ravel(), held, 0.0, free
         )
         if not self.damping:
             return system
@@ -78,7 +79,7 @@ class RodMotion(RodProblem):
 
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""
-        part = self.rod.line_density * geometry.voronoi_length
+        part = self.rod.part_masses(geometry)
         band = np.zeros((part.size, len(UNKNOWNS), 3))
         band[:, :2, 0] = part[:, None]
         band[:, 2:, 0] = part[:, None] * self.rod.second_inertia
@@ -132,9 +133,9 @@ class RodMotion(RodProblem):
             states.append(state)
             steps += done
         numbers = begin + np.arange(len(states), dtype=np.float64)
-        fields = (
-            _frames(geometry, system, states, numbers * (self.duration / self.frames)) if states else {}
-        )
+        times = numbers * (self.duration / self.frames)
+        rod = self.rod.body(geometry)
+        fields = _frames(geometry, system, rod, states, times) if states else {}
         return Outcome(fields, {"steps": steps}), state, stopped
 
     def resume(self, fields: dict[str, Array]) -> State:
@@ -154,10 +155,13 @@ def _rigid_fields(q: Array) -> Array:
     return rigid_motions(q.reshape(-1, len(UNKNOWNS))).reshape(3, -1)
 
 
-def _frames(geometry: Geometry, system: System, states: list[State], times: Array) -> dict[str, Array]:
+def _frames(
+    geometry: Geometry, system: System, rod: PublishedRod, states: list[State], times: Array
+) -> dict[str, Array]:
     q = np.array([state.q for state in states]).reshape(len(states), -1, len(UNKNOWNS))
     v = np.array([state.v for state in states]).reshape(q.shape)
     start = reference(geometry)
+    strain = np.array([rod.energy(state.q) for state in states])
     momenta = np.array([_rigid_fields(s.q) @ band_product(system.mass, s.v) for s in states])
     return {
         "time": times,
@@ -169,8 +173,11 @@ def _frames(geometry: Geometry, system: System, states: list[State], times: Arra
         "x_rate": v[..., :2],
         "d_rate": v[..., 2:],
         "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
-        "strain_energy": np.array([system.body.energy(state.q) for state in states]),
-        "load_potential": np.array([-system.load @ (state.q - start) for state in states]),
+        "strain_energy": strain,
+        "load_potential": np.array(
+            [system.body.energy(s.q) - system.load @ (s.q - start) for s in states]
+        )
+        - strain,
         "momentum": momenta[:, :2],
         "angular_momentum": momenta[:, 2],
     }

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import UnsupportedRodError
+from cosserat.models.couples import Coupled
 from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
 from cosserat.models.published import PublishedRod
 from cosserat.models.rod import RodProblem
@@ -33,11 +34,13 @@ class RodStatics(RodProblem):
         NotConvergedError : no equilibrium within the tolerance.
         """
         geometry = self.rod.geometry()
-        body, load = self.rod.body(geometry), self.loads(geometry)
+        body, load = self.body(geometry), self.loads(geometry)
         state = self.equilibrium(geometry, body, load, name)
         return Outcome(_fields(geometry, body, state, load), _statistics(state))
 
-    def equilibrium(self, geometry: Geometry, body: PublishedRod, load: Array, name: str) -> Equilibrium:
+    def equilibrium(
+        self, geometry: Geometry, body: PublishedRod | Coupled, load: Array, name: str
+    ) -> Equilibrium:
         """The equilibrium of this problem's body under given loads, shape (N, 4)."""
         reference = np.hstack([geometry.X, geometry.D])
         held = self.held()
@@ -64,7 +67,9 @@ def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
         )
 
 
-def _fields(geometry: Geometry, body: PublishedRod, state: Equilibrium, load: Array) -> dict[str, Array]:
+def _fields(
+    geometry: Geometry, body: PublishedRod | Coupled, state: Equilibrium, load: Array
+) -> dict[str, Array]:
     q = state.q.reshape(load.shape)
     x, d = q[:, : len(AXES)], q[:, len(AXES) :]
     measured = strains(geometry, x, d)

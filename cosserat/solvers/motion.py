@@ -9,18 +9,18 @@ has neither a resultant nor a moment and linear and angular momentum stay as the
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
-from scipy.sparse import dia_array
-from scipy.sparse.linalg import eigsh
 
 from cosserat.errors import DivergedError, InputError, NotConvergedError
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.banded import Band, Mask, Vector, hold, solve_positive
+
+if TYPE_CHECKING:
+    from scipy.sparse import dia_array
 
 _TOLERANCE = 1e-11  # of the last correction, as a share of the step; its error is far less
 _MAX_ITERATIONS = 30
@@ -135,6 +135,8 @@ def refuse_unstable_step(system: System, q: Vector, settings: IntegratorSettings
 
 def highest_frequency(system: System, q: Vector) -> float:
     """Largest angular frequency of small motions about q, held unknowns left out [rad/s]."""
+    from scipy.sparse.linalg import eigsh  # 0.2 s: only where it is used
+
     stiffness, mass = free_matrices(system, q)
     (largest,) = eigsh(
         stiffness, 1, mass, which="LM", v0=np.ones(mass.shape[0]), return_eigenvectors=False
@@ -151,6 +153,8 @@ def free_matrices(system: System, q: Vector) -> tuple[dia_array, dia_array]:
 
 
 def _sparse(band: Band) -> dia_array:
+    from scipy.sparse import dia_array
+
     n, width = band.shape
     offsets = range(min(width, n))
     lower = dia_array(
@@ -282,6 +286,8 @@ class _Acceleration:
 def _adaptive(
     system: System, state: State, duration: float, settings: IntegratorSettings, name: str
 ) -> tuple[State, int]:
+    from scipy.integrate import solve_ivp
+
     start = np.concatenate([state.q, state.v])
     size = np.concatenate([np.abs(state.q), np.full(state.v.size, float(np.abs(state.v).max()))])
     done = solve_ivp(

@@ -92,6 +92,7 @@ class _Descent:
         self.gradient = np.empty(n)
         self.band = np.empty((n, body.half_bandwidth + 1))
         self.iterations = self.shortened = self.shifted = 0
+        self.largest = 0.0  # unbalanced force met so far: the scale of a problem without loads
 
     def run(self, q: Vector, load: Vector) -> Equilibrium:
         energy = self.body.assemble(q, self.gradient, self.band)
@@ -101,11 +102,14 @@ class _Descent:
             unbalanced = np.where(self.held, 0.0, load - self.gradient)
             residual = float(np.abs(unbalanced).max())
             rounding = _ROUNDING * float(absolute_product(self.band, q).max())
+            self.largest = max(self.largest, residual)
             scale = max(
-                float(np.abs(load).max()), float(np.abs(self.gradient[self.held]).max(initial=0.0))
+                self.largest,
+                float(np.abs(load).max()),
+                float(np.abs(self.gradient[self.held]).max(initial=0.0)),
             )
             tolerance = max(self.settings.tolerance * scale, rounding)
-            if rounding > _BLUR * scale > 0:
+            if rounding > _BLUR * scale and load.any():
                 raise self._failure(
                     f"rounding the positions makes forces up to {rounding:.2g} N", residual, scale
                 )

@@ -1,0 +1,287 @@
+"""Rods as the theory allows them: varying sections, a centreline anywhere, couples, line loads, curved references."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from conftest import assembled, random_state
+from scipy.integrate import quad
+
+import cosserat
+from cosserat.models import rod_motion
+from cosserat.models.planar_rod import rigid_motions, strains
+from cosserat.solvers import motion
+
+BAR, BEAM = cosserat.case("hanging_bar"), cosserat.case("clamped_free")
+PULL = {"gravity": None, "forces": [{"at": "last", "along": "E3", "force": 10.0}]}
+
+
+def tip(case):
+    return cosserat.run(case).u[-1].to_numpy()
+
+
+def test_a_tapered_bar_stretches_as_the_integral_of_its_compliance():
+    """u = n l ln(h1 / h0) / (E w (h1 - h0)): of second order, since the mean of A is not that of 1 / A."""
+    rod = BAR.problem.rod
+    taper = [{"at": 0, "height": 1.0}, {"at": rod.length, "height": 0.4}]
+    exact = 10.0 * rod.length * np.log(0.4) / (rod.young * rod.width * rod.height * (0.4 - 1))
+    errors = [
+        abs(tip(BAR.vary("taper", **PULL, rod={"stations": taper, "vertices": n}))[0] / exact - 1)
+        for n in (11, 21, 41)
+    ]
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert (np.abs(orders - 2) < 0.1).all(), (errors, orders)
+    assert errors[-1] < 2e-4
+
+
+def test_a_stepped_bar_is_a_row_of_springs():
+    rod = BAR.problem.rod
+    steps = [
+        {"at": 0, "young": 1.0},
+        {"at": 2, "young": 1.0},
+        {"at": 2, "young": 3.0, "width": 0.5},
+        {"at": 5, "young": 3.0, "width": 0.5},
+    ]
+    exact = 10.0 / rod.area * (2 / rod.young + 3 / (3 * 0.5 * rod.young))
+    found = tip(BAR.vary("steps", **PULL, rod={"stations": steps, "vertices": 26}))[0]
+    assert found == pytest.approx(exact, rel=1e-4)
+
+
+def test_averages_of_a_tapered_section_are_its_integrals():
+    """Eqs. (3.4.8)-(3.4.9) for A and I, against quadrature; the mass is that of the tapered body."""
+    stations = [{"at": 0.5, "height": 1.0, "width": 1.0}, {"at": 3.0, "height": 0.5, "width": 2.0}]
+    problem = BEAM.vary("taper", rod={"stations": stations, "vertices": 7}).problem
+    rod, geometry = problem.rod, problem.rod.geometry()
+    body = rod.body(geometry).stiffness
+
+    def height(xi):
+        return rod.height * np.interp(xi, [0.5, 3.0], [1.0, 0.5])
+
+    def width(xi):
+        return rod.width * np.interp(xi, [0.5, 3.0], [1.0, 2.0])
+
+    def mean(f, a, b):
+        return quad(f, a, b, points=[0.5, 3.0], epsabs=1e-14)[0] / (b - a)
+
+    xi = geometry.arc_length
+    areas = [mean(lambda s: width(s) * height(s), a, b) for a, b in pairwise(xi)]
+    np.testing.assert_allclose(body.k1, rod.calibration.c1 * rod.young * np.array(areas), rtol=1e-9)
+    middles = (xi[1:] + xi[:-1]) / 2
+    moments = [mean(lambda s: width(s) * height(s) ** 3 / 12, a, b) for a, b in pairwise(middles)]
+    np.testing.assert_allclose(
+        body.k3[1:-1], rod.calibration.c3 * rod.young * np.array(moments), rtol=1e-9
+    )
+    mass = quad(
+        lambda s: rod.line_density * width(s) * height(s) / rod.area, 0, rod.length, points=[0.5, 3.0]
+    )[0]
+    assert rod.part_masses(geometry).sum() == pytest.approx(mass, rel=1e-9)
+    np.testing.assert_allclose(geometry.director_length, height(xi) / 2, rtol=1e-12)
+
+
+def test_stations_out_of_order_are_refused():
+    with pytest.raises(cosserat.InputError, match="'stations' are not in the order"):
+        BEAM.vary("mixed", rod={"stations": [{"at": 2}, {"at": 1}]})
+
+
+@pytest.mark.parametrize("centreline", [0.2, 0.5, 0.9])
+def test_inertias_are_those_of_the_section(centreline):
+    """Eq. (3.3.28) by quadrature over the height, X = y / |D| counted from the centreline."""
+    rod = BEAM.vary("offset", rod={"centreline": centreline}).problem.rod
+    low, high = -centreline * rod.height, (1 - centreline) * rod.height
+    length = rod.geometry().director_length[0]
+    assert length == pytest.approx(high)
+    for power, found in ((1, rod.first_inertia), (2, rod.second_inertia)):
+        assert found == pytest.approx(
+            quad(lambda y, p=power: (y / length) ** p, low, high)[0] / rod.height
+        )
+    assert rod.second_moment == pytest.approx(rod.width * quad(lambda y: y * y, low, high)[0])
+
+
+def test_an_offset_rod_in_flight_keeps_its_momenta_and_turns_about_its_centre_of_mass():
+    """Y02 != 0: the centreline wobbles, the centre of mass flies straight (eqs. (3.3.30)-(3.3.33))."""
+    case = cosserat.case("vibration_c4_20").vary(
+        "offset",
+        supports=[],
+        rod={"centreline": 0.1},
+        start={"amplitude": 0.0, "speed": 3.0, "along": "E2", "spin": 25.0},
+        duration=0.1,
+        every=1e-3,
+    )
+    data = cosserat.run(case)
+    rod = case.problem.rod
+    assert rod.first_inertia > 0.4
+    for name in ("momentum", "angular_momentum"):
+        values = data[name].to_numpy().reshape(data.sizes["time"], -1)
+        assert np.abs(values - values[0]).max() < 1e-10 * np.abs(values[0]).max()
+    energy = (data.kinetic_energy + data.strain_energy).to_numpy()
+    assert np.abs(energy / energy[0] - 1).max() < 1e-9
+    part = rod.part_masses(rod.geometry())
+    centre = np.einsum("k,tka->ta", part, (data.x + rod.first_inertia * data.d).to_numpy()) / part.sum()
+    straight = centre[0] + data.time.to_numpy()[:, None] * data.momentum.to_numpy()[0] / part.sum()
+    np.testing.assert_allclose(centre, straight, atol=1e-9)
+    line = np.einsum("k,tka->ta", part, data.x.to_numpy()) / part.sum()
+    assert (
+        np.abs(line - straight - (line - straight)[0]).max() > 1e-2
+    )  # the centreline's mean does wobble
+
+
+def test_an_offset_rod_falls_without_turning():
+    """Its weight acts at the centre of mass, so that a free rod under gravity keeps its angle."""
+    case = cosserat.case("vibration_c4_20").vary(
+        "fall",
+        supports=[],
+        rod={"centreline": 0.2},
+        start={"amplitude": 0.0},
+        gravity={"g": 9.81, "along": "-E2"},
+        duration=0.1,
+        every=1e-2,
+    )
+    data = cosserat.run(case)
+    np.testing.assert_allclose(data.d, np.broadcast_to(data.d_ref, data.d.shape), atol=1e-10)
+    np.testing.assert_allclose(data.x.sel(axis="E2")[-1], -9.81 / 2 * 0.01, rtol=1e-9)
+
+
+def test_a_couple_does_the_work_of_a_couple():
+    """Brought up slowly from zero it does M alpha / 2 in small rotations, which is the strain energy."""
+    case = BEAM.vary("turned", gravity=None, couples=[{"at": "last", "moment": 10.0}])
+    data = cosserat.run(case)
+    d = data.d[-1].to_numpy()
+    alpha = np.arctan2(-d[0], d[1])
+    assert alpha > 0
+    assert data.energy.sum().item() == pytest.approx(10.0 * alpha / 2, rel=1e-5)
+
+
+def test_a_couple_turns_a_free_rod_as_a_rigid_body():
+    """Angular momentum grows at the rate M: the director force is M / |d|, twice the printed one (E3.10)."""
+    case = cosserat.case("vibration_c4_20").vary(
+        "spun",
+        supports=[],
+        start={"amplitude": 0.0},
+        couples=[{"at": 10, "moment": 2.0}],
+        duration=0.05,
+        every=5e-3,
+    )
+    data = cosserat.run(case)
+    np.testing.assert_allclose(data.angular_momentum, 2.0 * data.time, rtol=1e-9, atol=1e-12)
+    total = (data.kinetic_energy + data.strain_energy + data.load_potential).to_numpy()
+    assert np.abs(total).max() < 1e-9 * float(data.kinetic_energy.max())
+
+
+def test_couples_have_exact_gradients_and_hessians():
+    problem = BEAM.vary(
+        "turned", rod={"vertices": 5}, couples=[{"at": 2, "moment": 3e6}, {"at": "last", "moment": -1e6}]
+    ).problem
+    body = problem.body(problem.rod.geometry())
+    q = random_state(problem.rod, 4, turn=0.4)
+    _, gradient, hessian = assembled(body, q)
+    only = np.empty(q.size)
+    assert body.differentiate(q, only) == pytest.approx(body.energy(q))
+    np.testing.assert_allclose(only, gradient, rtol=1e-14)
+    for i, unit in enumerate(np.eye(q.size)):
+        h = 1e-6
+        up, down = assembled(body, q + h * unit), assembled(body, q - h * unit)
+        assert gradient[i] == pytest.approx(
+            (up[0] - down[0]) / (2 * h), abs=1e-6 * np.abs(gradient).max()
+        )
+        np.testing.assert_allclose(
+            hessian[i], (up[1] - down[1]) / (2 * h), atol=1e-6 * np.abs(hessian).max()
+        )
+
+
+def test_a_line_load_over_the_rod_is_its_weight():
+    weight = BEAM.problem.rod.line_density * 9.81
+    loaded = BEAM.vary("loaded", gravity=None, line_loads=[{"along": "-E2", "density": weight}])
+    np.testing.assert_allclose(cosserat.run(loaded).x, cosserat.run(BEAM).x, atol=1e-12)
+
+
+def test_a_line_load_over_a_stretch_has_its_resultant_there():
+    case = BEAM.vary(
+        "loaded", gravity=None, line_loads=[{"along": "E2", "density": 7.0, "start": 1.3, "end": 3.1}]
+    )
+    force = cosserat.run(case).applied_force.sel(unknown="x2").to_numpy()
+    arc = case.problem.rod.geometry().arc_length
+    assert force.sum() == pytest.approx(7.0 * 1.8)
+    assert (force[(arc < 1.1) | (arc > 3.3)] == 0).all()
+
+
+def test_point_loads_may_stand_anywhere():
+    """By Maxwell and Betti: a force at A moves B as the same force at B moves A, in small displacements."""
+
+    def moved(at, seen):
+        case = BEAM.vary("poked", gravity=None, forces=[{"at": at, "along": "E2", "force": 1.0}])
+        return cosserat.run(case).u.sel(axis="E2")[seen].item()
+
+    assert moved(7, 15) == pytest.approx(moved(15, 7), rel=1e-6)
+
+
+ARC = {"curvature": 0.3, "vertices": 41}
+
+
+def test_a_curved_reference_is_at_rest_and_unsheared():
+    problem = BEAM.vary("arc", rod=ARC).problem
+    geometry = problem.rod.geometry()
+    measured = strains(geometry, geometry.X, geometry.D)
+    np.testing.assert_allclose(measured.theta, 0, atol=1e-14)  # D along B, section 3.3
+    np.testing.assert_allclose(measured.mu_edge, 1, rtol=1e-14)
+    assert measured.kappa[1:-1] == pytest.approx(0.3, rel=1e-3)
+    energy, gradient, hessian = assembled(problem.rod.body(geometry), rod_motion.reference(geometry))
+    assert abs(energy) < 1e-9
+    assert np.abs(gradient).max() < 1e-12 * np.abs(hessian).max()
+
+
+def test_E3_24_printed_bending_energy_does_not_let_a_curved_rod_rest():
+    """Eq. (3.4.11) charges the whole curvature: a free end unbends until the rod is straight."""
+    case = BEAM.vary(
+        "arc", gravity=None, rod={**ARC, "intrinsic_curvature": "printed", "curvature": 0.05}
+    )
+    problem = case.problem
+    geometry = problem.rod.geometry()
+    _, gradient, _ = assembled(problem.rod.body(geometry), rod_motion.reference(geometry))
+    assert np.abs(gradient).max() > 1e3
+    straightened = cosserat.run(case)
+    assert np.abs(straightened.kappa[2:-1]).max() < 0.1 * 0.05
+    rested = cosserat.run(case.vary("arc", rod={"intrinsic_curvature": "subtracted"}))
+    assert np.abs(rested.u).max() < 1e-9
+
+
+def test_a_curved_bar_bends_as_castigliano_says():
+    """A thin quarter ring pulled across its tip moves there by pi P R^3 / (4 E I).
+
+    The published energy bends at interior vertices only, so the half edge at the clamp stays stiff: first order.
+    """
+    radius, force = 5 * 2 / np.pi, 0.3
+    ratios = []
+    for n in (51, 101, 201):
+        calibration = {
+            "c3": 1.0,
+            "c4": 200.0,
+            "c5": 100.0,
+        }  # so stiff in shear that the clamp does not give
+        ring = {"curvature": 1 / radius, "vertices": n, "height": 0.1, "width": 0.1, "poisson": 0}
+        case = BEAM.vary(
+            "ring",
+            gravity=None,
+            rod={**ring, "calibration": calibration},
+            forces=[{"at": "last", "along": "E3", "force": force}],
+        )
+        rod = case.problem.rod
+        np.testing.assert_allclose(rod.geometry().X[-1], [radius, radius], rtol=1e-3)
+        ratios.append(tip(case)[0] / (np.pi * force * radius**3 / (4 * rod.young * rod.second_moment)))
+    steps = np.diff(ratios)
+    assert steps[0] / steps[1] == pytest.approx(2, abs=0.1)
+    assert ratios[-1] + steps[-1] == pytest.approx(1, abs=1e-3)
+
+
+def test_mass_couples_position_and_director_where_the_page_says():
+    problem = cosserat.case("vibration_c4_20").vary("offset", rod={"centreline": 0.3}).problem
+    geometry = problem.rod.geometry()
+    rng = np.random.default_rng(1)
+    v = rng.standard_normal((20, 4))
+    part = problem.rod.part_masses(geometry)
+    y02, y22 = problem.rod.first_inertia, problem.rod.second_inertia
+    matrix = np.kron(np.array([[1, y02], [y02, y22]]), np.eye(2))  # eq. (3.3.43)
+    expected = np.array([m * matrix @ row for m, row in zip(part, v, strict=True)])
+    found = motion.band_product(problem.mass(geometry), v.ravel()).reshape(20, 4)
+    np.testing.assert_allclose(found, expected, rtol=1e-13)
+    spin = rigid_motions(np.hstack([geometry.X, geometry.D]))[2]
+    assert (spin * motion.band_product(problem.mass(geometry), spin.ravel()).reshape(20, 4)).sum() > 0
