@@ -33,6 +33,22 @@ from cosserat.models import planar_rod, published
 from cosserat.solvers import newton
 from cosserat.table import readouts
 
+# %% tags=["remove-input"]
+page.figure("fig_3_1", "The lower boundary of the body is the directorline reflected in the centreline.")
+
+# %% [markdown]
+# Such a curve stands for a body that is long against its section. Where in the section the centreline runs is a choice;
+# it changes the inertias, not the body.
+
+# %% tags=["remove-input"]
+page.figure("fig_3_2", "A body, a close centreline and one of its sections.")
+
+# %% tags=["remove-input"]
+page.figure(
+    "fig_3_3",
+    "Two centrelines for one section. Coordinates are scaled so that a director reaches the lateral surface at one.",
+)
+
 # %% [markdown]
 # ## What is strained
 #
@@ -63,6 +79,26 @@ from cosserat.table import readouts
 # |{}_K\vartheta| = \arccos({}_K\hat{\mathbf{d}} \cdot {}_K\mathbf{b}). \tag{3.3.24}
 # $$
 #
+# A turning angle makes a circle that touches both edges half a Voronoi length from their vertex,
+#
+# $$
+# {}_K r = \frac{{}_K\ell}{2} \cot\frac{{}_K\varphi}{2} . \tag{3.3.22}
+# $$
+
+# %% tags=["remove-input"]
+page.figure("fig_3_4", "Vertex 2 of the rod of Fig. 3.1(b).")
+
+# %% tags=["remove-input"]
+page.figure("fig_3_6", "The same vertex; a couple on its section makes the director lean.")
+
+# %% [markdown]
+# The curvature alone would call an inflated ring less bent. Its product with the stretch counts angle per *reference*
+# length and stays as it is, so it is what the energy charges.
+
+# %% tags=["remove-input"]
+page.figure("fig_3_5", "A rod bent into a ring, then inflated.")
+
+# %% [markdown]
 # The library measures a configuration in one function; the arc cosines with their separate signs (3.3.18) and (3.3.26)
 # become one arc tangent, which keeps its digits at small angles.
 
@@ -89,6 +125,12 @@ page.source(planar_rod.strains)
 # This is the corrected form: the page has a vertex stretch in the first term (E3.1) and twice the last one (E3.2). The
 # kernel writes it down term by term, with the first and second derivatives by the strains that forces and stiffness
 # need. `stretching` and `squared_tangent` return the value and two derivatives of $s^2 - s + s^{-1} - 1$ and $\tan^2$.
+
+# %% tags=["remove-input"]
+page.figure(
+    "fig_3_7",
+    "Both grow without bound where matter would pass through itself; dashed, what they are in small strains.",
+)
 
 # %% tags=["remove-input"]
 page.excerpt(published._assemble, "# Second pass", "# Third pass")

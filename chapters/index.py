@@ -26,6 +26,7 @@
 # ch3_statics
 # ch3_motion
 # ch3_calibration
+# ch3_rods
 # results_table
 # errata
 # ```

@@ -242,3 +242,10 @@ def test_running_a_case_as_a_process_takes_less_than_two_and_a_half_seconds(tmp_
         assert done.returncode == 0, done.stderr
         assert done.stderr == ""
     assert min(times) < 2.5
+
+
+def test_speed_is_measured(capsys):
+    code, out, _ = call(capsys, "speed")
+    assert code == 0
+    assert [line.split()[0] for line in out.splitlines()] == ["20", "200", "2000"]
+    assert out.count("steps/s") == 3

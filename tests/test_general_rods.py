@@ -285,3 +285,43 @@ def test_mass_couples_position_and_director_where_the_page_says():
     np.testing.assert_allclose(found, expected, rtol=1e-13)
     spin = rigid_motions(np.hstack([geometry.X, geometry.D]))[2]
     assert (spin * motion.band_product(problem.mass(geometry), spin.ravel()).reshape(20, 4)).sum() > 0
+
+
+def test_a_moved_support_stretches_a_bar_by_hooke():
+    case = BAR.vary(
+        "stretched",
+        gravity=None,
+        supports=[{"at": "first", "hold": ["x3", "x2", "d3"]}, {"at": "last", "hold": ["x3"]}],
+        moves=[{"at": "last", "unknown": "x3", "by": "1 mm"}],
+    )
+    data = cosserat.run(case)
+    rod = case.problem.rod
+    force = rod.young * rod.area * 1e-3 / rod.length
+    assert data.support_force.sel(unknown="x3")[-1].item() == pytest.approx(force, rel=1e-3)
+    np.testing.assert_allclose(data.mu_edge, 1 + 1e-3 / rod.length, rtol=1e-9)
+
+
+@pytest.mark.parametrize("method", ["implicit", "rk45"])
+def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
+    """Far below the lowest frequency f1 the tip follows the base but for its inertia and the start."""
+    f1 = cosserat.case("vibration_c4_20").problem.modes(1).angular_frequency[0] / (2 * np.pi)
+    shaken = cosserat.case("vibration_c4_20").vary(
+        "shaken",
+        start={"shape": "reference", "amplitude": 0.0},
+        moves=[{"at": "first", "unknown": "x2", "by": "0.1 mm", "frequency": f1 / 20}],
+        duration=5 / f1,
+        every=0.05 / f1,
+        integrator={"method": method, "step": 0.01 / f1},
+    )
+    data = cosserat.run(shaken)
+    base = data.x.sel(axis="E2").isel(vertex=0).to_numpy()
+    np.testing.assert_allclose(base, 1e-4 * np.sin(2 * np.pi * f1 / 20 * data.time), atol=1e-9)
+    lag = data.x.sel(axis="E2").isel(vertex=-1).to_numpy() - base
+    assert np.abs(lag).max() < 0.1 * 1e-4  # 1.57 (f / f1)^2 and the start's transient, 1.57 (f / f1)
+
+
+def test_moves_need_a_support_and_statics_no_frequency():
+    with pytest.raises(cosserat.InputError, match="moves x2 of vertex last, which no support holds"):
+        BEAM.vary("bad", moves=[{"at": "last", "unknown": "x2", "by": 0.1}])
+    with pytest.raises(cosserat.InputError, match="a static problem has no time"):
+        BEAM.vary("bad", moves=[{"at": "first", "unknown": "x2", "by": 0.1, "frequency": 2}])

@@ -130,4 +130,11 @@ def _sphinx(pages: Path, built: Path, doctrees: Path) -> None:
         failed = build_main(arguments)
     if failed:
         raise CosseratError(f"the book could not be built:\n{said.getvalue()}")
+    for page in built.glob("*.html"):
+        if "\\begin{split}" in page.read_text(
+            encoding="utf-8"
+        ):  # Sphinx wraps lines so; MathJax then refuses a tag
+            raise CosseratError(
+                f"{page.name}: write an equation of several lines as \\begin{{equation*}}, not in $$"
+            )
     (built / ".buildinfo").unlink(missing_ok=True)

@@ -59,6 +59,7 @@ def fig_calibration(data: Mapping[str, xr.Dataset]) -> Figure:
     right.set(
         xlabel="vertices $N$ [1]", ylabel="fitted coefficient [1]", title="(b) coefficients that fit"
     )
+    right.set_yticks([0.3, 0.5, 1, 2, 5], ["0.3", "0.5", "1", "2", "5"])
     for ax in (left, right):
         ax.set_xticks(n.to_numpy(), [f"{value:.0f}" for value in n.to_numpy()])
         ax.minorticks_off()

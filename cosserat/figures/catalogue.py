@@ -26,6 +26,13 @@ class Entry:
 
 
 FIGURES: dict[str, Entry] = {
+    "fig_3_1": Entry("Fig. 3.1: reference and current configuration", "geometry", ("bent_rod",)),
+    "fig_3_2": Entry("Fig. 3.2: a rod-like body", "geometry", ("clamped_free",)),
+    "fig_3_3": Entry("Fig. 3.3: section and directors", "geometry", ("clamped_free",)),
+    "fig_3_4": Entry("Fig. 3.4: discrete osculating circle", "geometry", ("bent_rod",)),
+    "fig_3_5": Entry("Fig. 3.5: bending, then stretching", "geometry", ("clamped_free",)),
+    "fig_3_6": Entry("Fig. 3.6: tangents, director and angles", "geometry", ("bent_rod",)),
+    "fig_3_7": Entry("Fig. 3.7: energy characteristics", "geometry", ()),
     "fig_3_8": Entry(
         "Fig. 3.8: equilibria of the four static problems",
         "chapter3",

@@ -46,12 +46,13 @@ def picture(data: xr.Dataset) -> Figure:
 
 
 def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
-    """The rod as the body it stands for, with its supports and loads; lateral surfaces at x + d and x - d."""
+    """The rod as the body it stands for, with its supports and loads; the directors reach the upper surface."""
     problem = problem_of(data)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
     x, d = X + magnified * data.u.to_numpy(), D + magnified * data.delta.to_numpy()
-    _draw_outline(ax, X, D, facecolor="none", edgecolor=EXACT, linestyle=":")
-    _draw_outline(ax, x, d, facecolor=BODY, edgecolor=COMPUTED)
+    below = _below(data)
+    _draw_outline(ax, X, D, below, facecolor="none", edgecolor=EXACT, linestyle=":")
+    _draw_outline(ax, x, d, below, facecolor=BODY, edgecolor=COMPUTED)
     ax.quiver(
         *x.T, *d.T, angles="xy", scale_units="xy", scale=1, color=COMPUTED, width=0.003, headwidth=5
     )
@@ -68,8 +69,14 @@ def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
         _draw_arrow(ax, foot, np.array([1.0 if force.along == "E3" else -1.0, 0.0]), "$n$")
 
 
-def _draw_outline(ax: Axes, x: Array, d: Array, **colours: Any) -> None:
-    ax.fill(*np.vstack([x + d, (x - d)[::-1]]).T, linewidth=0.9, **colours)
+def _below(data: xr.Dataset) -> float:
+    """How far the lower surface is from the centreline, in directors."""
+    share = problem_of(data).rod.centreline
+    return share / (1 - share)
+
+
+def _draw_outline(ax: Axes, x: Array, d: Array, below: float, **colours: Any) -> None:
+    ax.fill(*np.vstack([x + d, (x - below * d)[::-1]]).T, linewidth=0.9, **colours)
 
 
 def _draw_arrow(ax: Axes, foot: Array, along: Array, label: str) -> None:

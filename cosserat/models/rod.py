@@ -72,7 +72,7 @@ class Rod(Parameters):
     """How width, height and modulus vary along the rod; the mass goes with the area."""
     centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
     """Height of the centreline above the lower surface, as a share of the section's; directors reach the upper one."""
-    curvature: Annotated[float, Quantity("1/m", "K", "3.3.23")] = 0.0
+    curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")] = 0.0
     """Of the reference configuration, an arc that turns from E3 towards E2."""
     calibration: Calibration
     end_sections: EndSections = "full"
@@ -188,6 +188,18 @@ class Couple(Parameters):
     moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
 
 
+class Move(Parameters):
+    """A held number that is moved: at rest to a new place, in motion there at once or to and fro.
+
+    With a frequency f it stands at by sin(2 pi f t) from its reference value.
+    """
+
+    at: Vertex
+    unknown: UnknownName
+    by: Annotated[float, Quantity("m")]
+    frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
+
+
 class RodProblem(Parameters):
     """A rod, what holds it and what pulls it."""
 
@@ -197,15 +209,26 @@ class RodProblem(Parameters):
     forces: tuple[PointForce, ...] = ()
     line_loads: tuple[LineLoad, ...] = ()
     couples: tuple[Couple, ...] = ()
+    moves: tuple[Move, ...] = ()
 
     @model_validator(mode="after")
     def _vertices_exist(self) -> Self:
-        for at in [item.at for items in (self.supports, self.forces, self.couples) for item in items]:
+        for at in [
+            item.at for items in (self.supports, self.forces, self.couples, self.moves) for item in items
+        ]:
             if isinstance(at, int) and at >= self.rod.vertices:
                 raise PydanticCustomError(
                     "range",
                     f"'at' is {at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
                     "choose one of those, 'first' or 'last'",
+                )
+        held = self.held()
+        for move in self.moves:
+            if not held[self._index(move.at), UNKNOWNS.index(move.unknown)]:
+                raise PydanticCustomError(
+                    "support",
+                    f"'moves' moves {move.unknown} of vertex {move.at}, which no support holds; "
+                    "add it to 'hold' of a support there",
                 )
         return self
 
@@ -234,6 +257,16 @@ class RodProblem(Parameters):
             return rod
         couples = tuple((self._index(item.at), item.moment) for item in self.couples)
         return Coupled(rod, couples, geometry.D)
+
+    def drive(self, time: float) -> tuple[Array, Array]:
+        """Prescribed displacement and velocity of the held numbers at a time, each of shape (4 N,)."""
+        place, rate = np.zeros((2, self.rod.vertices, len(UNKNOWNS)))
+        for move in self.moves:
+            at = self._index(move.at), UNKNOWNS.index(move.unknown)
+            omega = 2 * np.pi * move.frequency
+            place[at] = move.by * (np.sin(omega * time) if omega else 1.0)
+            rate[at] = move.by * omega * np.cos(omega * time)
+        return place.ravel(), rate.ravel()
 
     def held(self) -> NDArray[np.bool_]:
         """Which unknowns of each vertex keep their value, shape (N, 4)."""

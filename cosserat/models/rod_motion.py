@@ -69,13 +69,22 @@ class RodMotion(RodProblem):
         """What moves: body, mass, loads, supports and drag."""
         held = self.held().ravel()
         free = None if held.any() else _rigid_fields
+        drive = self.drive if self.moves else None
         system = System(
-            self.body(geometry), self.mass(geometry), self.loads(geometry).ravel(), held, 0.0, free
+            self.body(geometry),
+            self.mass(geometry),
+            self.loads(geometry).ravel(),
+            held,
+            0.0,
+            free,
+            drive,
         )
         if not self.damping:
             return system
         lowest = modes(system, reference(geometry), 1).angular_frequency[0]
-        return System(system.body, system.mass, system.load, held, 2 * self.damping * lowest, free)
+        return System(
+            system.body, system.mass, system.load, held, 2 * self.damping * lowest, free, drive
+        )
 
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""
@@ -110,7 +119,8 @@ class RodMotion(RodProblem):
         v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)
         v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
         v[self.held()] = 0.0
-        state = State(q.ravel(), v.ravel())
+        place, rate = self.drive(0.0)
+        state = State(q.ravel() + place, v.ravel() + rate)
         refuse_unstable_step(self.system(geometry), state.q, self.integrator, name)
         return state
 
@@ -143,6 +153,7 @@ class RodMotion(RodProblem):
         return State(
             np.hstack([fields["x"][-1], fields["d"][-1]]).ravel(),
             np.hstack([fields["x_rate"][-1], fields["d_rate"][-1]]).ravel(),
+            float(fields["time"][-1]),
         )
 
 

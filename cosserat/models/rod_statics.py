@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
 
 from cosserat.errors import UnsupportedRodError
 from cosserat.models.couples import Coupled
@@ -24,6 +26,14 @@ class RodStatics(RodProblem):
 
     kind: Literal["rod statics"] = "rod statics"
     newton: NewtonSettings = NewtonSettings()
+
+    @model_validator(mode="after")
+    def _nothing_swings(self) -> Self:
+        if any(move.frequency for move in self.moves):
+            raise PydanticCustomError(
+                "static", "'moves' has a 'frequency', but a static problem has no time; leave it out"
+            )
+        return self
 
     def solve(self, name: str) -> Outcome:
         """Find the equilibrium; `name` is what errors call the case.
@@ -45,7 +55,8 @@ class RodStatics(RodProblem):
         reference = np.hstack([geometry.X, geometry.D])
         held = self.held()
         refuse_rigid_motion(reference, held, name)
-        return equilibrium(body, reference.ravel(), load.ravel(), held.ravel(), self.newton, name)
+        start = reference.ravel() + self.drive(0.0)[0]
+        return equilibrium(body, start, load.ravel(), held.ravel(), self.newton, name)
 
 
 def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:

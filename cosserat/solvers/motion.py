@@ -62,6 +62,7 @@ class System:
     """What moves: the body, its mass as a symmetric band (n, w + 1), dead load (n,), what is held and the drag [1/s].
 
     The damping force is -drag M v.
+    drive : how held unknowns are moved; None where they rest.
     rigid : fields (k, n) at q that a free body's momenta belong to, as a function of q; None where something is held.
     """
 
@@ -71,6 +72,14 @@ class System:
     held: Mask
     drag: float
     rigid: RigidFields | None
+    drive: Drive | None = None
+
+
+class Drive(Protocol):
+    """Prescribed displacements of held unknowns."""
+
+    def __call__(self, time: float) -> tuple[Vector, Vector]:
+        """Displacement and velocity at a time, each (n,), zero where nothing is prescribed."""
 
 
 class RigidFields(Protocol):
@@ -82,10 +91,11 @@ class RigidFields(Protocol):
 
 @dataclass(frozen=True)
 class State:
-    """Positions q and velocities v, each (n,)."""
+    """Positions q and velocities v, each (n,), at a time."""
 
     q: Vector
     v: Vector
+    time: float = 0.0
 
 
 def kinetic_energy(system: System, state: State) -> float:
@@ -203,7 +213,10 @@ class _Implicit:
     def step(self, state: State, h: float) -> State:
         body, mass, held = self.system.body, self.system.mass, self.system.held
         before = body.energy(state.q)
-        change = np.where(held, 0.0, h * state.v)
+        given = np.zeros_like(state.q)
+        if self.system.drive is not None:
+            given = self.system.drive(state.time + h)[0] - self.system.drive(state.time)[0]
+        change = np.where(held, given, h * state.v)
         factor = 2 / h**2 + self.system.drag / h
         pull = self.system.load + (2 / h) * band_product(mass, state.v)
         size = np.inf
@@ -224,13 +237,19 @@ class _Implicit:
             rounding = _EPS * float(np.abs(state.q).max())
             stalled = size > last / 2 and size < _STALL * rounding
             if stalled or size <= max(_TOLERANCE * float(np.abs(change).max()), rounding):
-                return State(state.q + change, 2 / h * change - state.v)
+                return self._arrived(state, change, h)
         raise NotConvergedError(
             f"{self.name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
             iterations=_MAX_ITERATIONS,
             residual=float("nan"),
             tolerance=_TOLERANCE,
         )
+
+    def _arrived(self, state: State, change: Vector, h: float) -> State:
+        v = 2 / h * change - state.v
+        if self.system.drive is not None:
+            v = np.where(self.system.held, self.system.drive(state.time + h)[1], v)
+        return State(state.q + change, v, state.time + h)
 
     def _correction(self, q: Vector, change: Vector, before: float) -> Vector:
         """The force sigma z that makes the work of the elastic forces the change of energy."""
@@ -257,11 +276,13 @@ class _Rk4:
 
     def step(self, state: State, h: float) -> State:
         y = np.concatenate([state.q, state.v])
-        k1 = self.rate(0.0, y)
-        k2 = self.rate(0.0, y + h / 2 * k1)
-        k3 = self.rate(0.0, y + h / 2 * k2)
-        k4 = self.rate(0.0, y + h * k3)
-        return State(*np.split(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), 2))
+        t = state.time
+        k1 = self.rate(t, y)
+        k2 = self.rate(t + h / 2, y + h / 2 * k1)
+        k3 = self.rate(t + h / 2, y + h / 2 * k2)
+        k4 = self.rate(t + h, y + h * k3)
+        q, v = np.split(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), 2)
+        return State(q, v, t + h)
 
 
 class _Acceleration:
@@ -273,13 +294,16 @@ class _Acceleration:
         self.mass = system.mass.copy()
         hold(self.mass, system.held)
 
-    def __call__(self, _: float, y: Vector) -> Vector:
+    def __call__(self, time: float, y: Vector) -> Vector:
         q, v = np.split(y, 2)
+        if self.system.drive is not None:
+            v = np.where(self.system.held, self.system.drive(time)[1], v)
         self.system.body.differentiate(q, self.gradient)
         force = np.where(self.system.held, 0.0, self.system.load - self.gradient)
         acceleration = solve_positive(self.mass, force)
         assert acceleration is not None  # a mass is positive
-        rate = np.concatenate([v, acceleration - self.system.drag * v])
+        slowing = np.where(self.system.held, 0.0, acceleration - self.system.drag * v)
+        rate = np.concatenate([v, slowing])
         return rate
 
 
@@ -292,7 +316,7 @@ def _adaptive(
     size = np.concatenate([np.abs(state.q), np.full(state.v.size, float(np.abs(state.v).max()))])
     done = solve_ivp(
         _Acceleration(system),
-        (0.0, duration),
+        (state.time, state.time + duration),
         start,
         method="RK45",
         max_step=settings.step,
@@ -301,7 +325,8 @@ def _adaptive(
     )
     if not done.success:
         raise DivergedError(f"{name}: the explicit integrator stopped ({done.message}); {_REMEDY}")
-    after = State(*np.split(done.y[:, -1], 2))
+    q, v = np.split(done.y[:, -1], 2)
+    after = State(q, v, state.time + duration)
     _refuse_divergence(system, after, settings, name)
     return after, int(done.nfev)
 
