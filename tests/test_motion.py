@@ -121,6 +121,27 @@ def test_modes_and_time_integration_agree(solved):
     assert measured == pytest.approx(2 * np.pi / BEAM.problem.modes(1).angular_frequency[0], rel=1e-3)
 
 
+def test_modes_about_a_loaded_equilibrium_are_those_of_small_motions_there():
+    """A beam pulled along its length vibrates faster; the frequency is that of its motion about the loaded state."""
+    pull = {"gravity": None, "forces": [{"at": "last", "along": "E3", "force": 2e5}]}
+    pulled = cosserat.case("clamped_free").vary("pulled", **pull).problem
+    slack = cosserat.case("clamped_free").vary("slack", gravity=None).problem
+    frequency = pulled.modes(1).angular_frequency[0]
+    assert frequency > 1.05 * slack.modes(1).angular_frequency[0]
+    nudged = cosserat.case("relaxing_clamped_free").vary(
+        "nudged",
+        gravity={"g": 1e-4, "along": "-E2"},
+        forces=pull["forces"],
+        damping=0.0,
+        duration=10 * 2 * np.pi / frequency,
+        every=0.02 * 2 * np.pi / frequency,
+        integrator={"step": 0.005 * 2 * np.pi / frequency},
+    )
+    data = cosserat.run(nudged)
+    tip = data.x.sel(axis="E2").isel(vertex=-1).to_numpy()
+    assert readouts.period(data.time.to_numpy(), tip) == pytest.approx(2 * np.pi / frequency, rel=1e-3)
+
+
 def test_modes_are_orthonormal_and_free_rods_have_three_of_no_frequency():
     problem = free_flight().problem
     found = problem.modes(6)

@@ -258,6 +258,15 @@ class RodProblem(Parameters):
         couples = tuple((self._index(item.at), item.moment) for item in self.couples)
         return Coupled(rod, couples, geometry.D)
 
+    def mass(self, geometry: Geometry) -> Array:
+        """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""
+        part = self.rod.part_masses(geometry)
+        band = np.zeros((part.size, len(UNKNOWNS), 3))
+        band[:, :2, 0] = part[:, None]
+        band[:, 2:, 0] = part[:, None] * self.rod.second_inertia
+        band[:, :2, 2] = part[:, None] * self.rod.first_inertia
+        return band.reshape(-1, 3)
+
     def drive(self, time: float) -> tuple[Array, Array]:
         """Prescribed displacement and velocity of the held numbers at a time, each of shape (4 N,)."""
         place, rate = np.zeros((2, self.rod.vertices, len(UNKNOWNS)))

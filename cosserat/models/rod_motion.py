@@ -86,15 +86,6 @@ class RodMotion(RodProblem):
             system.body, system.mass, system.load, held, 2 * self.damping * lowest, free, drive
         )
 
-    def mass(self, geometry: Geometry) -> Array:
-        """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""
-        part = self.rod.part_masses(geometry)
-        band = np.zeros((part.size, len(UNKNOWNS), 3))
-        band[:, :2, 0] = part[:, None]
-        band[:, 2:, 0] = part[:, None] * self.rod.second_inertia
-        band[:, :2, 2] = part[:, None] * self.rod.first_inertia
-        return band.reshape(-1, 3)
-
     def modes(self, count: int) -> Modes:
         """The lowest natural frequencies and shapes about the reference configuration."""
         geometry = self.rod.geometry()

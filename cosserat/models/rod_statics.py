@@ -15,6 +15,8 @@ from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
 from cosserat.models.published import PublishedRod
 from cosserat.models.rod import RodProblem
 from cosserat.outcome import Outcome
+from cosserat.solvers.modes import Modes, modes
+from cosserat.solvers.motion import System
 from cosserat.solvers.newton import Equilibrium, NewtonSettings, equilibrium
 
 Array = NDArray[np.float64]
@@ -47,6 +49,21 @@ class RodStatics(RodProblem):
         body, load = self.body(geometry), self.loads(geometry)
         state = self.equilibrium(geometry, body, load, name)
         return Outcome(_fields(geometry, body, state, load), _statistics(state))
+
+    def modes(self, count: int, name: str = "the rod") -> Modes:
+        """The lowest natural frequencies and shapes of small motions about the equilibrium.
+
+        Raises
+        ------
+        UnsupportedRodError, NotConvergedError : there is no equilibrium to move about.
+        """
+        geometry = self.rod.geometry()
+        body, load = self.body(geometry), self.loads(geometry)
+        at_rest = self.equilibrium(geometry, body, load, name).q
+        system = System(
+            body, self.mass(geometry), load.ravel(), self.held().ravel(), drag=0.0, rigid=None
+        )
+        return modes(system, at_rest, count)
 
     def equilibrium(
         self, geometry: Geometry, body: PublishedRod | Coupled, load: Array, name: str
