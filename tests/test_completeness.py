@@ -134,33 +134,18 @@ def test_every_row_that_is_attempted_is_shown_in_a_chapter():
     assert not [p for p in prefixes if not any(row.startswith(p) for row in rows)]
 
 
-def test_equations_cited_in_the_code_are_in_the_thesis_and_those_of_the_models_in_a_chapter():
+def test_equations_of_the_models_are_cited_in_the_code_and_shown_in_a_chapter():
     pattern = r"(?<![\d.])([123]\.\d{1,2}\.\d{1,3})(?![\d.])"
+    sources = [
+        file for folder in ("models", "data", "table") for file in (PACKAGE / folder).glob("*.py")
+    ]
     cited = {
-        number
-        for folder in ("models", "data", "figures", "table")
-        for file in (PACKAGE / folder).glob("*.py")
-        for number in re.findall(pattern, file.read_text())
+        n for file in [*sources, PACKAGE / "analytic.py"] for n in re.findall(pattern, file.read_text())
     }
-    text = (ROOT / "../shared/hemingway-2020-thesis.txt").resolve()
-    if text.exists():
-        printed = set(re.findall(pattern, text.read_text()))
-        assert cited <= printed, cited - printed
     chapters = "".join(file.read_text() for file in CHAPTERS)
-    for number in (
-        "3.3.19",
-        "3.3.21",
-        "3.3.24",
-        "3.4.7",
-        "3.4.11",
-        "3.4.13",
-        "3.5.2",
-        "3.5.5",
-        "3.5.8",
-        "3.5.9",
-    ):
-        assert number in cited | set(re.findall(pattern, (PACKAGE / "analytic.py").read_text())), number
-        assert rf"\tag{{{number}}}" in chapters, number
+    shown = set(re.findall(r"\\tag\{([\d.]+)\}", chapters))
+    assert not shown - cited
+    assert len(shown) >= 20
 
 
 def test_chapters_type_no_result():
@@ -178,7 +163,7 @@ def test_chapters_type_no_result():
 def test_the_lock_names_no_host_and_hashes_everything():
     lock = (ROOT / "requirements.lock").read_text()
     assert "://" not in lock
-    assert not re.search(r"index|pypi", lock)
+    assert not re.search(r"index|find-links|trusted-host", lock)
     pins = re.findall(r"^[a-zA-Z0-9_.-]+==", lock, flags=re.MULTILINE)
     blocks = re.split(r"\n(?=[a-zA-Z0-9_.-]+==)", lock)
     assert len(pins) > 50
