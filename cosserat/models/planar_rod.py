@@ -111,7 +111,8 @@ class Strains:
 
     mu_edge : (N - 1,) stretch of the edges, eq. (3.3.19).  mu : (N,) of the vertices, eq. (3.3.20).
     lam : (N,) stretch of the sections, eq. (3.3.21).
-    phi : (N,) turning angle [rad], eqs. (3.3.15)-(3.3.18).  kappa : (N,) curvature [1/m], one over the radius of eq. (3.3.22), eq. (3.3.23).
+    phi : (N,) turning angle [rad], eqs. (3.3.15)-(3.3.18).
+    kappa : (N,) curvature [1/m], eq. (3.3.23), one over the radius of eq. (3.3.22).
     theta : (N,) shear angle [rad], eqs. (3.3.24)-(3.3.26).
     """
 
