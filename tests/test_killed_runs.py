@@ -15,7 +15,7 @@ import cosserat
 LONG = """
 [long]
 like = "vibration_c4_20"
-duration = "1 s"
+duration = "0.6 s"
 every = "1 ms"
 """
 
