@@ -14,8 +14,8 @@ all: $(READY)
 test: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy
-	$(BIN)/pytest --cov --cov-report=term
+	@$(BIN)/mypy & types=$$!; $(BIN)/pytest --cov --cov-report=term; tests=$$?; \
+	  wait $$types || { echo "mypy found errors, above" >&2; exit 1; }; exit $$tests
 
 $(READY): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \

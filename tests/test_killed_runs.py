@@ -15,7 +15,7 @@ import cosserat
 LONG = """
 [long]
 like = "vibration_c4_20"
-duration = "0.6 s"
+duration = "0.4 s"
 every = "1 ms"
 """
 
