@@ -23,6 +23,9 @@
 # ```{toctree}
 # :maxdepth: 2
 #
+# ch1_directed_rod
+# ch2_peristalsis
+# ch2_crawlers
 # ch3_statics
 # ch3_motion
 # ch3_calibration

@@ -113,7 +113,7 @@ def _parser() -> argparse.ArgumentParser:
         "--references", type=Path, default=RESULTS / "reference", help="folder (%(default)s)"
     )
 
-    add("speed", _speed, "time the implicit integrator on rods of 20, 200 and 2000 vertices")
+    add("speed", _speed, "time the implicit integrator, and a stride of the worm by either solver")
 
     sub = add("chapter", _chapter, "execute a chapter into a notebook")
     sub.add_argument("chapter", type=Path, help="the chapter's .py file")
@@ -206,6 +206,15 @@ def _done(dataset: xr.Dataset) -> str:
     from cosserat.data.dataset import statistics_of
 
     done = statistics_of(dataset)
+    if "instants" in done:
+        effort = (
+            f"{done['newton_iterations']} Newton iterations"
+            if "newton_iterations" in done
+            else f"solve_bvp with up to {done['most_nodes']} nodes"
+        )
+        return f"{done['instants']} instants, {effort}"
+    if "crawls" in done:
+        return f"{done['crawls']} crawls"
     if "misfit_evaluations" in done:
         return f"{done['misfit_evaluations']} evaluations of the misfits"
     if "steps" in done:
@@ -250,15 +259,17 @@ def _figure(options: argparse.Namespace) -> None:
 
 
 def _plot(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import check_destination, load
-    from cosserat.figures.rod import picture
+    from cosserat.data.dataset import case_of, check_destination, load
+    from cosserat.figures import crawlers, rod
     from cosserat.figures.style import settings, write
+    from cosserat.models.peristalsis import CrawlerProblem
 
     path = options.output or options.file.with_suffix(".svg")
     check_destination(path, ".svg")
     data = load(options.file)
+    shown = crawlers if isinstance(case_of(data).problem, CrawlerProblem) else rod
     with settings():
-        figure = picture(data)
+        figure = shown.picture(data)
     write(figure, path)
     print(f"wrote {path}")
 
@@ -295,27 +306,12 @@ def _accept(options: argparse.Namespace) -> None:
 
 
 def _speed(_: argparse.Namespace) -> None:
-    """Steps a second on the vibrating beam of Fig. 3.13, kernels warm, step 0.25 ms; the best of three runs."""
-    import time
+    from cosserat import speed
 
-    from cosserat.cases.catalogue import find
-    from cosserat.models.rod_motion import RodMotion
-    from cosserat.solvers.motion import IntegratorSettings, advance
-
-    settings = IntegratorSettings(step=2.5e-4)
-    for vertices, steps in ((20, 800), (200, 200), (2000, 20)):
-        problem = find("vibration_c4_20").vary("speed", rod={"vertices": vertices}).problem
-        assert isinstance(problem, RodMotion)
-        system, state = problem.system(problem.rod.geometry()), problem.begin("speed")
-        advance(system, state, settings.step, settings, "speed")
-        best = float("inf")
-        for _again in range(3):
-            start = time.perf_counter()
-            advance(system, state, steps * settings.step, settings, "speed")
-            best = min(best, time.perf_counter() - start)
-        print(
-            f"{vertices:5d} vertices: {steps / best:8.0f} steps/s, {1e6 * best / steps:8.0f} µs a step ({steps} steps)"
-        )
+    for line in speed.integrator():
+        print(line)
+    for line in speed.stride():
+        print(line)
 
 
 def _chapter(options: argparse.Namespace) -> None:

@@ -5,6 +5,7 @@ Lengths in m, forces in N, moduli in Pa; xi is an array of arc lengths from the 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -165,3 +166,78 @@ def necking_strain_as_printed(beam: Beam, n: float, beta: float, xi: Array) -> A
     decay = (1 - np.cosh(beta * beam.length)) / np.sinh(beta * beam.length)
     shape: Array = decay * np.sinh(beta * xi) + np.cosh(beta * xi) - 1
     return beam.poisson * n / beam.axial_stiffness * shape
+
+
+def rest_pressure(line_density: float, g: float, radius: float) -> float:
+    """Pressure in a resting incompressible round body on the ground, over mu_1 mu_2 [Pa]; not in the thesis.
+
+    derived: without muscles lambda_c = 0 and (2.4.13) gives 2 mu_1 + mu_2 - 3 = -R rho_0 g / k_I, mu_1 + 2 mu_2 = 3, so
+    mu_1 + mu_2 - 2 = -R rho_0 g / (3 k_I), and (2.8.8), (2.8.9) give mu_1 mu_2 rho_0 g / (3 pi R).
+    """
+    return float(line_density * g / (3 * np.pi * radius))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PushPullRod:
+    """A compressible crawler under its weight, section 2.3, as the closed form knows it.
+
+    k_s, k_p [N], k_g [N m^2] : stiffnesses.  length, radius [m].  weight : rho_0 g [N/m].
+    anchoring : D [N].  advancing : p pi R^2 [N].
+    """
+
+    k_s: float
+    k_p: float
+    k_g: float
+    length: float
+    radius: float
+    weight: float
+    anchoring: float
+    advancing: float
+
+    def stretched_length(self, junction: float) -> float:
+        """Length along the ground, eq. (2.5.8) [m], with anchoring loads on [0, junction] and advancing ones beyond.
+
+        derived: with the weight per reference length and mu_3 of (2.3.2) put in, y = mu_1 + mu_2 obeys
+        y'' = a^2 (y - b) with another b on either side of the junction, while mu_1 - mu_2 is constant; y and y'
+        continuous and y' = 0 at the ends give y = b + C cosh(a xi) on the left and so on the right.
+        """
+        from scipy.integrate import quad
+
+        p, k_s, k_g = self.k_p / self.k_s, self.k_s, self.k_g
+        weight = self.radius * self.weight
+        forces = (-self.anchoring, 0.0)
+        loads = (0.0, self.advancing)
+        a_sum = np.sqrt(k_s * (1 - p) * (1 + 2 * p) / k_g)
+        b_sum = [
+            2 - (2 * p * n + 2 * c + weight) / (k_g * a_sum**2)
+            for n, c in zip(forces, loads, strict=True)
+        ]
+
+        def integrand(xi: float) -> float:
+            total, slope = _two_plateaus(a_sum, b_sum, junction, self.length, xi)
+            n = forces[0] if xi < junction else forces[1]
+            mu_3 = 1 + n / k_s - p * (total - 2)
+            return float(np.sqrt(mu_3**2 - (self.radius * slope / 2) ** 2))
+
+        cuts = sorted({0.0, junction, self.length})
+        pieces = [
+            quad(integrand, a, b, epsabs=1e-13, epsrel=1e-13, limit=200)[0]
+            for a, b in itertools.pairwise(cuts)
+        ]
+        return float(sum(pieces))
+
+
+def _two_plateaus(
+    a: float, b: list[float], junction: float, length: float, xi: float
+) -> tuple[float, float]:
+    """y and y' of y'' = a^2 (y - b), b[0] before the junction and b[1] after it, y' = 0 at 0 and at `length`."""
+    jump = b[1] - b[0]
+    left, right = np.tanh(a * junction), np.tanh(a * (length - junction))
+    if left + right == 0 or junction in (0.0, length):
+        return b[0] if junction == length else b[1], 0.0
+    if xi < junction:
+        share = jump * right / (left + right) / np.cosh(a * junction)
+        return b[0] + share * np.cosh(a * xi), share * a * np.sinh(a * xi)
+    share = -jump * left / (left + right) / np.cosh(a * (length - junction))
+    back = a * (length - xi)
+    return b[1] + share * np.cosh(back), -share * a * np.sinh(back)

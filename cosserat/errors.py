@@ -40,6 +40,10 @@ class NotConvergedError(CosseratError):
         self.tolerance = tolerance
 
 
+class OutOfReachError(CosseratError):
+    """A state exists but the theory cannot place it in space."""
+
+
 class DivergedError(CosseratError):
     """A motion grew without bound; what was computed before is kept."""
 

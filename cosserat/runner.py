@@ -11,6 +11,7 @@ import xarray as xr
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.dataset import to_dataset
 from cosserat.data.parts import Parts
+from cosserat.models.peristalsis import Crawl
 from cosserat.models.rod_motion import RodMotion
 from cosserat.outcome import Outcome
 
@@ -30,12 +31,14 @@ def run(case: Case | str, *, result: Path | None = None, progress: Progress | No
     Raises
     ------
     InputError : no case of that name, its rod is not supported, or the stored parts are of another run.
-    NotConvergedError, DivergedError : no solution; what a motion computed before stays in its parts.
+    NotConvergedError, DivergedError, OutOfReachError : no solution; what a motion computed before stays in its parts.
     """
     known = find(case) if isinstance(case, str) else case
     name = f"case '{known.name}'"
     if isinstance(known.problem, RodMotion):
         outcome = _in_parts(known, known.problem, name, Parts(result) if result else None, progress)
+    elif isinstance(known.problem, Crawl):
+        outcome = known.problem.crawl(name, progress)
     else:
         outcome = known.problem.solve(name)
     return to_dataset(known, outcome)

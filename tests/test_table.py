@@ -122,7 +122,7 @@ def test_incomplete_rows_do_not_load(change, sentence):
 def test_an_id_that_stands_twice_is_refused(tmp_path):
     lines = TABLE.read_text().splitlines()
     (tmp_path / "t.csv").write_text("\n".join([*lines, lines[1]]))
-    with pytest.raises(InputError, match="the id 3.4.14-c1 stands more than once"):
+    with pytest.raises(InputError, match="the id 2.7-displacement stands more than once"):
         read_table(tmp_path / "t.csv")
 
 

@@ -14,18 +14,23 @@ from pydantic import Field, ValidationError
 
 from cosserat.errors import InputError
 from cosserat.models.calibration import CalibrationProcedure
+from cosserat.models.earthworm import BodyMasses
+from cosserat.models.peristalsis import Crawl, Posture
 from cosserat.models.rod_motion import RodMotion
 from cosserat.models.rod_statics import RodStatics
 from cosserat.parameters import Parameters, explain, nearest
 
-PUBLISHED = ("chapter3.toml",)
+PUBLISHED = ("chapter2.toml", "chapter3.toml")
 """Case files of the package, beside this module."""
 
-Problem = RodStatics | RodMotion | CalibrationProcedure
-KINDS: dict[str, type[RodStatics] | type[RodMotion] | type[CalibrationProcedure]] = {
+Problem = RodStatics | RodMotion | CalibrationProcedure | Posture | Crawl | BodyMasses
+KINDS: dict[str, type[Problem]] = {
     "rod statics": RodStatics,
     "rod motion": RodMotion,
     "calibration": CalibrationProcedure,
+    "posture": Posture,
+    "crawl": Crawl,
+    "body masses": BodyMasses,
 }
 """Problems by the `kind` that a case names."""
 
@@ -55,8 +60,12 @@ class Case(Parameters):
 @functools.cache
 def published() -> Mapping[str, Case]:
     """The cases of the thesis by name, in the order of the files."""
-    tables = _published_tables()
-    return _build_all(tables, tables)
+    return {name: _published_case(name) for name in titles()}
+
+
+@functools.cache
+def _published_case(name: str) -> Case:
+    return _build(name, _published_tables())
 
 
 def titles() -> dict[str, str]:
@@ -74,6 +83,8 @@ def find(name: str, file: Path | None = None) -> Case:
     ------
     InputError : no such case or file, or the case is not valid.
     """
+    if file is None and name in titles():
+        return _published_case(name)
     known = published() if file is None else load(file)
     if name not in known:
         place = "" if file is None else f" in {file}"
@@ -124,6 +135,7 @@ def parse(parameters: str) -> Case:
         ) from None
 
 
+@functools.cache
 def _published_tables() -> dict[str, Any]:
     folder = resources.files("cosserat.cases")
     tables: dict[str, Any] = {}

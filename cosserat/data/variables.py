@@ -34,7 +34,7 @@ LABELS: dict[str, tuple[tuple[str, ...], str]] = {
 }
 """Labels of the dimensions that are not counted: values and meaning."""
 
-COORDINATES = ("xi", "xi_edge", "time")
+COORDINATES = ("xi", "xi_edge", "xi_section", "time", "body_mass")
 """Variables that place the others."""
 
 VARIABLES: dict[str, Variable] = {
@@ -83,6 +83,41 @@ VARIABLES: dict[str, Variable] = {
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7
     ),
+    "xi_section": Variable(
+        ("section",), "m", "reference arc length of the cross-sections", r"\xi", "1.3.1", 1e-14
+    ),
+    "mu_1": Variable(("section",), "1", "vertical stretch of the sections", r"\mu_1", "1.3.6", 1e-9),
+    "mu_2": Variable(("section",), "1", "stretch of the sections across", r"\mu_2", "1.3.6", 1e-9),
+    "mu_3": Variable(("section",), "1", "stretch of the centreline", r"\mu_3", "1.3.6", 1e-9),
+    "mu_1_slope": Variable(
+        ("section",), "m-1", "gradient of the vertical stretch", r"\mu_1'", "1.3.7", 1e-6
+    ),
+    "along": Variable(("section",), "m", "position along the ground", "z", "2.5.11", 1e-10),
+    "height": Variable(
+        ("section",), "m", "height of the centreline over its reference", "x", "2.5.7", 1e-11
+    ),
+    "p_coelom": Variable(("section",), "Pa", "coelomic pressure", r"p_{coelom}", "2.8.8", 1e-6),
+    "advancing": Variable(
+        ("section",), "1", "one where advancing loads act, else zero", "", "2.2.9", 1e-9
+    ),
+    "anchor": Variable(
+        ("time",), "m", "reference arc length of the anchored point", r"\xi_A", "2.5.10", 1e-14
+    ),
+    "anchor_along": Variable(
+        ("time",), "m", "position of the anchored point", r"z(\xi_A)", "2.5.10", 1e-10
+    ),
+    "body_mass": Variable(("mass",), "kg", "body mass", "m", "2.8.4", 1e-14),
+    "stride": Variable(("mass",), "m", "stride length", r"\Delta", "2.8.5", 1e-10),
+    "speed": Variable(("mass",), "m s-1", "stride length over stride duration", "", "2.8.5", 1e-10),
+    "frequency": Variable(("mass",), "s-1", "strides in unit time", "1/(t_p+t_s)", "2.8", 1e-12),
+    "mu_1_least": Variable(
+        ("mass",), "1", "least vertical stretch of segment 50", r"\mu_1", "1.3.6", 1e-9
+    ),
+    "mu_1_most": Variable(
+        ("mass",), "1", "largest vertical stretch of segment 50", r"\mu_1", "1.3.6", 1e-9
+    ),
+    "mu_3_least": Variable(("mass",), "1", "least stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
+    "mu_3_most": Variable(("mass",), "1", "largest stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
     "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
 }
 

@@ -26,6 +26,22 @@ class Entry:
 
 
 FIGURES: dict[str, Entry] = {
+    "fig_directed_rod": Entry("A directed rod as the body it stands for", "chapter1", ("soft_robot",)),
+    "fig_2_1": Entry("Fig. 2.1: a stride of the earthworm", "chapter2", ("worm",)),
+    "fig_2_2": Entry("Fig. 2.2: segment 50 over three strides", "chapter2", ("worm", "worm_printed")),
+    "fig_2_5": Entry("Fig. 2.5: muscles as forces along the centreline", "chapter2", ()),
+    "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "chapter2", ("soft_robot",)),
+    "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "chapter2", ("soft_robot",)),
+    "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "chapter2", ("soft_robot",)),
+    "fig_2_11": Entry("Fig. 2.11: fronts of the protrusion-stance gait", "chapter2", ("worm",)),
+    "fig_2_12": Entry("Fig. 2.12: the anchored point", "chapter2", ("worm", "worm_late")),
+    "fig_masses": Entry(
+        "Earthworms of every size",
+        "chapter2",
+        ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
+    ),
+    "anim_robot": Entry("The soft robot crawls", "chapter2", ("soft_robot",)),
+    "anim_worm": Entry("The earthworm crawls", "chapter2", ("worm",)),
     "fig_3_1": Entry("Fig. 3.1: reference and current configuration", "geometry", ("bent_rod",)),
     "fig_3_2": Entry("Fig. 3.2: a rod-like body", "geometry", ("clamped_free",)),
     "fig_3_3": Entry("Fig. 3.3: section and directors", "geometry", ("clamped_free",)),

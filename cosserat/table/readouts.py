@@ -7,7 +7,6 @@ divided by the largest ordinate of the closed form.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
@@ -19,16 +18,10 @@ from cosserat.data.dataset import case_of
 from cosserat.errors import InputError
 from cosserat.models.calibration import beam_of
 from cosserat.models.rod import RodProblem
+from cosserat.table import crawl_readouts
+from cosserat.table.reading import Reading
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Reading:
-    """measured, in the unit of the row; expected, where not the published number itself is what is expected."""
-
-    measured: float
-    expected: float | None = None
 
 
 def problem_of(data: xr.Dataset) -> RodProblem:
@@ -201,5 +194,6 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "beam_theory_period": _beam_theory_period,
     "necking_midspan": lambda data: at_midspan(necking_curve(data)),
     "necking_profile": lambda data: _share(necking_curve(data)),
+    **crawl_readouts.READOUTS,
 }
 """Read-outs by the name that a row gives."""

@@ -46,11 +46,12 @@ class Change:
 
 
 def thin(dataset: xr.Dataset) -> xr.Dataset:
-    """What is stored of a motion: some forty frames at equal times, the first and the last among them."""
-    if "time" not in dataset.sizes:
-        return dataset
-    every = max(1, (dataset.sizes["time"] - 1) // 40)
-    return dataset.isel(time=slice(None, None, every))
+    """What is stored of a motion: some forty frames, and of a crawler some forty sections, from the first on."""
+    for dim in ("time", "section"):
+        if dim in dataset.sizes:
+            every = max(1, (dataset.sizes[dim] - 1) // 40)
+            dataset = dataset.isel({dim: slice(None, None, every)})
+    return dataset
 
 
 def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:

@@ -1,0 +1,188 @@
+"""Crawlers as bodies on the ground: the side view of Figs. 2.1, 2.7 and 2.9, and animations of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from cosserat.data.dataset import case_of
+from cosserat.errors import InputError
+from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
+from cosserat.models.peristalsis import CrawlerProblem
+from cosserat.table.crawl_readouts import crawl
+
+Array = NDArray[np.float64]
+
+THINNED = "#f3d3a8"  # where advancing loads act
+GAMMA, ETA = "#3a7d44", "#0b5fa5"
+_WIDTH, _HEIGHT, _MARGIN = 720, 130, 14  # of an animation, in pixels
+_SHOWN = 126  # sections of an animated outline
+
+
+def crawler_of(data: xr.Dataset) -> CrawlerProblem:
+    """The crawler problem that a Dataset was computed from.
+
+    Raises
+    ------
+    InputError : it was computed from another kind of case.
+    """
+    problem = case_of(data).problem
+    if not isinstance(problem, CrawlerProblem):
+        raise InputError(f"the case '{data.attrs['case']}' is no crawler; use the result of one that is")
+    return problem
+
+
+def instants_per_stride(data: xr.Dataset) -> int:
+    """Stored times from the start of one stride to the start of the next."""
+    return (data.sizes["time"] - 1) // crawl(data).strides
+
+
+def draw_crawler(
+    ax: Axes, state: xr.Dataset, radius: float, *, base: float = 0.0, mark: float | None = None
+) -> None:
+    """The lateral surface of one instant from the side, the ground at `base`, in cm.
+
+    mark : share of the length at which a section is marked in black.
+    """
+    along = state.along.to_numpy() * 1e2
+    top = (
+        2 * radius * state.mu_1.to_numpy() * 1e2 + base
+    )  # the ground is where the sections touch it, (2.2.16)
+    thin = state.advancing.to_numpy() > 0.5
+    ax.fill_between(along, base, top, color=BODY, linewidth=0)
+    for run in _runs(thin):
+        ax.fill_between(along[run], base, top[run], color=THINNED, linewidth=0)
+    outline = (np.r_[along, along[::-1]], np.r_[top, np.full_like(top, base)])
+    ax.fill(*outline, facecolor="none", edgecolor=INK, linewidth=0.8)
+    for k in range(0, along.size, max(1, along.size // 50)):
+        ax.plot([along[k]] * 2, [base, top[k]], color=INK, linewidth=0.25)
+    if mark is not None:
+        k = round(mark * (along.size - 1))
+        ax.fill_between(along[k - 1 : k + 2], base, top[k - 1 : k + 2], color="black", linewidth=0)
+    if "anchor_along" in state:
+        foot = float(state.anchor_along) * 1e2
+        ax.plot([foot], [base], marker="^", color=VARIANT, markersize=6, clip_on=False, zorder=5)
+
+
+def snapshots(data: xr.Dataset, indices: list[int], labels: list[str], mark: float | None) -> Figure:
+    """Instants of a crawl below each other, on one scale along the ground."""
+    problem = crawl(data)
+    radius = problem.crawler.radius
+    lane = 2e2 * radius * 1.4
+    reach = 1e2 * np.array([data.along[indices].min(), data.along[indices].max()])
+    width = 7.2
+    scale = (width - 1.0) / (reach[1] - reach[0] + 1)
+    figure, (ax,) = canvas(width, max(2.6, scale * lane * len(indices) * 1.05 + 0.7))
+    for number, (index, label) in enumerate(zip(indices, labels, strict=True)):
+        base = -lane * number
+        draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark)
+        ax.axhline(base, color=INK, linewidth=0.6)
+        ax.annotate(
+            label,
+            (0, base),
+            xycoords=("axes fraction", "data"),
+            xytext=(-4, 4),
+            textcoords="offset points",
+            ha="right",
+        )
+    ax.set(xlabel="along the ground [cm]", yticks=[], xlim=(reach[0] - 0.5, reach[1] + 0.5))
+    ax.set_aspect("equal")
+    ax.grid(visible=False, axis="y")
+    ax.spines["left"].set_visible(False)
+    return figure
+
+
+def picture(data: xr.Dataset) -> Figure:
+    """Body, stretches and, of a crawl, its path: what `cosserat plot` shows of a crawler."""
+    problem = crawler_of(data)
+    figure, (body, curves, path) = canvas(7.2, 6.4, 3, 1)
+    last = data.isel(time=-1) if "time" in data.sizes else data
+    draw_crawler(body, last, problem.crawler.radius)
+    body.set_aspect("equal", adjustable="datalim")
+    body.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=data.attrs["title"])
+    for name, label, colour in (
+        ("mu_1", r"$\mu_1$", COMPUTED),
+        ("mu_2", r"$\mu_2$", GAMMA),
+        ("mu_3", r"$\mu_3$", VARIANT),
+    ):
+        curves.plot(data.xi_section * 1e2, last[name], color=colour, label=label)
+    curves.set(xlabel=r"arc length $\xi$ [cm]", ylabel="stretch [1]")
+    curves.legend(ncols=3)
+    if "time" not in data.sizes:
+        path.plot(data.xi_section * 1e2, data.height * 1e3, color=COMPUTED)
+        path.set(xlabel=r"arc length $\xi$ [cm]", ylabel="height of the centreline [mm]")
+        return figure
+    for section, label in ((0, "rear end"), (-1, "front end")):
+        path.plot(data.time, data.along.isel(section=section) * 1e2, label=label)
+    path.plot(data.time, data.anchor_along * 1e2, ".", color=VARIANT, markersize=2, label="anchor")
+    path.set(xlabel="time [s]", ylabel="along the ground [cm]")
+    path.legend(ncols=3)
+    return figure
+
+
+def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) -> str:
+    """A crawl as an SVG that plays by itself: body, advancing regions, anchor and ground."""
+    radius = crawl(data).crawler.radius
+    chosen = np.unique(np.linspace(0, data.sizes["section"] - 1, _SHOWN).round().astype(int))
+    along = data.along.to_numpy()[:, chosen]
+    top = 2 * radius * data.mu_1.to_numpy()[:, chosen]
+    thin = data.advancing.to_numpy()[:, chosen] > 0.5
+    low, high = along.min() - radius, along.max() + radius
+    scale = (_WIDTH - 2 * _MARGIN) / (high - low)
+    ground = _MARGIN + scale * float(top.max())
+
+    def x(z: Array) -> Array:
+        pixels: Array = _MARGIN + scale * (z - low)
+        return pixels
+
+    def outline(frame: int, run: slice) -> str:
+        left, up = x(along[frame, run]), ground - scale * top[frame, run]
+        above = "L".join(f"{a:.1f} {b:.1f}" for a, b in zip(left, up, strict=True))
+        return f"M{above}L{left[-1]:.1f} {ground:.1f}L{left[0]:.1f} {ground:.1f}Z"
+
+    times = data.time.to_numpy()
+    keys = ";".join(f"{t:.5f}" for t in (times[:-1] - times[0]) / (times[-1] - times[0]))
+    frames = range(times.size - 1)
+
+    def moving(attribute: str, values: list[str]) -> str:
+        return (
+            f'<animate attributeName="{attribute}" calcMode="discrete" dur="{seconds}s" repeatCount="indefinite" '
+            f'keyTimes="{keys}" values="{";".join(values)}"/>'
+        )
+
+    def shape(paths: list[str], look: str) -> str:
+        return f'<path d="{paths[0]}" {look}>{moving("d", paths)}</path>'
+
+    bodies = [outline(f, slice(None)) for f in frames]
+    thinned = ["".join(outline(f, run) for run in _runs(thin[f])) or "M0 0" for f in frames]
+    feet = x(data.anchor_along.to_numpy())
+    anchors = [f"M{a:.1f} {ground:.1f}l-6 11l12 0Z" for a in feet[:-1]]
+    parts = [
+        shape(bodies, f'fill="{BODY}"'),
+        shape(thinned, f'fill="{THINNED}"'),
+        shape(bodies, f'fill="none" stroke="{INK}" stroke-width="0.8"'),
+    ]
+    if mark is not None:
+        k = int(np.argmin(np.abs(chosen / chosen[-1] - mark)))
+        parts.append(shape([outline(f, slice(k - 1, k + 2)) for f in frames], 'fill="black"'))
+    height = int(ground + 13 + _MARGIN)
+    parts += [
+        f'<path d="M0 {ground:.1f}H{_WIDTH}" stroke="{INK}"/>',
+        shape(anchors, f'fill="{VARIANT}"'),
+    ]
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {height}" width="{_WIDTH}">'
+        + "".join(parts)
+        + "</svg>\n"
+    )
+
+
+def _runs(flags: NDArray[np.bool_]) -> list[slice]:
+    """Slices over which the flags are set, each reaching one section further so that neighbours meet."""
+    edges = np.flatnonzero(np.diff(np.r_[False, flags, False].astype(int)))
+    return [
+        slice(int(a), int(min(b + 1, flags.size))) for a, b in zip(edges[::2], edges[1::2], strict=True)
+    ]

@@ -1,0 +1,135 @@
+"""Earthworms of every size: the empirical scalings of Table 2.1, and the same gait at many body masses."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.models.peristalsis import Crawl
+from cosserat.outcome import Outcome
+from cosserat.parameters import Parameters, Quantity
+
+Array = NDArray[np.float64]
+
+Muscles = Literal["strip tension", "strip tension, constant pressure", "constant stress"]
+MUSCLE_LAWS: dict[Muscles, tuple[float, float]] = {
+    "strip tension": (1.0, -1.0),
+    "strip tension, constant pressure": (1.0, 0.0),
+    "constant stress": (2.0, 0.0),
+}
+"""Powers of the radius with which the anchoring force and the advancing pressure grow.
+
+A strip of muscle one millimetre wide that pulls with the same force in every worm, as section 2.8 has it, gives a
+force that grows with the circumference, and by hoop balance a pressure that falls with the radius; the page's 5.7 kPa
+would not depend on it.  Muscle of constant stress whose thickness grows with the worm gives the third.
+"""
+
+SEGMENT_50 = 3 / 5
+"""Place of segment 50, two fifths of the length from the front end, section 2.8."""
+
+
+STRIP_TENSION = 0.186 * 9.80665e-3
+"""Peak tension of a strip of longitudinal muscle, eq. (2.8.1) [N]."""
+STRIP_WIDTH = 1e-3
+"""Width of that strip, section 2.8 [m]."""
+
+
+def peak_force(diameter: float) -> float:
+    """Force of strips of longitudinal muscle side by side round the body, eq. (2.8.3) [N]; diameter in m."""
+    return STRIP_TENSION * circumference(diameter) / STRIP_WIDTH
+
+
+def peak_pressure(diameter: float) -> float:
+    """The pressure (2.8.2) as it seems to have been found, E2.13: the force over diameter and strip width [Pa]."""
+    return peak_force(diameter) / (diameter * STRIP_WIDTH)
+
+
+def circumference(diameter: float) -> float:
+    """Of a round body, section 2.8 [m]."""
+    return float(np.pi * diameter)
+
+
+def stance_time(mass: float) -> float:
+    """t_s = 1.6 m^0.04, m in g, Table 2.1 [s]; mass in kg."""
+    return float(1.6 * (1e3 * mass) ** 0.04)
+
+
+def protrusion_time(mass: float) -> float:
+    """t_p = 2.5 m^0.1, m in g, Table 2.1 [s]; mass in kg."""
+    return float(2.5 * (1e3 * mass) ** 0.1)
+
+
+def resting_length(mass: float) -> float:
+    """l_0 = 10^2 m^0.397 mm, m in g, Table 2.1 [m]; mass in kg."""
+    return float(0.1 * (1e3 * mass) ** 0.397)
+
+
+def resting_diameter(mass: float) -> float:
+    """2 R = 10^0.6 m^0.278 mm, m in g, Table 2.1 [m]; mass in kg."""
+    return float(1e-3 * 10**0.6 * (1e3 * mass) ** 0.278)
+
+
+class BodyMasses(Parameters):
+    """A worm's crawl at many body masses, under one law for its muscles."""
+
+    kind: Literal["body masses"] = "body masses"
+    worm: Crawl
+    masses: tuple[Annotated[float, Quantity("kg", "m", "2.8.4", above=0)], ...]
+    muscles: Muscles = "constant stress"
+
+    @model_validator(mode="after")
+    def _has_masses(self) -> Self:
+        if not self.masses:
+            raise PydanticCustomError("masses", "'masses' is empty; give at least one body mass")
+        return self
+
+    def solve(self, name: str) -> Outcome:
+        """Stride, speed, frequency and the extreme stretches of segment 50 of every worm.
+
+        Raises
+        ------
+        InputError : the loads collapse a section.  NotConvergedError : an instant has no solution.
+        OutOfReachError : the surface of a worm cannot stay on the ground.
+        """
+        table = np.array([self._measure(mass, name) for mass in self.masses])
+        duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
+        fields = {
+            "body_mass": np.array(self.masses),
+            "stride": table[:, 0],
+            "speed": table[:, 0] / duration,
+            "frequency": 1 / duration,
+            "mu_1_least": table[:, 1],
+            "mu_1_most": table[:, 2],
+            "mu_3_least": table[:, 3],
+            "mu_3_most": table[:, 4],
+        }
+        return Outcome(fields, {"crawls": len(self.masses)})
+
+    def scaled(self, mass: float) -> Crawl:
+        """One stride of the worm of another mass [kg]: Table 2.1 for body and times, `MUSCLE_LAWS` for the loads."""
+        radius = resting_diameter(mass) / 2
+        force, pressure = MUSCLE_LAWS[self.muscles]
+        grown = radius / self.worm.crawler.radius
+        loads = self.worm.loads
+        return self.worm.replace(
+            crawler=self.worm.crawler.replace(
+                length=resting_length(mass), radius=radius, mass=mass, density=None
+            ),
+            loads=loads.replace(
+                anchoring=loads.anchoring * grown**force, advancing=loads.advancing * grown**pressure
+            ),
+            gait=self.worm.gait.replace(phases=(protrusion_time(mass), stance_time(mass))),
+            strides=1,
+        )
+
+    def _measure(self, mass: float, name: str) -> tuple[float, ...]:
+        crawl = self.scaled(mass)
+        fields = crawl.solve(f"{name}, {1e3 * mass:g} g").fields
+        at = int(np.argmin(np.abs(crawl.places - SEGMENT_50)))
+        mu_1, mu_3 = fields["mu_1"][:, at], fields["mu_3"][:, at]
+        stride = float(fields["along"][-1, -1] - fields["along"][0, -1])
+        return stride, *(float(v) for v in (mu_1.min(), mu_1.max(), mu_3.min(), mu_3.max()))

@@ -1,0 +1,203 @@
+"""Boundary value problems on regions: u'' = f(u), another f in each, u and u' continuous, u' = 0 at the ends.
+
+Spectral elements make a banded system of it, Newton's method solves that.  Where f in a region depends on the value at
+one node besides the local one, the banded matrix gets one column more for that region (Woodbury's formula).
+Nothing here knows what u stands for or how many numbers it has.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Protocol
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+from cosserat.errors import NotConvergedError
+from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.solvers.elements import Mesh, rule
+
+Array = NDArray[np.float64]
+
+_SHORTEST = 2.0**-20  # the damping gives up below this share of Newton's step
+
+
+@dataclass(frozen=True)
+class Remote:
+    """How f in one region depends on u at one node.
+
+    node : index of that node.  column : (M, p + 1, m) change of f with the quantity read there, zero elsewhere.
+    row : (m,) change of that quantity with u at the node.
+    """
+
+    node: int
+    column: Array
+    row: Array
+
+
+@dataclass(frozen=True)
+class Source:
+    """f and its derivative at the points of every element: (M, p + 1, m) and (M, p + 1, m, m)."""
+
+    value: Array
+    derivative: Array
+    remote: tuple[Remote, ...] = ()
+
+
+class Equation(Protocol):
+    """What is to be solved."""
+
+    def source(self, u: Array) -> Source | None:
+        """f at u, shape (M, p + 1, m); None where it has no meaning."""
+
+
+class RegionSettings(Parameters):
+    """Mesh and effort of the banded solver."""
+
+    elements: Annotated[int, Count(at_least=3)] = 6
+    """Elements on each side of a junction."""
+    degree: Annotated[int, Count(at_least=2)] = 8
+    """Degree of the polynomials in each element."""
+    tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-3)] = 1e-11
+    """Largest correction of a converged answer."""
+    max_iterations: Annotated[int, Count(at_least=1)] = 50
+
+
+@dataclass(frozen=True)
+class Solved:
+    """u : (nodes, m).  correction : the last one, an estimate of the error of the nonlinear solve."""
+
+    u: Array
+    iterations: int
+    correction: float
+
+
+def solve(mesh: Mesh, equation: Equation, start: Array, settings: RegionSettings, name: str) -> Solved:
+    """Solve from a first guess at the distinct points, shape (nodes, m); `name` is what an error calls the case.
+
+    Damped by the natural monotonicity test: a step is taken if the correction that the same matrix gives after it is
+    smaller (Deuflhard 2011, section 3.3).
+
+    Raises
+    ------
+    NotConvergedError : no correction below the tolerance; nothing half-converged is returned.
+    """
+    u = start
+    source = equation.source(mesh.split(u))
+    if source is None:
+        raise _failure(name, "the first guess is no admissible state", 0, np.inf, settings)
+    size = np.inf
+    for iteration in range(settings.max_iterations):
+        system = _Linear(mesh, source, u.shape[1])
+        step = system.correct(mesh, u, source)
+        size = float(np.abs(step).max())
+        share = 1.0
+        while True:
+            trial = u + share * step
+            found = equation.source(mesh.split(trial))
+            if found is not None:
+                left = float(np.abs(system.correct(mesh, trial, found)).max())
+                if left <= max((1 - share / 4) * size, settings.tolerance):
+                    break
+            share /= 2
+            if share < _SHORTEST:
+                raise _failure(name, "no shorter step brings it nearer", iteration, size, settings)
+        u, source = trial, found
+        if share == 1.0 and min(left, size) <= settings.tolerance:
+            return Solved(u, iteration + 1, min(left, size))
+    raise _failure(name, "the iterations were not enough", settings.max_iterations, size, settings)
+
+
+def _failure(
+    name: str, reason: str, iterations: int, size: float, settings: RegionSettings
+) -> NotConvergedError:
+    return NotConvergedError(
+        f"{name}: no solution on the regions found: {reason} (iteration {iterations}, last correction {size:.3g}, "
+        f"allowed {settings.tolerance:.3g}); try weaker loads, longer regions or another 'mesh.elements'",
+        iterations=iterations,
+        residual=size,
+        tolerance=settings.tolerance,
+    )
+
+
+class _Linear:
+    """The factorised matrix of one Newton step."""
+
+    def __init__(self, mesh: Mesh, source: Source, m: int) -> None:
+        known = rule(mesh.degree)
+        self.width = (mesh.degree + 1) * m - 1
+        band = np.zeros((mesh.nodes * m, 3 * self.width + 1))
+        self.stiffness = known.derivative.T @ (known.weights[:, None] * known.derivative)
+        _fill(band, self.stiffness, known.weights, mesh.sizes, source.derivative)
+        self.factors, self.pivots, info = dgbtrf(band.T, self.width, self.width, overwrite_ab=1)
+        self.singular = info != 0
+        self.remote = source.remote
+        if self.remote:
+            self.columns = np.column_stack(
+                [self._substitute(self._load(mesh, r.column).ravel()) for r in self.remote]
+            )
+            self.rows = np.zeros((len(self.remote), mesh.nodes * m))
+            for row, r in zip(self.rows, self.remote, strict=True):
+                row[r.node * m : (r.node + 1) * m] = r.row
+            self.small = np.eye(len(self.remote)) + self.rows @ self.columns
+
+    def correct(self, mesh: Mesh, u: Array, source: Source) -> Array:
+        """Newton's correction, shape (nodes, m); infinite where the matrix is singular."""
+        if self.singular:
+            return np.full_like(u, np.inf)
+        residual = np.zeros_like(u)
+        _residual(residual, u, source.value, self.stiffness, rule(mesh.degree).weights, mesh.sizes)
+        x = -self._substitute(residual.ravel())
+        if self.remote:
+            x -= self.columns @ np.linalg.solve(self.small, self.rows @ x)
+        correction: Array = x.reshape(u.shape)
+        return correction
+
+    def _load(self, mesh: Mesh, f: Array) -> Array:
+        load = np.zeros((mesh.nodes, f.shape[2]))
+        _residual(load, load.copy(), f, self.stiffness, rule(mesh.degree).weights, mesh.sizes)
+        return load
+
+    def _substitute(self, right: Array) -> Array:
+        x, _ = dgbtrs(self.factors, self.width, self.width, right, self.pivots)
+        return np.asarray(x)
+
+
+@njit(cache=True)
+def _residual(
+    residual: Array, u: Array, f: Array, stiffness: Array, weights: Array, sizes: Array
+) -> None:
+    """Add the integrals of u' v' + f v for the polynomial v of each node, by Gauss-Lobatto quadrature."""
+    elements, points, m = f.shape
+    for e in range(elements):
+        first = e * (points - 1)
+        for a in range(points):
+            for c in range(m):
+                total = 0.0
+                for b in range(points):
+                    total += stiffness[a, b] * (
+                        u[first + b, c] - u[first + a, c]
+                    )  # rows of it sum to zero
+                load = sizes[e] / 2 * weights[a] * f[e, a, c]
+                residual[first + a, c] += 2 / sizes[e] * total + load
+
+
+@njit(cache=True)
+def _fill(band: Array, stiffness: Array, weights: Array, sizes: Array, derivative: Array) -> None:
+    """Add stiffness and source derivative; band[j, 2 w + i - j] = matrix[i, j] with the half bandwidth w."""
+    elements, points, m, _ = derivative.shape
+    w = points * m - 1
+    for e in range(elements):
+        first = e * (points - 1) * m
+        for a in range(points):
+            for b in range(points):
+                k = 2 / sizes[e] * stiffness[a, b]
+                for c in range(m):
+                    i, j = first + a * m + c, first + b * m + c
+                    band[j, 2 * w + i - j] += k
+            for c in range(m):
+                for d in range(m):
+                    i, j = first + a * m + c, first + a * m + d
+                    band[j, 2 * w + i - j] += sizes[e] / 2 * weights[a] * derivative[e, a, c, d]

@@ -1,0 +1,172 @@
+"""Read-outs of the crawlers of Chapter 2."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from cosserat import analytic
+from cosserat.data.dataset import case_of
+from cosserat.errors import InputError
+from cosserat.models.earthworm import (
+    SEGMENT_50,
+    circumference,
+    peak_force,
+    peak_pressure,
+    protrusion_time,
+    resting_diameter,
+    resting_length,
+    stance_time,
+)
+from cosserat.models.peristalsis import Crawl
+from cosserat.table.reading import Reading
+
+SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07, "mu_3_most": 0.0}
+"""Powers of the body mass that Quillin measured on earthworms, the thesis's reference [50]."""
+
+CIRCULAR, LONGITUDINAL = 1.5, 0.5
+"""Phases at which segment 50 lies well inside an advancing and an anchoring region: t_p + t_s/2 and t_p/2."""
+
+
+def crawl(data: xr.Dataset) -> Crawl:
+    """The crawl that a Dataset was computed from.
+
+    Raises
+    ------
+    InputError : it was computed from another kind of case.
+    """
+    problem = case_of(data).problem
+    if not isinstance(problem, Crawl):
+        raise InputError(f"the case '{data.attrs['case']}' has no gait; use the result of a crawl")
+    return problem
+
+
+def segment(data: xr.Dataset) -> xr.Dataset:
+    """What is stored of segment 50."""
+    places = np.linspace(0, 1, data.sizes["section"])
+    return data.isel(section=int(np.abs(places - SEGMENT_50).argmin()))
+
+
+def strides(data: xr.Dataset) -> np.ndarray:
+    """Stride lengths by eq. (2.8.5), one for each stride [m]."""
+    count = (data.sizes["time"] - 1) // crawl(data).strides
+    front = data.along.isel(section=-1).to_numpy()[::count]
+    return np.diff(front)
+
+
+def at_phase(data: xr.Dataset, phase: float) -> xr.Dataset:
+    """Segment 50 at a phase of the last stride."""
+    problem = crawl(data)
+    when = (problem.strides - 1) * problem.gait.duration + problem.gait.time(phase)
+    return segment(data).isel(time=int(np.abs(data.time.to_numpy() - when).argmin()))
+
+
+def slope(data: xr.Dataset, variable: str) -> float:
+    """The power of the body mass with which a variable grows, by least squares of the logarithms."""
+    return float(np.polyfit(np.log(data.body_mass), np.log(data[variable]), 1)[0])
+
+
+def _at(variable: str, phase: float) -> Callable[[xr.Dataset], Reading]:
+    return lambda data: Reading(float(at_phase(data, phase)[variable]))
+
+
+def _ratio(variable: str) -> Callable[[xr.Dataset], Reading]:
+    """Circular over longitudinal contraction, eq. (2.8.10)."""
+
+    def read(data: xr.Dataset) -> Reading:
+        circular, longitudinal = (float(at_phase(data, p)[variable]) for p in (CIRCULAR, LONGITUDINAL))
+        return Reading(circular / longitudinal)
+
+    return read
+
+
+def _ratio_error(variable: str, observed: float) -> Callable[[xr.Dataset], Reading]:
+    """How far the ratio is from the one of eq. (2.8.6), as a share of it."""
+
+    def read(data: xr.Dataset) -> Reading:
+        return Reading(abs(_ratio(variable)(data).measured / observed - 1))
+
+    return read
+
+
+def _rest_pressure(data: xr.Dataset) -> Reading:
+    return Reading(float(data.p_coelom.isel(section=data.sizes["section"] // 2)))
+
+
+def _cycle_displacement(data: xr.Dataset) -> Reading:
+    """Of the soft robot, and by the closed form: the front goes on while gamma travels, and holds from then on."""
+    problem = crawl(data)
+    body, loads = problem.crawler, problem.loads
+    k_s, k_p, k_g = body.stiffnesses
+    rod = analytic.PushPullRod(
+        k_s=k_s,
+        k_p=k_p,
+        k_g=k_g,
+        length=body.length,
+        radius=body.radius,
+        weight=body.line_density * loads.gravity,
+        anchoring=loads.anchoring,
+        advancing=loads.advancing * body.area,
+    )
+    gone = problem.gait.fronts(2)[0][0] * body.length  # where gamma is when the anchor changes
+    return Reading(
+        float(strides(data)[-1]), rod.stretched_length(gone) - rod.stretched_length(body.length)
+    )
+
+
+def _robot_cycle(data: xr.Dataset) -> Reading:
+    """Duration of the gait, and by eq. (2.7.2) with t_pause = 5 s, v = 2.54 cm/s and T = 0.25."""
+    problem = crawl(data)
+    expected = 5.0 + problem.crawler.length / 2.54e-2 * (2 - 0.25)
+    return Reading(problem.gait.duration, expected)
+
+
+def _worm_cycle(data: xr.Dataset) -> Reading:
+    """Duration of the gait, and t_p + t_s by Table 2.1."""
+    mass = _mass(data)
+    return Reading(crawl(data).gait.duration, stance_time(mass) + protrusion_time(mass))
+
+
+def _diameter(data: xr.Dataset) -> float:
+    return 2 * crawl(data).crawler.radius
+
+
+def _mass(data: xr.Dataset) -> float:
+    mass = crawl(data).crawler.mass
+    assert mass is not None
+    return mass
+
+
+READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
+    "stride": lambda data: Reading(float(strides(data)[-1])),
+    "stride_scaling": lambda data: Reading(1e-3 * 15 * (1e3 * _mass(data)) ** 0.4),
+    "robot_cycle": _robot_cycle,
+    "worm_cycle": _worm_cycle,
+    "circumference": lambda data: Reading(circumference(_diameter(data))),
+    "peak_force": lambda data: Reading(peak_force(_diameter(data))),
+    "peak_pressure": lambda data: Reading(peak_pressure(_diameter(data))),
+    "cycle_displacement": _cycle_displacement,
+    "rest_pressure": _rest_pressure,
+    "mu_1_circular": _at("mu_1", CIRCULAR),
+    "mu_3_circular": _at("mu_3", CIRCULAR),
+    "mu_1_longitudinal": _at("mu_1", LONGITUDINAL),
+    "mu_3_longitudinal": _at("mu_3", LONGITUDINAL),
+    "p_circular": _at("p_coelom", CIRCULAR),
+    "p_longitudinal": _at("p_coelom", LONGITUDINAL),
+    "mu_1_ratio": _ratio("mu_1"),
+    "mu_3_ratio": _ratio("mu_3"),
+    "mu_1_ratio_error": _ratio_error("mu_1", 0.75),
+    "mu_3_ratio_error": _ratio_error("mu_3", 1.60),
+    "stride_error": lambda data: Reading(abs(float(strides(data)[-1]) / 38.6e-3 - 1)),
+    "stance_time": lambda data: Reading(stance_time(_mass(data))),
+    "protrusion_time": lambda data: Reading(protrusion_time(_mass(data))),
+    "resting_length": lambda data: Reading(resting_length(_mass(data))),
+    "resting_diameter": lambda data: Reading(resting_diameter(_mass(data))),
+    "stride_slope": lambda data: Reading(slope(data, "stride")),
+    "speed_slope": lambda data: Reading(slope(data, "speed")),
+    "frequency_slope": lambda data: Reading(slope(data, "frequency")),
+    "strain_slope": lambda data: Reading(slope(data, "mu_3_most")),
+}
+"""Read-outs by the name that a row gives."""

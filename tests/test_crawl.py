@@ -1,0 +1,395 @@
+"""Gaits, crawling, and what is refused of a gait."""
+
+import numpy as np
+import pytest
+
+import cosserat
+from cosserat.errors import InputError
+from cosserat.models.earthworm import (
+    MUSCLE_LAWS,
+    protrusion_time,
+    resting_diameter,
+    resting_length,
+    stance_time,
+)
+from cosserat.models.gait import Gait
+from cosserat.table.crawl_readouts import slope, strides
+
+CRAWLS = [name for name, case in cosserat.published().items() if case.problem.kind == "crawl"]
+WORM = cosserat.case("worm")
+
+
+def gait(**changes):
+    """A gait of one phase with one front."""
+    plain = {
+        "phases": ["2 s"],
+        "gamma": [[[0, 1], [1, 0]]],
+        "anchor": [[[0, 0], [0.5, 0]], [[0.5, 1], [1, 1]]],
+        "sudden": 1,
+    }
+    return Gait.read(plain | changes, "gait")
+
+
+# ---------------------------------------------------------------- gaits
+
+
+def test_fronts_divide_the_body():
+    worm = WORM.problem.gait
+    kinds = [
+        [(round(r.left, 3), round(r.right, 3), r.load[:3]) for r in worm.regions(p)]
+        for p in (0, 0.25, 0.5, 1, 1.5, 2)
+    ]
+    assert kinds == [
+        [(0, 0.5, "adv"), (0.5, 1, "anc")],
+        [(0, 0.25, "adv"), (0.25, 0.875, "anc"), (0.875, 1, "adv")],
+        [(0, 0.75, "anc"), (0.75, 1, "adv")],
+        [(0, 0.5, "anc"), (0.5, 1, "adv")],
+        [(0, 0.25, "anc"), (0.25, 0.75, "adv"), (0.75, 1, "anc")],
+        [(0, 0.5, "adv"), (0.5, 1, "anc")],
+    ]
+    robot = cosserat.case("soft_robot").problem.gait
+    assert [len(robot.regions(p)) for p in (0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4)] == [
+        1,
+        1,
+        1,
+        2,
+        2,
+        3,
+        2,
+        2,
+        1,
+    ]
+    assert robot.regions(0)[0].load == robot.regions(4)[0].load == "anchoring"
+
+
+def test_fronts_that_reach_an_end_together_keep_their_order():
+    both = gait(
+        phases=["1 s", "1 s"],
+        gamma=[[[0, 1], [1, 0.4], [2, 0]]],
+        eta=[[[1, 1], [2, 0]]],
+        anchor=[[[0, 0], [1, 0]], [[1, 1], [2, 1]]],
+        sudden=0,
+    )
+    assert [r.load for r in both.regions(1.5)] == ["anchoring", "advancing", "anchoring"]
+    assert [r.load for r in both.regions(2)] == ["anchoring"]
+
+
+def test_every_event_of_a_gait_is_on_the_time_grid():
+    worm = WORM.problem.gait
+    moments = worm.moments(0.05)
+    assert len(moments) == 98 + 1 + 1  # the start, and t_p / 2, which is no multiple of 0.05 s
+    times = np.array([m.time for m in moments])
+    assert np.diff(times).max() <= 0.05 + 1e-12
+    for event in (0, 3.15 / 3, 3.15 / 2, 3.15, 4.9):
+        assert np.abs(times - event).min() < 1e-12
+
+
+def test_a_front_at_an_end_has_left_the_body():
+    assert [r.load for r in gait().regions(0)] == ["anchoring"]
+    assert [r.load for r in gait().regions(1)] == ["advancing"]
+    assert len(gait(clearance=0.05).regions(0.04)) == 1
+    assert len(gait(clearance=0.03).regions(0.04)) == 2
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"phases": []}, "'phases' is empty"),
+        ({"phases": ["0 s"]}, "'phases.0' is 0 s; it must be above 0"),
+        ({"phases": [2]}, "'phases.0' is 2, without a unit"),
+        (
+            {"anchor": [[[0, 0], [0.4, 0]], [[0.5, 1], [1, 1]]]},
+            "'anchor' has a gap between phases 0.4 and 0.5",
+        ),
+        (
+            {"anchor": [[[0, 0], [0.6, 0]], [[0.5, 1], [1, 1]]]},
+            "'anchor' overlaps between phases 0.5 and 0.6",
+        ),
+        ({"anchor": [[[0, 0], [0.5, 0]]]}, "'anchor' has a gap between phases 0.5 and 1"),
+        ({"anchor": []}, "'anchor' has a gap between phases 0 and 1"),
+        ({"anchor": [[[0, 0], [1, 1.2]]]}, "'anchor.0' is at 1.2 at phase 1, off the body"),
+        ({"anchor": [[[0, 0.1], [1, 0.6]]]}, "gamma and anchor cross at phase 0.6"),
+        (
+            {"anchor": [[[0, 0.5], [0.5, 0.5]], [[0.5, 1], [1, 1]]]},
+            "the anchor lies on the front gamma at 0.5",
+        ),
+        ({"gamma": [[[0, 1]]]}, "'gamma.0' has 1 points"),
+        (
+            {"gamma": [[[0, 1], [0, 0.5], [1, 0]]]},
+            "'gamma.0' goes from phase 0 to phase 0; let its times increase",
+        ),
+        ({"gamma": [[[0, 1], [1.5, 0]]]}, "'gamma.0' ends at phase 1.5, but 'phases' has 1"),
+        ({"gamma": [[[0, 1], [1, -0.5]]]}, "'gamma.0' is at -0.5 at phase 1, off the body"),
+        ({"eta": [[[0, 0.5], [1, 0.4]]]}, "gamma and eta cross at phase"),
+        ({"eta": [[[0, 0.9], [1, 0.4]]], "gamma": [[[0, 0.3], [1, 0.6]]]}, "gamma and eta cross"),
+        (
+            {"gamma": [[[0, 0.9], [1, 0.8]], [[0, 0.3], [1, 0.2]]]},
+            "the fronts gamma at 0.3 and gamma at 0.9 overlap",
+        ),
+        ({"gamma": [[[0, "1 m"], [1, 0]]]}, "gamma"),
+        ({"sudden": 0}, "at phase 0 the load on 1 of the body changes at once; let fronts enter"),
+        (
+            {
+                "phases": ["1 s", "1 s"],
+                "gamma": [[[0, 1], [1, 0.5]]],
+                "anchor": [[[0, 0], [2, 0]]],
+                "sudden": 0.1,
+            },
+            "at phase 1 the load on 0.5 of the body",
+        ),
+        (
+            {"gamma": [], "eta": [[[0, 0.6], [1, 0.2]]], "sudden": 0.3},
+            "at phase 0 the load on 0.4 of the body",
+        ),
+        ({"clearance": 0}, "'clearance' is 0; it must be above 0"),
+        ({"speed": "1 m/s"}, "'speed' is not a key"),
+    ],
+)
+def test_what_is_no_gait_is_refused(changes, sentence):
+    with pytest.raises(InputError, match=sentence):
+        gait(**changes)
+
+
+# ---------------------------------------------------------------- postures
+
+REGIONS = [{"begin": 0, "end": 0.4, "load": "anchoring"}, {"begin": 0.4, "end": 1, "load": "advancing"}]
+
+
+def posture(regions):
+    return cosserat.case("worm_at_rest").vary("mine", regions=regions)
+
+
+@pytest.mark.parametrize(
+    ("regions", "sentence"),
+    [
+        (
+            [REGIONS[0], {"begin": 0.3, "end": 1, "load": "advancing"}],
+            "'regions.1' begins at 0.3 and overlaps the one before",
+        ),
+        (
+            [REGIONS[0], {"begin": 0.5, "end": 1, "load": "advancing"}],
+            "'regions.1' begins at 0.5 and leaves a gap",
+        ),
+        (
+            [REGIONS[0], {"begin": 0.4, "end": 0.4, "load": "advancing"}],
+            "'regions.1' from 0.4 to 0.4 is empty",
+        ),
+        ([REGIONS[0]], "'regions' end at 0.4; they must cover the body"),
+        ([], "'regions' end at 0; they must cover the body"),
+        ([{**REGIONS[0], "load": "pulling"}, REGIONS[1]], "it must be 'anchoring' or 'advancing'"),
+        ([{**REGIONS[0], "end": float("nan")}, REGIONS[1]], "must be a finite number"),
+    ],
+)
+def test_regions_that_do_not_cover_the_body_are_refused(regions, sentence):
+    with pytest.raises(InputError, match=sentence):
+        posture(regions)
+
+
+def test_a_posture_of_ones_own_and_a_gait_of_ones_own(tmp_path):
+    data = cosserat.run(
+        posture(REGIONS).vary("mine", loads={"advancing": "1 kPa", "anchoring": "20 mN"})
+    )
+    assert data.mu_1.sel(section=50) > 1 > data.mu_1.sel(section=200)
+    assert data.along[0] == 0
+    (tmp_path / "my.toml").write_text(
+        '[inchworm]\nlike = "worm"\nstrides = 2\nstep = "0.1 s"\n'
+        'gait.phases = ["1 s", "1 s"]\n'
+        "gait.gamma = [[[0, 1], [1, 0.2], [2, 0]]]\n"
+        "gait.eta = [[[1, 1], [2, 0]]]\n"
+        "gait.anchor = [[[0, 0], [1, 0]], [[1, 1], [2, 1]]]\n"
+    )
+    crawled = cosserat.run(cosserat.load_cases(tmp_path / "my.toml")["inchworm"])
+    lengths = np.ptp(crawled.along.to_numpy(), axis=1)
+    assert strides(crawled) == pytest.approx(
+        lengths.max() - lengths.min()
+    )  # stretched with one anchor, shortened with one
+    assert (strides(crawled) > 0.09).all()
+
+
+def test_an_incompressible_body_has_to_anchor_somewhere():
+    whole = {
+        "gamma": [
+            [
+                [0, 1],
+                [1, 0],
+            ]
+        ],
+        "eta": [[[1, 1], [2, 0]]],
+        "anchor": [[[0, 0], [1, 0]], [[1, 1], [2, 1]]],
+    }
+    with pytest.raises(InputError, match="at phase 1 no region anchors, and the force"):
+        WORM.vary("x", gait=whole)
+    crawled = cosserat.run(
+        WORM.vary("x", gait=whole, loads={"advancing_force": "none"}, strides=1, step="0.5 s")
+    )
+    assert strides(crawled)[0] > 0.3
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"step": "1e-320 s"},
+            "'step' = 9.99989e-321 s divides a stride of 4.9 s into more than 100000 instants",
+        ),
+        ({"mesh": {"elements": 2}}, "'mesh.elements' is 2; it must be at least 3"),
+        (
+            {"crawler": {"radius": "1e-100 m"}},
+            "has length / radius = 2.5e[+]99; it must be below 1e[+]06",
+        ),
+        ({"crawler": {"density": "1 kg/m^3"}}, "'crawler' needs either a mass or a density"),
+        (
+            {"crawler": {"material": {"kind": "compressible", "young": "10 kPa", "bulk": "1e30 Pa"}}},
+            "Poisson's ratio of 0.5; it must be",
+        ),
+        ({"crawler": {"material": {"kind": "rubber"}}}, "crawler.material"),
+        (
+            {"collocation_tolerance": 1e-20},
+            "'collocation_tolerance' is 1e-20; it must be at least 1e-13",
+        ),
+        ({"strides": 0}, "'strides' is 0; it must be at least 1"),
+        ({"loads": {"anchoring": "-1 N"}}, "'loads.anchoring' is -1 N; it must be at least 0"),
+    ],
+)
+def test_crawls_that_cannot_be_are_refused(changes, sentence):
+    with pytest.raises(InputError, match=sentence):
+        WORM.vary("x", **changes)
+
+
+def test_a_sweep_needs_masses_and_a_weight_can_collapse_a_body():
+    with pytest.raises(InputError, match="'masses' is empty"):
+        cosserat.case("worm_masses").vary("x", masses=[])
+    with pytest.raises(
+        InputError, match="'loads.anchoring' = 0 N and a weight of 40 N/m would collapse"
+    ):
+        cosserat.run(cosserat.case("worm_at_rest").vary("x", loads={"gravity": 1000}))
+
+
+def test_equal_neighbours_are_one_region():
+    printed = cosserat.case("worm_at_rest").vary(
+        "x", loads={"anchoring": "26 mN", "advancing": "1.36 kPa", "multiplier": "printed"}
+    )
+    ends = [(0, 0.2, "anchoring"), (0.2, 0.8, "advancing"), (0.8, 1, "anchoring")]
+    split = [ends[0], (0.2, 0.5, "advancing"), (0.5, 0.8, "advancing"), ends[2]]
+    whole, parts = (
+        cosserat.run(
+            printed.vary("x", regions=[{"begin": a, "end": b, "load": load} for a, b, load in rows])
+        )
+        for rows in (ends, split)
+    )
+    assert whole.mu_3.equals(parts.mu_3)
+
+
+# ---------------------------------------------------------------- crawling
+
+
+@pytest.mark.parametrize("name", CRAWLS)
+def test_the_anchored_point_does_not_move_within_a_step(name, solved):
+    data = solved[name]
+    problem = cosserat.case(name).problem
+    along, anchor = data.along.to_numpy(), data.anchor.to_numpy()
+    xi = data.xi_section.to_numpy()
+    stored = [k for k in range(1, anchor.size) if np.abs(xi - anchor[k]).min() < 1e-12]
+    assert len(stored) > 2
+    for k in stored:
+        at = int(np.abs(xi - anchor[k]).argmin())
+        assert abs(along[k, at] - along[k - 1, at]) < 1e-14 + 1e-9 * problem.crawler.length
+
+
+@pytest.mark.parametrize("name", CRAWLS)
+def test_gaits_are_periodic(name, solved):
+    data, problem = solved[name], cosserat.case(name).problem
+    count = (data.sizes["time"] - 1) // problem.strides
+    for variable in ("mu_1", "mu_2", "mu_3", "advancing"):
+        values = data[variable].to_numpy()
+        for k in range(1, problem.strides):
+            np.testing.assert_allclose(
+                values[k * count : (k + 1) * count + 1][1:], values[1 : count + 1], atol=1e-9
+            )
+    lengths = strides(data)
+    settled = lengths[1:] if name == "worm_clipped" else lengths  # its fronts begin inside the body
+    np.testing.assert_allclose(settled, settled[0], rtol=1e-10)
+
+
+@pytest.mark.parametrize("name", ["worm", "worm_late"])
+def test_the_stride_does_not_depend_on_the_time_step_once_events_are_on_the_grid(name):
+    """An anchor between the fronts lies on a plateau that moves as one piece: any point of it may hold."""
+    lengths = [
+        strides(cosserat.run(cosserat.case(name).vary("x", strides=1, step=step)))[0]
+        for step in (0.1, 0.05, 0.025)
+    ]
+    np.testing.assert_allclose(lengths, lengths[0], rtol=1e-9)
+
+
+def test_events_off_the_time_grid_cost_millimetres():
+    """The switch at t_p/3 put one step of 0.05 s later."""
+    late = 1 / 3 + 0.05 / 3.15
+    anchor = [[[0, 0.75], [late, 0.75 - 0.75 * late]], [[late, 0], [1, 0]], [[1, 1], [2, 1]]]
+    moved = cosserat.run(WORM.vary("x", strides=1, gait={"anchor": anchor}))
+    assert strides(moved)[0] - strides(cosserat.run(WORM.vary("y", strides=1)))[0] > 1e-3
+
+
+def test_a_crawl_run_backwards_in_mirror_image_is_the_same_crawl():
+    """Fronts that travel forward through a mirrored body carry it as far to the other side."""
+
+    def mirrored(tracks):
+        return [[[p, 1 - z] for p, z in track] for track in tracks]
+
+    own = WORM.problem.gait
+    mirror = WORM.vary(
+        "mirror",
+        strides=1,
+        gait={"gamma": mirrored(own.eta), "eta": mirrored(own.gamma), "anchor": mirrored(own.anchor)},
+    )
+    one = cosserat.run(WORM.vary("x", strides=1))
+    other = cosserat.run(mirror)
+    np.testing.assert_allclose(other.mu_1[:, ::-1], one.mu_1, atol=1e-8)
+    moved = other.along - other.along[0, 125]
+    kept = one.along - one.along[0, 125]
+    np.testing.assert_allclose(-moved[:, ::-1], kept, atol=1e-9)
+
+
+def test_progress_is_told_and_a_failing_instant_is_named():
+    told = []
+    cosserat.run(
+        WORM.vary("x", strides=2, step=1), progress=lambda share, words: told.append((share, words))
+    )
+    assert told == [(0.5, "stride 1 of 2"), (1.0, "stride 2 of 2")]
+    with pytest.raises(
+        InputError, match=r"case 'x' at t = 5.25 s: 'loads.advancing' = 60000 Pa and a weight"
+    ):
+        cosserat.run(cosserat.case("soft_robot").vary("x", loads={"advancing": 6e4}))
+
+
+# ---------------------------------------------------------------- worms of every size
+
+
+def test_table_2_1():
+    for value, printed, digits in (
+        (stance_time(0.01), 1.75, 0.005),
+        (protrusion_time(0.01), 3.15, 0.005),
+        (resting_length(0.01), 0.250, 0.001),
+        (resting_diameter(0.01), 7.6e-3, 0.06e-3),
+    ):
+        assert value == pytest.approx(printed, abs=digits)
+
+
+def test_muscles_of_constant_stress_alone_scale_like_an_earthworm(solved):
+    known = {"stride": 0.41, "speed": 0.33, "frequency": -0.07, "mu_3_most": 0.0, "mu_1_least": 0.0}
+    distance = {
+        name: max(abs(slope(solved[name], key) - value) for key, value in known.items())
+        for name in ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip")
+    }
+    assert distance["worm_masses"] < 0.015
+    assert min(distance["worm_masses_constant_pressure"], distance["worm_masses_strip"]) > 0.1
+
+
+def test_scaled_worms_have_the_loads_of_their_law():
+    for law, (force, pressure) in MUSCLE_LAWS.items():
+        posed = cosserat.case("worm_masses").vary("x", muscles=law).problem
+        big, small = posed.scaled(0.01), posed.scaled(0.001)
+        grown = big.crawler.radius / small.crawler.radius
+        assert big.loads.anchoring / small.loads.anchoring == pytest.approx(grown**force)
+        assert big.loads.advancing / small.loads.advancing == pytest.approx(grown**pressure)
+        assert big.crawler.mass == 0.01
+        assert small.gait.duration == pytest.approx(stance_time(0.001) + protrusion_time(0.001))

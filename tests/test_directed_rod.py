@@ -1,0 +1,156 @@
+"""Chapter 1: stiffnesses by integrating elasticity over a section, gradients of the stretches, and its errata."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from cosserat.models.directed_rod import (
+    Section,
+    adjusted_stiffnesses,
+    integrated_stiffnesses,
+    lame,
+    measures,
+    strain_energy,
+    stretch_gradients,
+    stretches,
+)
+
+YOUNG, POISSON = 3.0, 0.3
+
+
+def state(seed, size=0.3):
+    """Directors (3, 3) and their derivatives (2, 3), not far from the reference."""
+    rng = np.random.default_rng(seed)
+    return np.eye(3) + size * rng.uniform(-1, 1, (3, 3)), size * rng.uniform(-1, 1, (2, 3))
+
+
+def three_dimensional_energy(delta, kappa, width, height):
+    """Linear elasticity over a rectangle, width along X^1, with the strains (1.2.24), by Gauss's rule."""
+    first, shear = lame(YOUNG, POISSON)
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    total = 0.0
+    for a, wa in zip(nodes, weights, strict=True):
+        for b, wb in zip(nodes, weights, strict=True):
+            x = np.array([a * width / 2, b * height / 2])
+            gradient = delta.T.copy()  # u_i,j: column j is the displacement of director j
+            gradient[:, 2] += x @ kappa
+            strain = (gradient + gradient.T) / 2
+            density = first / 2 * np.trace(strain) ** 2 + shear * (strain**2).sum()
+            total += density * wa * wb * width * height / 4
+    return total
+
+
+@given(st.integers(0, 10_000))
+def test_integrating_elasticity_over_the_section_gives_the_energy_1_2_94(seed):
+    width, height = 0.7, 0.4
+    section = Section(width * height, width * height**3 / 12, height * width**3 / 12, np.nan)
+    rng = np.random.default_rng(seed)
+    delta, kappa = rng.uniform(-1, 1, (3, 3)), rng.uniform(-1, 1, (2, 3))
+    gamma = delta + delta.T  # (1.2.20)
+    energy = strain_energy(integrated_stiffnesses(YOUNG, POISSON, section), gamma, kappa)
+    assert energy == pytest.approx(three_dimensional_energy(delta, kappa, width, height), rel=1e-12)
+
+
+@given(st.integers(0, 10_000))
+def test_gradients_of_the_stretches_1_3_19(seed):
+    d, d_prime = state(seed)
+    by_d, turned, by_slope = stretch_gradients(d, d_prime)
+    h = 1e-6
+    for i in range(3):
+        for j in range(3):
+            shift = np.zeros((3, 3))
+            shift[i, j] = h
+            change = [
+                (a - b) / (2 * h)
+                for a, b in zip(
+                    stretches(d + shift, d_prime), stretches(d - shift, d_prime), strict=True
+                )
+            ]
+            expected = np.zeros(3)
+            expected[i] = by_d[i, j]
+            np.testing.assert_allclose(change[0], expected, atol=1e-8)
+            expected = np.zeros(2)
+            if i < 2:
+                expected[i] = turned[i, j]
+            np.testing.assert_allclose(change[1], expected, atol=1e-8)
+            if i < 2:
+                slope = (stretches(d, d_prime + shift[:2])[1] - stretches(d, d_prime - shift[:2])[1]) / (
+                    2 * h
+                )
+                assert slope[i] == pytest.approx(by_slope[i, j], abs=1e-8)
+                assert slope[1 - i] == 0
+
+
+def test_the_measures_vanish_in_the_reference_and_under_rotation():
+    from scipy.spatial.transform import Rotation
+
+    for rotation in (np.eye(3), Rotation.from_rotvec([0.3, -1.1, 0.7]).as_matrix()):
+        gamma, kappa = measures(rotation, np.zeros((2, 3)))
+        assert np.abs(gamma).max() < 1e-15
+        assert not kappa.any()
+
+
+@pytest.mark.parametrize("shape", [Section.circle(0.3), Section(0.28, 0.0037, 0.0114, 0.009)])
+def test_adjusted_stiffnesses_bend_twist_and_stretch_as_known(shape):
+    k = adjusted_stiffnesses(YOUNG, POISSON, shape, 5 / 6)
+    _, shear = lame(YOUNG, POISSON)
+    none = np.zeros((3, 3))
+    twist, bend = np.zeros((2, 3)), np.zeros((2, 3))
+    twist[0, 1], twist[1, 0] = 1.0, -1.0
+    bend[1, 2] = 1.0
+    assert 2 * strain_energy(k, none, twist) == pytest.approx(shear * shape.torsion_constant)
+    assert 2 * strain_energy(k, none, bend) == pytest.approx(YOUNG * shape.second_moment_1)
+    # free to contract, a stretched section answers with E A: minimise over gamma_11 and gamma_22
+    matrix = np.array([[2 * k[1], k[7], k[8]], [k[7], 2 * k[2], k[9]], [k[8], k[9], 2 * k[3]]]) / 2
+    reduced = matrix[2, 2] - matrix[2, :2] @ np.linalg.solve(matrix[:2, :2], matrix[:2, 2])
+    assert 4 * reduced == pytest.approx(YOUNG * shape.area)
+
+
+def test_E1_1_with_the_printed_sign_a_twisted_rod_stores_nothing():
+    circle = Section.circle(0.3)
+    k = adjusted_stiffnesses(YOUNG, POISSON, circle, 5 / 6)
+    _, shear = lame(YOUNG, POISSON)
+    polar, torsion = shear * 2 * circle.second_moment_1, shear * circle.torsion_constant
+    printed = {**k, 12: (polar - torsion) / 4, 13: (polar - torsion) / 4}
+    twist = np.array([[0, 1.0, 0], [-1.0, 0, 0]])
+    assert 2 * strain_energy(printed, np.zeros((3, 3)), twist) == pytest.approx(0, abs=1e-15)
+    assert 2 * strain_energy(k, np.zeros((3, 3)), twist) == pytest.approx(torsion)
+
+
+def test_E1_2_k11_takes_the_moment_about_the_first_axis():
+    width, height = 0.7, 0.4
+    section = Section(width * height, width * height**3 / 12, height * width**3 / 12, np.nan)
+    kappa = np.zeros((2, 3))
+    kappa[1, 1] = 1.0
+    exact = three_dimensional_energy(np.zeros((3, 3)), kappa, width, height)
+    k = adjusted_stiffnesses(YOUNG, POISSON, section, 1.0)
+    assert strain_energy({11: k[11]}, np.zeros((3, 3)), kappa) == pytest.approx(exact)
+    assert (
+        strain_energy({11: k[10]}, np.zeros((3, 3)), kappa) > 2 * exact
+    )  # I_2 in its place, as printed
+
+
+def test_E1_3_current_inertias_need_the_density():
+    """A circle of density 1000 kg/m^3 under a homogeneous stretch: rho_0 y_0 = mu_3 rho y with rho in both."""
+    d, _ = state(3)
+    radius, density_0 = 0.3, 1000.0
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    r, w = (nodes + 1) * radius / 2, weights * radius / 2
+    angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
+    x_1 = r[:, None] * np.cos(angle)
+    dA = np.outer(w * r, np.full(16, np.pi / 8))
+    rho_0 = density_0 * dA.sum()
+    y_0 = (x_1**2 * density_0 * dA).sum() / rho_0  # (1.2.32)
+    mu = np.linalg.norm(d, axis=1)
+    e = d / mu[:, None]
+    jacobian = np.linalg.det(d)
+    density = density_0 / jacobian  # rho_0* = rho* J
+    triple, da = np.linalg.det(e), mu[0] * mu[1] * dA
+    rho = triple * (density * da).sum()  # (1.2.48)
+    integral = triple * (x_1**2 * density * da).sum()  # the right side of (1.2.61)
+    assert mu[2] * rho == pytest.approx(rho_0)
+    assert mu[2] * integral == pytest.approx(
+        rho_0 * y_0
+    )  # so the left side of (1.2.61) is rho y, and y = y_0
+    assert mu[2] * integral != pytest.approx(y_0, rel=0.5)  # (1.2.61) with (1.2.62) as printed
