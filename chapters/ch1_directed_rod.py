@@ -59,14 +59,14 @@ page.source(chapter1.surface)
 # Put $\mathbf{r}^*$ into the energy of linear elasticity, integrate over the section about its centre, and there remains
 # a quadratic form with the stiffnesses
 #
-# $$
+# \begin{equation*}
 # \begin{aligned}
-# \bar{k}_1 = \bar{k}_2 = \bar{k}_3 &= \tfrac14 (\lambda + 2\mu) A , \quad \bar{k}_4 = \bar{k}_5 = \bar{k}_6 = \mu A , \quad
-# \bar{k}_7 = \bar{k}_8 = \bar{k}_9 = \tfrac12 \lambda A , \\
+# \bar{k}_1 = \bar{k}_2 = \bar{k}_3 &= \tfrac14 (\lambda + 2\mu) A , \quad \bar{k}_4 = \bar{k}_5 = \bar{k}_6 = \mu A , \\
+# \bar{k}_7 = \bar{k}_8 = \bar{k}_9 &= \tfrac12 \lambda A , \\
 # \bar{k}_{10} = \bar{k}_{12} &= \mu I_2 , \quad \bar{k}_{11} = \bar{k}_{13} = \mu I_1 , \quad
 # \bar{k}_{14} = (\lambda + 2\mu) I_2 , \quad \bar{k}_{15} = (\lambda + 2\mu) I_1 .
 # \end{aligned} \tag{1.2.95}
-# $$
+# \end{equation*}
 
 # %% tags=["remove-input"]
 page.source(directed_rod.integrated_stiffnesses)
@@ -75,10 +75,14 @@ page.source(directed_rod.integrated_stiffnesses)
 # A test recovers each of them by Gauss's rule over a rectangle, for random deformations. These stiffnesses are too high
 # in bending and torsion, because real sections do not stay plane; the thesis replaces five of them:
 #
-# $$
-# k_{12} = k_{13} = \tfrac14 (\mu I_2 + \mu I_1 + \mathcal{D}) , \quad k_{14} = E I_2 , \quad k_{15} = E I_1 , \quad
-# k_{16} = \tfrac12 (\mu I_2 + \mu I_1 - \mathcal{D}) . \tag{1.2.98}
-# $$
+# \begin{equation*}
+# \begin{aligned}
+# k_{12} = k_{13} &= \tfrac14 (\mu I_2 + \mu I_1 + \mathcal{D}) , \quad k_{14} = E I_2 , \quad k_{15} = E I_1 , \\
+# k_{16} &= \tfrac12 (\mu I_2 + \mu I_1 - \mathcal{D}) .
+# \end{aligned} \tag{1.2.98}
+# \end{equation*}
+#
+# (the sign of $\mathcal{D}$ in the first is corrected, erratum E1.1).
 
 # %% tags=["remove-input"]
 page.source(directed_rod.adjusted_stiffnesses)

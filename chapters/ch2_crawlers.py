@@ -103,7 +103,8 @@ page.animation("anim_worm", "Two strides in real time. Segment 50 is black, the 
 
 # %% tags=["remove-input"]
 page.figure(
-    "fig_2_1", "The six times of the page. Between $t_2$ and $t_3$ the anchor has moved to the rear."
+    "fig_2_1",
+    "The six times of the page. Between the second and the third the anchor has moved to the rear.",
 )
 
 # %% tags=["remove-input"]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import cosserat
 from cosserat.errors import InputError
@@ -14,6 +15,8 @@ from cosserat.models.earthworm import (
 )
 from cosserat.models.gait import Gait
 from cosserat.table.crawl_readouts import slope, strides
+from cosserat.table.measure import judge
+from cosserat.table.tolerances import read_table
 
 CRAWLS = [name for name, case in cosserat.published().items() if case.problem.kind == "crawl"]
 WORM = cosserat.case("worm")
@@ -359,6 +362,22 @@ def test_progress_is_told_and_a_failing_instant_is_named():
         InputError, match=r"case 'x' at t = 5.25 s: 'loads.advancing' = 60000 Pa and a weight"
     ):
         cosserat.run(cosserat.case("soft_robot").vary("x", loads={"advancing": 6e4}))
+
+
+def test_doubling_the_mesh_moves_no_row_by_a_tenth_of_its_tolerance(solved):
+    rows = [row for row in read_table(ROOT / "results/tolerances.csv") if row.id.startswith("2.")]
+    names = {row.case for row in rows}
+    fine = {}
+    for name in names:
+        mesh = {"elements": 12}
+        case = cosserat.case(name)
+        finer = {"worm": {"mesh": mesh}} if case.problem.kind == "body masses" else {"mesh": mesh}
+        fine[name] = cosserat.run(case.vary(name, **finer))
+    assert len(rows) > 50
+    for row in rows:
+        coarse, refined = judge(row, solved), judge(row, fine)
+        scale = abs(coarse.expected) if row.tolerance_kind == "rel" else 1.0
+        assert abs(coarse.measured - refined.measured) <= 0.1 * row.tolerance * scale, row.id
 
 
 # ---------------------------------------------------------------- worms of every size

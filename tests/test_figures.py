@@ -39,11 +39,13 @@ def test_beam_figures_plot_the_computed_and_the_analytic_curve_in_millimetres(so
 
 def test_every_axis_of_a_graph_has_a_unit(solved):
     for name, entry in FIGURES.items():
-        if name.startswith("anim_") or name == "fig_directed_rod":  # a body in space, without axes
+        if name.startswith("anim_"):
             continue
         for ax in draw(name, {case: solved[case] for case in entry.cases}).axes:
             assert "[" in ax.get_xlabel(), name
-            assert "[" in ax.get_ylabel(), name
+            assert "[" in ax.get_ylabel() or not ax.get_yticks().size, (
+                name
+            )  # bodies below each other have no axis
 
 
 def test_unknown_figures_are_refused(tmp_path):

@@ -107,7 +107,7 @@ def load(file: Path) -> Mapping[str, Case]:
         ) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(
-            f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml for an example"
+            f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml or chapter2.toml for examples"
         ) from None
     stray = [key for key, value in tables.items() if not isinstance(value, dict)]
     if stray:

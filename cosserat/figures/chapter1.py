@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -11,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.figures.crawlers import crawler_of
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, settings
+from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -31,33 +30,35 @@ def surface(state: xr.Dataset, radius: float, around: Array) -> Array:
 
 
 def fig_directed_rod(data: Data) -> Figure:
-    """The soft robot while its front half is thin: its surface, its centreline and some directors."""
+    """The soft robot while its front half is thin: its surface, its centreline and some directors, seen obliquely."""
     run = data["soft_robot"]
     state = run.isel(time=int(np.abs(run.time.to_numpy() - 10.0).argmin()))
     state = state.isel(section=slice(None, None, 5))
     radius = crawler_of(run).crawler.radius
-    with settings():
-        figure = Figure(figsize=(7.2, 3.4))
-        ax: Any = figure.add_axes(
-            (0.0, 0.0, 1.0, 1.0), projection="3d"
-        )  # its methods are those of Axes3D
-    skin = surface(state, radius, np.linspace(0, 2 * np.pi, 49)) * 1e2
-    for k in range(0, skin.shape[0], 2):
-        ax.plot(skin[k, :, 2], skin[k, :, 1], skin[k, :, 0], color=COMPUTED, linewidth=0.6, alpha=0.7)
+    figure, (ax,) = canvas(7.2, 2.6)
+    skin = _oblique(surface(state, radius, np.linspace(0, 2 * np.pi, 49)))
+    for section in skin[::2]:
+        ax.plot(*section.T, color=COMPUTED, linewidth=0.6, alpha=0.7)
     for j in range(0, 48, 6):
-        ax.plot(skin[:, j, 2], skin[:, j, 1], skin[:, j, 0], color=EXACT, linewidth=0.5)
-    axis = np.column_stack([state.along, 0 * state.along, state.height]) * 1e2
-    ax.plot(*axis.T, color=INK, linewidth=1.5)
-    for k in range(2, axis.shape[0], 8):
-        for number, (mu, along) in enumerate(
-            ((state.mu_1[k], (0, 0, 1)), (state.mu_2[k], (0, 1, 0))), start=1
-        ):
-            tip = float(mu) * radius * 1e2 * np.array(along)
-            ax.quiver(*axis[k], *tip, color=VARIANT, linewidth=1.2, arrow_length_ratio=0.2)
-            if k == 10:
-                ax.text(*(axis[k] + 1.25 * tip), rf"$R\,\mathbf{{d}}_{number}$", color=VARIANT)
-    ax.text(*(axis[-1] + np.array([0.6, 0, -0.3])), r"$\mathbf{r}$", color=INK)
-    ax.set_box_aspect((np.ptp(skin[..., 2]), np.ptp(skin[..., 1]), np.ptp(skin[..., 0])), zoom=2.3)
-    ax.set_axis_off()
-    ax.view_init(elev=20, azim=-62)
+        ax.plot(*skin[:, j].T, color=EXACT, linewidth=0.5)
+    along, height = state.along.to_numpy(), state.height.to_numpy()
+    r = np.column_stack([height, 0 * height, along])
+    ax.plot(*_oblique(r).T, color=INK, linewidth=1.5)
+    for k in range(2, along.size, 8):
+        for number, mu in ((1, state.mu_1), (2, state.mu_2)):
+            tip = r[k] + float(mu[k]) * radius * np.eye(3)[number - 1]
+            foot, head = _oblique(np.array([r[k], tip]))
+            arrow = {"arrowstyle": "-|>", "color": VARIANT, "shrinkA": 0, "shrinkB": 0}
+            ax.annotate("", tuple(head), tuple(foot), arrowprops=arrow)
+            if k == 2:
+                ax.annotate(rf"$R\,\mathbf{{d}}_{number}$", tuple(head + 0.2), color=VARIANT)
+    ax.annotate(r"$\mathbf{r}$", tuple(_oblique(r[-1:])[0] + 0.2), color=INK)
+    ax.set_aspect("equal")
+    ax.set(xlabel=r"along $\mathbf{E}_3$ [cm]", ylabel=r"along $\mathbf{E}_1$ [cm]")
     return figure
+
+
+def _oblique(points: Array) -> Array:
+    """Points (..., 3) on paper, in cm: E_3 to the right, E_1 up, E_2 obliquely away from the reader."""
+    x, y, z = np.moveaxis(points * 1e2, -1, 0)
+    return np.stack([z + 0.45 * y, x + 0.3 * y], axis=-1)

@@ -64,7 +64,11 @@ def fig_2_5(_: Data) -> Figure:
     left.plot(xi, doublets.contact_force(xi, one, 0.3, 1.0), color=VARIANT, label="$n / P$")
     left.annotate(r"$\lambda$", (0.5, 0.72), ha="center")
     left.annotate("", (0.35, 0.7), (0.65, 0.7), arrowprops={"arrowstyle": "<->", "color": INK})
-    left.set(xlabel=r"$\xi$ [length]", title="(a) one muscle in a window $\\lambda$")
+    left.set(
+        xlabel=r"$\xi$ [length]",
+        ylabel="load and force [$P$]",
+        title="(a) one muscle in a window $\\lambda$",
+    )
     left.legend(loc="lower left", fontsize=8)
     for count, colour in ((2, "#b8cfe4"), (6, "#6fa1cc"), (40, COMPUTED)):
         centres, width = doublets.row(0.25, 0.75, count)
