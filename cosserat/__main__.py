@@ -217,6 +217,8 @@ def _done(dataset: xr.Dataset) -> str:
         return f"{done['crawls']} crawls"
     if "misfit_evaluations" in done:
         return f"{done['misfit_evaluations']} evaluations of the misfits"
+    if "points" in done:
+        return f"{done['points']} points in {done['iterations']} Newton iterations"
     if "steps" in done:
         return f"{dataset.sizes['time'] - 1} frames in {done['steps']} steps"
     return (

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 class CosseratError(Exception):
     """Base of every error the package raises on purpose; the command line prints it without a traceback."""
@@ -24,7 +27,11 @@ class NotConvergedError(CosseratError):
     ----------
     iterations : iterations done before giving up.
     residual, tolerance : the largest unbalanced force and the one that was allowed [N].
+    state, factor : the last equilibrium that was found, or None, and the share of the load it stands under.
     """
+
+    state: NDArray[np.float64] | None = None
+    factor: float = 0.0
 
     def __init__(
         self,

@@ -14,7 +14,11 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Outcome:
-    """fields : arrays by variable name, SI units.  statistics : what the solver did, by name."""
+    """fields : arrays by variable name, SI units.  statistics : what the solver did, by name.
+
+    along : the dimension that a field with one more than it has in `data.variables` begins with.
+    """
 
     fields: Mapping[str, NDArray[np.float64]]
     statistics: Mapping[str, int | float]
+    along: str = "time"

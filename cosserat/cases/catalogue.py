@@ -17,16 +17,18 @@ from cosserat.models.calibration import CalibrationProcedure
 from cosserat.models.earthworm import BodyMasses
 from cosserat.models.peristalsis import Crawl, Posture
 from cosserat.models.rod_motion import RodMotion
+from cosserat.models.rod_path import RodPath
 from cosserat.models.rod_statics import RodStatics
 from cosserat.parameters import Parameters, explain, nearest
 
 PUBLISHED = ("chapter2.toml", "chapter3.toml")
 """Case files of the package, beside this module."""
 
-Problem = RodStatics | RodMotion | CalibrationProcedure | Posture | Crawl | BodyMasses
+Problem = RodStatics | RodMotion | CalibrationProcedure | Posture | Crawl | BodyMasses | RodPath
 KINDS: dict[str, type[Problem]] = {
     "rod statics": RodStatics,
     "rod motion": RodMotion,
+    "rod path": RodPath,
     "calibration": CalibrationProcedure,
     "posture": Posture,
     "crawl": Crawl,

@@ -42,7 +42,7 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
             "symbol": entry.symbol,
             "equation": entry.equation,
         }
-        dims = entry.dims if values.ndim == len(entry.dims) else ("time", *entry.dims)
+        dims = entry.dims if values.ndim == len(entry.dims) else (outcome.along, *entry.dims)
         variables[name] = xr.Variable(dims, np.asarray(values, dtype=np.float64), about)
     used = {str(dim) for variable in variables.values() for dim in variable.dims}
     for dim, (labels, meaning) in LABELS.items():

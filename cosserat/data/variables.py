@@ -34,7 +34,7 @@ LABELS: dict[str, tuple[tuple[str, ...], str]] = {
 }
 """Labels of the dimensions that are not counted: values and meaning."""
 
-COORDINATES = ("xi", "xi_edge", "xi_section", "time", "body_mass")
+COORDINATES = ("xi", "xi_edge", "xi_section", "time", "load_factor", "body_mass")
 """Variables that place the others."""
 
 VARIABLES: dict[str, Variable] = {
@@ -118,6 +118,9 @@ VARIABLES: dict[str, Variable] = {
     ),
     "mu_3_least": Variable(("mass",), "1", "least stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
     "mu_3_most": Variable(("mass",), "1", "largest stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
+    "load_factor": Variable(("point",), "1", "share of the full load", "", "3.3.40", 1e-9),
+    "stable": Variable(("point",), "1", "one where the potential has a minimum, else zero", "", "3.4.7", 1e-9),
+    "potential": Variable(("point",), "J", "strain energy of the rod less the work of its couples", "", "3.4.11", 1e-9),
     "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
 }
 

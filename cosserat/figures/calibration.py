@@ -23,6 +23,7 @@ def limit(data: xr.Dataset) -> float:
     posed = procedure.clamped_free
     assert posed.gravity is not None
     beam, c = beam_of(posed), posed.rod.calibration
+    assert c is not None
     tip = analytic.clamped_free_tip_of_published_rod(beam, posed.gravity.g, c.c3, c.c4, c.c5)
     exact = analytic.clamped_free_displacement(beam, posed.gravity.g, np.array([beam.length]))
     return tip / float(exact[0])

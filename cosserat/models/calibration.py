@@ -93,6 +93,7 @@ class CalibrationProcedure(Parameters):
 
 
 def _at(posed: RodStatics, vertices: int, values: dict[str, float]) -> RodStatics:
+    assert posed.rod.calibration is not None
     calibration = posed.rod.calibration.replace(**values)
     return posed.replace(rod=posed.rod.replace(vertices=vertices, calibration=calibration))
 

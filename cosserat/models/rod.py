@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from pydantic import GetCoreSchemaHandler, model_validator
 from pydantic_core import PydanticCustomError, core_schema
 
+from cosserat.models.consistent import ConsistentRod, SectionState, coefficients
 from cosserat.models.couples import Coupled
+from cosserat.models.loaded_rod import LoadedRod
 from cosserat.models.planar_rod import UNKNOWNS, Geometry
 from cosserat.models.published import (
     Calibration,
@@ -23,6 +25,8 @@ from cosserat.models.section import Station, lump, mean, share
 from cosserat.parameters import Count, Parameters, Quantity
 
 Array = NDArray[np.float64]
+_INCOMPRESSIBLE = 0.49  # least Poisson's ratio that may be called so
+RodBody = PublishedRod | Coupled | ConsistentRod
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
 
 
@@ -59,7 +63,8 @@ def unit_vector(direction: Direction) -> Array:
 class Rod(Parameters):
     """A rod of rectangular sections, section 3.5: straight and homogeneous unless it is said to be otherwise."""
 
-    energy: Literal["published"] = "published"
+    energy: Literal["published", "consistent"] = "published"
+    """The thesis's energy (3.4.11) with its calibration, or the one that converges, of `models.consistent`."""
     vertices: Annotated[int, Count("N", "3.3.1", at_least=3)]
     length: Annotated[float, Quantity("m", r"\ell_0", "3.3.1", above=0)]
     height: Annotated[float, Quantity("m", "H", "section 3.5", above=0)]
@@ -74,13 +79,32 @@ class Rod(Parameters):
     """Height of the centreline above the lower surface, as a share of the section's; directors reach the upper one."""
     curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")] = 0.0
     """Of the reference configuration, an arc that turns from E3 towards E2."""
-    calibration: Calibration
+    calibration: Calibration | None = None
+    """Of the published energy, which cannot do without; the consistent one takes none."""
+    section: SectionState = "free"
+    """What the sections of the consistent rod may do in E1; the published one has no such choice."""
+    barrier: bool = False
+    """Whether the consistent rod resists collapse as Fig. 3.7 shows; equal to second order in the strains."""
     end_sections: EndSections = "full"
     poisson_coupling: PoissonCoupling = "halved"
     intrinsic_curvature: IntrinsicCurvature = "subtracted"
 
     @model_validator(mode="after")
     def _sound(self) -> Self:
+        if (self.calibration is None) == (self.energy == "published"):
+            fault = "needs a calibration" if self.calibration is None else "takes no calibration"
+            raise PydanticCustomError(
+                "calibration", f"has energy = '{self.energy}', which {fault}; see 'calibration'"
+            )
+        if self.energy == "published" and (self.section != "free" or self.barrier):
+            raise PydanticCustomError(
+                "section", "has 'section' or 'barrier', which only energy = 'consistent' knows; leave them out"
+            )
+        if self.section == "incompressible" and self.poisson < _INCOMPRESSIBLE:
+            raise PydanticCustomError(
+                "section",
+                f"has section = 'incompressible' and 'poisson' = {self.poisson:g}; it must be {_INCOMPRESSIBLE} or more",
+            )
         places = [station.at for station in self.stations]
         if places != sorted(places):
             raise PydanticCustomError(
@@ -125,8 +149,8 @@ class Rod(Parameters):
         cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
         return self.line_density * part * mean(self.stations, lambda w, h, _: w * h, cuts[:-1], cuts[1:])
 
-    def body(self, geometry: Geometry) -> PublishedRod:
-        """The elastic body: eq. (3.4.13) with the averages of Table 3.1."""
+    def body(self, geometry: Geometry, couples: Array | None = None) -> PublishedRod | ConsistentRod:
+        """The elastic body with the averages of Table 3.1; the consistent one carries its couples, shape (N,) [N m]."""
         vertex, edge = lump(
             self.stations,
             geometry.arc_length,
@@ -135,6 +159,13 @@ class Rod(Parameters):
             young=self.young,
             poisson=self.poisson,
         )
+        if self.calibration is None:
+            moments = np.zeros(self.vertices) if couples is None else couples
+            return ConsistentRod(
+                coefficients(
+                    geometry, vertex, edge, self.shear_correction, self.section, moments, self.barrier
+                )
+            )
         return PublishedRod(
             stiffnesses(
                 geometry,
@@ -250,13 +281,27 @@ class RodProblem(Parameters):
             load[self._index(item.at), :2] += item.force * unit_vector(item.along)
         return load
 
-    def body(self, geometry: Geometry) -> PublishedRod | Coupled:
+    def body(self, geometry: Geometry) -> RodBody:
         """The rod with its couples, which have a potential but are no dead load."""
-        rod = self.rod.body(geometry)
-        if not self.couples:
+        moments = np.zeros(self.rod.vertices)
+        for item in self.couples:
+            moments[self._index(item.at)] += item.moment
+        rod = self.rod.body(geometry, moments)
+        if isinstance(rod, ConsistentRod) or not self.couples:
             return rod
         couples = tuple((self._index(item.at), item.moment) for item in self.couples)
         return Coupled(rod, couples, geometry.D)
+
+    def loaded(self, geometry: Geometry) -> LoadedRod:
+        """The consistent rod with all its loads, couples and moves growing together."""
+        rod = self.rod.body(geometry)
+        assert isinstance(rod, ConsistentRod)
+        moments = np.zeros(self.rod.vertices)
+        for item in self.couples:
+            moments[self._index(item.at)] += item.moment
+        start = np.hstack([geometry.X, geometry.D]).ravel()
+        dead = self.loads(geometry).ravel()
+        return LoadedRod(rod, moments, dead, self.held().ravel(), start, self.drive(0.0)[0])
 
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from cosserat import analytic
 from cosserat.errors import CosseratError, DivergedError, NotConvergedError
 from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, rigid_motions
-from cosserat.models.published import PublishedRod
-from cosserat.models.rod import Direction, RodProblem, unit_vector
+from cosserat.models.rod import Direction, RodBody, RodProblem, unit_vector
 from cosserat.outcome import Outcome
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.modes import Modes, modes
@@ -158,7 +157,7 @@ def _rigid_fields(q: Array) -> Array:
 
 
 def _frames(
-    geometry: Geometry, system: System, rod: PublishedRod, states: list[State], times: Array
+    geometry: Geometry, system: System, rod: RodBody, states: list[State], times: Array
 ) -> dict[str, Array]:
     q = np.array([state.q for state in states]).reshape(len(states), -1, len(UNKNOWNS))
     v = np.array([state.v for state in states]).reshape(q.shape)

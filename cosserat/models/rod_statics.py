@@ -10,14 +10,13 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import UnsupportedRodError
-from cosserat.models.couples import Coupled
 from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
-from cosserat.models.published import PublishedRod
-from cosserat.models.rod import RodProblem
+from cosserat.models.rod import RodBody, RodProblem
 from cosserat.outcome import Outcome
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.motion import System
 from cosserat.solvers.newton import Equilibrium, NewtonSettings, equilibrium
+from cosserat.solvers.path import Climb, Point
 
 Array = NDArray[np.float64]
 _MOTIONS = ("translation along E3", "translation along E2", "rotation")
@@ -66,14 +65,31 @@ class RodStatics(RodProblem):
         return modes(system, at_rest, count)
 
     def equilibrium(
-        self, geometry: Geometry, body: PublishedRod | Coupled, load: Array, name: str
+        self, geometry: Geometry, body: RodBody, load: Array, name: str
     ) -> Equilibrium:
         """The equilibrium of this problem's body under given loads, shape (N, 4)."""
         reference = np.hstack([geometry.X, geometry.D])
         held = self.held()
         refuse_rigid_motion(reference, held, name)
         start = reference.ravel() + self.drive(0.0)[0]
+        if self.rod.calibration is None:
+            climb = Climb(self.loaded(geometry), self.newton, name)
+            return _as_equilibrium(climb, climb.to(reference.ravel(), 1.0))
         return equilibrium(body, start, load.ravel(), held.ravel(), self.newton, name)
+
+
+def _as_equilibrium(climb: Climb, point: Point) -> Equilibrium:
+    return Equilibrium(
+        point.q,
+        point.energy,
+        point.reaction,
+        point.iterations,
+        shortened=climb.halvings,
+        shifted=climb.pushes,
+        residual=point.residual,
+        tolerance=point.tolerance,
+        rounding=point.rounding,
+    )
 
 
 def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
@@ -96,7 +112,7 @@ def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
 
 
 def _fields(
-    geometry: Geometry, body: PublishedRod | Coupled, state: Equilibrium, load: Array
+    geometry: Geometry, body: RodBody, state: Equilibrium, load: Array
 ) -> dict[str, Array]:
     q = state.q.reshape(load.shape)
     x, d = q[:, : len(AXES)], q[:, len(AXES) :]

@@ -154,7 +154,9 @@ def _beam_theory_period(data: xr.Dataset) -> Reading:
 def _stretching_coefficient(data: xr.Dataset) -> Reading:
     """The c1 at which the tip would stand where eq. (3.5.2) puts it; the tip displacement goes as 1 / c1."""
     computed, exact = hanging_bar_curve(data)
-    return Reading(problem_of(data).rod.calibration.c1 * float(computed[-1] / exact[-1]))
+    calibration = problem_of(data).rod.calibration
+    assert calibration is not None
+    return Reading(calibration.c1 * float(computed[-1] / exact[-1]))
 
 
 def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Reading]:

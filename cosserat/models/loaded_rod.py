@@ -1,0 +1,79 @@
+"""The consistent rod under loads that grow together, as the solvers of `solvers.path` see it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.models.consistent import ConsistentRod
+from cosserat.solvers.banded import Band, Mask, Vector
+from cosserat.solvers.motion import band_product
+
+Array = NDArray[np.float64]
+_TURN = 1.0  # largest turning of a director in one step [rad]
+
+
+@dataclass(frozen=True)
+class LoadedRod:
+    """Dead loads, couples and moved supports, all of them times one factor.
+
+    body : without couples.  moments : (N,) [N m].  dead : (4 N,) [N].  start : (4 N,) the reference.
+    shift : (4 N,) how far held unknowns are moved at the factor one [m].
+    """
+
+    body: ConsistentRod
+    moments: Array
+    dead: Vector
+    held: Mask
+    start: Vector
+    shift: Vector
+
+    @property
+    def half_bandwidth(self) -> int:
+        """That of the rod."""
+        return self.body.half_bandwidth
+
+    def coupled(self, factor: float) -> ConsistentRod:
+        """The rod with its couples."""
+        if not self.moments.any():
+            return self.body
+        rod = self.body.rod.copy()
+        rod[:, 12] = factor * self.moments
+        return ConsistentRod(rod)
+
+    def place(self, q: Vector, factor: float) -> Vector:
+        """q with its held unknowns where the factor puts them."""
+        return np.where(self.held, self.start + factor * self.shift, q)
+
+    def load(self, factor: float) -> Vector:
+        """Dead load, shape (4 N,) [N]; a couple counts as the force of its director."""
+        force = np.abs(self.moments) / self.body.rod[:, 9]
+        size: Vector = np.abs(factor) * np.maximum(np.abs(self.dead), np.repeat(force, 4))
+        return size
+
+    def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
+        """Energy of rod and couples; overwrites the gradient of the potential, loads included, and the Hessian."""
+        energy = self.coupled(factor).assemble(q, gradient, band)
+        gradient -= factor * self.dead
+        return energy
+
+    def rate(self, q: Vector, factor: float, band: Band) -> Vector:
+        """Change of that gradient with the factor."""
+        del factor  # all loads are proportional to it
+        change = -self.dead
+        if self.shift.any():
+            change = change + band_product(band, self.shift)
+        for vertex in np.flatnonzero(self.moments):
+            d0, d1 = q[4 * vertex + 2], q[4 * vertex + 3]
+            square = d0 * d0 + d1 * d1
+            change[4 * vertex + 2] += self.moments[vertex] * d1 / square
+            change[4 * vertex + 3] -= self.moments[vertex] * d0 / square
+        return change
+
+    def reach(self, q: Vector, step: Vector) -> float:
+        """Largest share of a step that changes no director by more than its length, one radian."""
+        d, change = q.reshape(-1, 4)[:, 2:], step.reshape(-1, 4)[:, 2:]
+        fastest = float((np.hypot(*change.T) / np.hypot(*d.T)).max())
+        return _TURN / fastest if fastest > 0 else np.inf

@@ -1,0 +1,75 @@
+"""The path of equilibria that a consistent rod goes through as its loads grow, past limits and branches."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.models.rod import RodProblem
+from cosserat.models.rod_statics import refuse_rigid_motion
+from cosserat.outcome import Outcome
+from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.solvers.newton import NewtonSettings
+from cosserat.solvers.path import Arc, Climb, Point, follow
+
+Array = NDArray[np.float64]
+
+
+class ArcSettings(Parameters):
+    """How the path is followed; arcs are counted in radians of the fastest turning section, and shares of the load."""
+
+    first: Annotated[float, Quantity("1", above=0)] = 0.05
+    longest: Annotated[float, Quantity("1", above=0)] = 0.3
+    count: Annotated[int, Count(at_least=1)] = 200
+    """Most arcs."""
+    branch: Literal["leave", "stay"] = "leave"
+    """At a branching point, whether to leave along the softest motion or to stay on the path."""
+
+
+class RodPath(RodProblem):
+    """All loads grow together from nothing; the path ends when they reach their full size, or after the last arc."""
+
+    kind: Literal["rod path"] = "rod path"
+    newton: NewtonSettings = NewtonSettings()
+    arc: ArcSettings = ArcSettings()
+
+    @model_validator(mode="after")
+    def _is_consistent(self) -> Self:
+        if self.rod.calibration is not None:
+            raise PydanticCustomError("energy", "needs rod.energy = 'consistent'; the published rod has no paths")
+        if any(move.frequency for move in self.moves):
+            raise PydanticCustomError(
+                "static", "'moves' has a 'frequency', but a path has no time; leave it out"
+            )
+        return self
+
+    def solve(self, name: str) -> Outcome:
+        """Every point of the path.
+
+        Raises
+        ------
+        UnsupportedRodError : a rigid motion is left free.
+        NotConvergedError : the path could not be followed; the error says how far, and holds the last state.
+        """
+        geometry = self.rod.geometry()
+        start = np.hstack([geometry.X, geometry.D])
+        refuse_rigid_motion(start, self.held(), name)
+        climb = Climb(self.loaded(geometry), self.newton, name)
+        arc = Arc(self.arc.first, self.arc.longest, self.arc.count, 1.0, self.arc.branch == "leave")
+        points: list[Point] = list(follow(climb, start.ravel(), arc))
+        q = np.array([point.q for point in points]).reshape(len(points), -1, 4)
+        fields = {
+            "load_factor": np.array([point.factor for point in points]),
+            "stable": np.array([float(point.stable) for point in points]),
+            "xi": geometry.arc_length,
+            "x_ref": geometry.X,
+            "d_ref": geometry.D,
+            "x": q[..., :2],
+            "d": q[..., 2:],
+            "potential": np.array([point.energy for point in points]),
+        }
+        return Outcome(fields, {"points": len(points), "iterations": climb.iterations}, along="point")

@@ -1,0 +1,361 @@
+"""Equilibria of a slender elastic body under a growing load, and the path they lie on.
+
+Slender bodies turn far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
+creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how much of
+a step that is.  Where a load is too much for one go it is halved; where the equilibrium found is unstable the body is
+pushed along its softest motion and comes to rest elsewhere.  Paths that turn back are followed by pseudo-arclength
+(Keller 1977; Crisfield 1991, chapter 9).  Nothing here knows what the unknowns mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+from cosserat.errors import NotConvergedError
+from cosserat.solvers.banded import Band, Mask, Vector, absolute_product, hold, solve_positive
+from cosserat.solvers.newton import NewtonSettings
+
+_EPS = float(np.finfo(float).eps)
+_SMALLEST = 2.0**-12  # share of the load below which halving gives up
+_PUSH = 0.05  # share of its reach by which an unstable body is pushed
+_SHIFTS = tuple(2.0**k for k in range(-40, 12))  # shares of the largest diagonal entry, tried in turn
+_EASY, _HARD = 4, 8  # corrector iterations below which the arc grows and above which it shrinks
+
+
+class Loaded(Protocol):
+    """A body under a load that grows with a factor."""
+
+    @property
+    def half_bandwidth(self) -> int:
+        """Largest distance of two coupled unknowns."""
+
+    @property
+    def held(self) -> Mask:
+        """Which unknowns keep their value, or the one that the factor gives them, shape (n,)."""
+
+    def place(self, q: Vector, factor: float) -> Vector:
+        """q with its held unknowns where the factor puts them."""
+
+    def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
+        """Elastic energy at q; overwrites the gradient of the potential, loads included, and the Hessian."""
+
+    def load(self, factor: float) -> Vector:
+        """Dead load, shape (n,): the scale of what counts as balanced."""
+
+    def rate(self, q: Vector, factor: float, band: Band) -> Vector:
+        """Change of that gradient with the factor, shape (n,); `band` is the Hessian at q."""
+
+    def reach(self, q: Vector, step: Vector) -> float:
+        """Largest share of a step that turns no part by more than is safe."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """One equilibrium.
+
+    factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance, rounding : as
+    in `newton.Equilibrium` [N].  stable : whether it is a minimum of the potential.
+    """
+
+    q: Vector
+    factor: float
+    energy: float
+    reaction: Vector
+    iterations: int
+    residual: float
+    tolerance: float
+    rounding: float
+    stable: bool
+
+
+class Climb:
+    """Equilibria at given factors, from the reference on."""
+
+    def __init__(self, body: Loaded, settings: NewtonSettings, name: str) -> None:
+        n = body.held.size
+        self.body, self.settings, self.name = body, settings, name
+        self.gradient, self.band = np.empty(n), np.empty((n, body.half_bandwidth + 1))
+        self.iterations = self.halvings = self.pushes = 0
+
+    def to(self, start: Vector, factor: float) -> Point:
+        """A stable equilibrium at the factor, by as few increments as it takes.
+
+        Raises
+        ------
+        NotConvergedError : with the factor that was reached, and the last equilibrium as `state`.
+        """
+        last: Point | None = None
+        q, done, increment = start, 0.0, factor / self.settings.load_steps
+        with np.errstate(over="ignore", invalid="ignore"):
+            while done != factor:
+                goal = factor if abs(factor - done) <= 1.001 * abs(increment) else done + increment
+                point = self.at(q, goal)
+                if point is not None and not point.stable:
+                    point = self._pushed(point)
+                if point is None:
+                    self.halvings += 1
+                    increment /= 2
+                    if abs(increment) < _SMALLEST * abs(factor):
+                        raise self._failure(done, goal, last)
+                    continue
+                last, q, done = point, point.q, goal
+        if last is None:  # no load at all
+            last = self.at(start, factor)
+            if last is None:
+                raise self._failure(0.0, factor, None)
+        return last
+
+    def at(self, q: Vector, factor: float, *, downhill: bool = False) -> Point | None:
+        """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.
+
+        downhill : where the Hessian is not positive, take the step of a shifted one, which lowers the potential.
+        """
+        body, held = self.body, self.body.held
+        q = body.place(q, factor)
+        load = float(np.abs(body.load(factor)).max())
+        largest = 0.0
+        for _ in range(self.settings.max_iterations + 1):
+            energy = body.assemble(q, factor, self.gradient, self.band)
+            if not np.isfinite(energy):
+                return None
+            unbalanced = np.where(held, 0.0, -self.gradient)
+            residual = float(np.abs(unbalanced).max())
+            largest = max(largest, residual)
+            rounding = _EPS * float(absolute_product(self.band, q).max())
+            scale = max(load, float(np.abs(self.gradient[held]).max(initial=0.0)), largest * (load == 0))
+            tolerance = max(self.settings.tolerance * scale, rounding)
+            hold(self.band, held)
+            step = solve_positive(self.band, unbalanced)
+            if residual <= tolerance:
+                reaction = np.where(held, self.gradient, 0.0)
+                return Point(
+                    q, factor, energy, reaction, self.iterations, residual, tolerance, rounding, step is not None
+                )
+            if step is None:
+                step = _shifted(self.band, unbalanced) if downhill else solve_any(self.band, unbalanced)
+            if step is None or not np.isfinite(step).all():
+                return None
+            q = q + min(1.0, body.reach(q, step)) * step
+            self.iterations += 1
+        return None
+
+    def _pushed(self, point: Point) -> Point | None:
+        """From an unstable equilibrium, along its softest motion, to another one."""
+        self.pushes += 1
+        self.body.assemble(point.q, point.factor, self.gradient, self.band)
+        hold(self.band, self.body.held)
+        motion = softest(self.band, self.body.held)
+        reach = self.body.reach(point.q, motion)
+        found = self.at(point.q + _PUSH * reach * motion, point.factor, downhill=True)
+        return found if found is not None and found.stable else None
+
+    def _failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
+        error = NotConvergedError(
+            f"{self.name}: no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); the path may turn back "
+            "there: follow it with kind = 'rod path', or check supports and loads",
+            iterations=self.iterations,
+        )
+        error.state = None if last is None else last.q
+        error.factor = done
+        return error
+
+
+@dataclass(frozen=True)
+class Arc:
+    """How a path is followed: length of the first arc and of the longest, number of arcs, and where to stop.
+
+    A length is the change of the unknowns in the norm of the largest, as a share of the reach of the body.
+    """
+
+    first: float
+    longest: float
+    count: int
+    until: float
+    switch: bool
+
+
+def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
+    """Points along the path from the factor zero on, by pseudo-arclength, until the factor passes `until`.
+
+    switch : leave the path where it branches, along the softest motion.
+
+    Raises
+    ------
+    NotConvergedError : no further point; the last one is its `state`.
+    """
+    point = climb.at(start, 0.0)
+    if point is None:
+        raise climb._failure(0.0, 0.0, None)
+    yield point
+    body = climb.body
+    tangent, slope = _tangent(climb, point, None)
+    ds, sign = arc.first, _sign(climb, point)
+    for _ in range(arc.count):
+        found = None
+        while found is None and ds > _SMALLEST * arc.first:
+            before = climb.iterations
+            found = _corrected(climb, point, tangent, slope, ds)
+            if found is None:
+                ds /= 2
+        if found is None:
+            raise climb._failure(point.factor, point.factor + slope * ds, point)
+        effort = climb.iterations - before
+        new_tangent, new_slope = _tangent(climb, found, (tangent, slope))
+        new_sign = _sign(climb, found)
+        branches = new_sign != sign and new_slope * slope > 0
+        if branches and arc.switch:
+            branch = _branch(climb, found, ds)
+            if branch is not None:
+                yield branch
+                away = branch.q - found.q
+                size = _norm(body, branch.q, away)
+                new_tangent, new_slope = _tangent(climb, branch, (away / size, (branch.factor - found.factor) / size))
+                found, new_sign = branch, _sign(climb, branch)
+                arc = Arc(arc.first, arc.longest, arc.count, arc.until, switch=False)
+        else:
+            passed = (found.factor - arc.until) * (point.factor - arc.until) <= 0 < abs(found.factor)
+            if passed and found.factor != 0.0 and point.factor != arc.until:
+                last = climb.at(found.q, arc.until)
+                yield found if last is None else last
+                return
+            yield found
+        point, tangent, slope, sign = found, new_tangent, new_slope, new_sign
+        ds = min(arc.longest, 2 * ds) if effort <= _EASY else ds / 2 if effort > _HARD else ds
+
+
+def _norm(body: Loaded, q: Vector, step: Vector) -> float:
+    """Length of a step in reaches of the body."""
+    reach = body.reach(q, step)
+    return 1 / reach if np.isfinite(reach) else 0.0
+
+
+def _tangent(climb: Climb, point: Point, before: tuple[Vector, float] | None) -> tuple[Vector, float]:
+    """Direction of the path at a point: change of the unknowns and of the factor, of unit length, going on from before."""
+    body = climb.body
+    body.assemble(point.q, point.factor, climb.gradient, climb.band)
+    rate = body.rate(point.q, point.factor, climb.band)
+    hold(climb.band, body.held)
+    moved = body.place(point.q, point.factor + 1.0) - point.q
+    change = solve_any(climb.band, np.where(body.held, 0.0, -rate))
+    change = np.where(body.held, moved, np.zeros_like(point.q) if change is None else change)
+    slope = 1.0
+    size = np.hypot(_norm(body, point.q, change), 1.0)
+    change, slope = change / size, slope / size
+    if before is not None and float(change @ before[0]) + slope * before[1] * _weight(before[0]) < 0:
+        change, slope = -change, -slope
+    return change, slope
+
+
+def _weight(tangent: Vector) -> float:
+    """Weight of the factor against the unknowns in products of tangents."""
+    return float(tangent @ tangent) or 1.0
+
+
+def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: float) -> Point | None:
+    """The equilibrium on the plane across the tangent at an arc of ds, with its factor."""
+    body, held = climb.body, climb.body.held
+    q, factor = point.q + ds * tangent, point.factor + ds * slope
+    weight = _weight(tangent)
+    for _ in range(2 * _HARD):
+        q = body.place(q, factor)
+        energy = body.assemble(q, factor, climb.gradient, climb.band)
+        if not np.isfinite(energy):
+            return None
+        unbalanced = np.where(held, 0.0, -climb.gradient)
+        residual = float(np.abs(unbalanced).max())
+        rounding = _EPS * float(absolute_product(climb.band, q).max())
+        load = float(np.abs(body.load(factor)).max())
+        scale = max(load, float(np.abs(climb.gradient[held]).max(initial=0.0)))
+        tolerance = max(climb.settings.tolerance * scale, rounding)
+        rate = body.rate(q, factor, climb.band)
+        hold(climb.band, held)
+        if residual <= tolerance:
+            stable = solve_positive(climb.band, unbalanced) is not None
+            reaction = np.where(held, climb.gradient, 0.0)
+            return Point(q, factor, energy, reaction, climb.iterations, residual, tolerance, rounding, stable)
+        a = solve_any(climb.band, unbalanced)
+        b = solve_any(climb.band, np.where(held, 0.0, -rate))
+        if a is None or b is None:
+            return None
+        across = float(tangent @ (q - point.q - ds * tangent)) + weight * slope * (factor - point.factor - ds * slope)
+        change = -(across + float(tangent @ a)) / (float(tangent @ b) + weight * slope)
+        step = a + change * b
+        share = min(1.0, body.reach(q, step))
+        q, factor = q + share * step, factor + share * change
+        climb.iterations += 1
+    return None
+
+
+def _branch(climb: Climb, point: Point, ds: float) -> Point | None:
+    """A point on the path that leaves this one along its softest motion."""
+    body = climb.body
+    body.assemble(point.q, point.factor, climb.gradient, climb.band)
+    hold(climb.band, body.held)
+    motion = softest(climb.band, body.held)
+    motion = motion / _norm(body, point.q, motion)
+    return _corrected(climb, point, motion, 0.0, ds)
+
+
+def _sign(climb: Climb, point: Point) -> int:
+    """Sign of the determinant of the Hessian at a point."""
+    climb.body.assemble(point.q, point.factor, climb.gradient, climb.band)
+    hold(climb.band, climb.body.held)
+    factors, pivots, _ = _factorised(climb.band)
+    width = climb.band.shape[1] - 1
+    swaps = int(np.count_nonzero(pivots != np.arange(pivots.size)))
+    negative = int(np.count_nonzero(factors[2 * width] < 0))
+    return 1 - 2 * ((swaps + negative) % 2)
+
+
+def _factorised(band: Band) -> tuple[Vector, Vector, int]:
+    """Factors with row interchanges of a symmetric band."""
+    n, width = band.shape[0], band.shape[1] - 1
+    general = np.zeros((3 * width + 1, n), order="F")
+    for k in range(width + 1):
+        general[2 * width + k, : n - k] = band[: n - k, k]
+        general[2 * width - k, k:] = band[: n - k, k]
+    factors, pivots, info = dgbtrf(general, width, width, overwrite_ab=1)
+    return factors, pivots, int(info)
+
+
+def solve_any(band: Band, right: Vector) -> Vector | None:
+    """Solve with a symmetric band that need not be positive; None where it is singular."""
+    factors, pivots, info = _factorised(band)
+    if info != 0:
+        return None
+    width = band.shape[1] - 1
+    x, _ = dgbtrs(factors, width, width, right, pivots)
+    return np.asarray(x)
+
+
+def _shifted(band: Band, right: Vector) -> Vector | None:
+    """Solve with the band and as much of the unit matrix as makes it positive."""
+    largest = float(np.abs(band[:, 0]).max())
+    trial = band.copy()
+    for shift in _SHIFTS:
+        trial[:, 0] = band[:, 0] + shift * largest
+        step = solve_positive(trial, right)
+        if step is not None:
+            return step
+    return None
+
+
+def softest(band: Band, held: Mask) -> Vector:
+    """The eigenvector of the smallest eigenvalue, of unit largest component, by inverse iteration with a shift."""
+    largest = float(np.abs(band[:, 0]).max())
+    x = np.where(held, 0.0, np.cos(1.7 * np.arange(held.size)))
+    trial = band.copy()
+    for shift in _SHIFTS:
+        trial[:, 0] = band[:, 0] + shift * largest
+        if solve_positive(trial, x) is not None:
+            break
+    for _ in range(50):
+        found = solve_positive(trial, x)
+        assert found is not None
+        x = np.where(held, 0.0, found / np.abs(found).max())
+    return x
