@@ -30,6 +30,7 @@
 # ch3_motion
 # ch3_calibration
 # ch3_rods
+# ch4_consistent
 # results_table
 # errata
 # ```

@@ -103,7 +103,7 @@ def test_a_missing_key_is_named(tmp_path):
         '[mine]\nkind = "rod statics"\nsupports = []\n[mine.rod]\nvertices = 5\nlength = "1 m"\n'
     )
     with pytest.raises(
-        InputError, match=r"case 'mine': 'rod.height' is missing; .*'rod.calibration' is missing"
+        InputError, match=r"case 'mine': 'rod.height' is missing; .*'rod.shear_correction' is missing"
     ):
         cosserat.case("mine", file)
 

@@ -14,6 +14,7 @@ from pydantic import Field, ValidationError
 
 from cosserat.errors import InputError
 from cosserat.models.calibration import CalibrationProcedure
+from cosserat.models.convergence import Convergence
 from cosserat.models.earthworm import BodyMasses
 from cosserat.models.peristalsis import Crawl, Posture
 from cosserat.models.rod_motion import RodMotion
@@ -24,12 +25,15 @@ from cosserat.parameters import Parameters, explain, nearest
 PUBLISHED = ("chapter2.toml", "chapter3.toml")
 """Case files of the package, beside this module."""
 
-Problem = RodStatics | RodMotion | CalibrationProcedure | Posture | Crawl | BodyMasses | RodPath
+Problem = (
+    RodStatics | RodMotion | CalibrationProcedure | Posture | Crawl | BodyMasses | RodPath | Convergence
+)
 KINDS: dict[str, type[Problem]] = {
     "rod statics": RodStatics,
     "rod motion": RodMotion,
     "rod path": RodPath,
     "calibration": CalibrationProcedure,
+    "convergence": Convergence,
     "posture": Posture,
     "crawl": Crawl,
     "body masses": BodyMasses,

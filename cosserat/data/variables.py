@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cosserat.models.consistent import TERMS as PARTS
+from cosserat.models.convergence import MEASURES
 from cosserat.models.planar_rod import AXES, UNKNOWNS
 from cosserat.models.published import TERMS
 
@@ -30,6 +32,8 @@ LABELS: dict[str, tuple[tuple[str, ...], str]] = {
     "stretching_coefficient": (("c1",), "coefficient of eq. (3.4.13)"),
     "beam_coefficient": (("c3", "c4", "c5"), "coefficient of eq. (3.4.13)"),
     "section_coefficient": (("c2", "c6", "c7"), "coefficient of eq. (3.4.13)"),
+    "part": (PARTS, "part of the energy of the consistent rod"),
+    "measure": (MEASURES, "what is compared with an exact answer"),
     "term": (TERMS, "term of the strain energy, eq. (3.4.11)"),
 }
 """Labels of the dimensions that are not counted: values and meaning."""
@@ -66,6 +70,17 @@ VARIABLES: dict[str, Variable] = {
     ),
     "energy": Variable(
         ("term",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-10
+    ),
+    "energy_parts": Variable(
+        ("part",),
+        "J",
+        "energy of the consistent rod above that of the reference",
+        r"\Pi",
+        "3.4.11",
+        1e-10,
+    ),
+    "errors": Variable(
+        ("measure", "mesh"), "1", "error as a share of the exact value", "", "3.5.3", 1e-8
     ),
     "time": Variable(("time",), "s", "time", "t", "3.3.50", 1e-14),
     "x_rate": Variable(
@@ -119,8 +134,12 @@ VARIABLES: dict[str, Variable] = {
     "mu_3_least": Variable(("mass",), "1", "least stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
     "mu_3_most": Variable(("mass",), "1", "largest stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
     "load_factor": Variable(("point",), "1", "share of the full load", "", "3.3.40", 1e-9),
-    "stable": Variable(("point",), "1", "one where the potential has a minimum, else zero", "", "3.4.7", 1e-9),
-    "potential": Variable(("point",), "J", "strain energy of the rod less the work of its couples", "", "3.4.11", 1e-9),
+    "stable": Variable(
+        ("point",), "1", "one where the potential has a minimum, else zero", "", "3.4.7", 1e-9
+    ),
+    "potential": Variable(
+        ("point",), "J", "strain energy of the rod less the work of its couples", "", "3.4.11", 1e-9
+    ),
     "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
 }
 

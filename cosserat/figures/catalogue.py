@@ -54,20 +54,37 @@ FIGURES: dict[str, Entry] = {
         "chapter3",
         ("hanging_bar", "clamped_free", "clamped_clamped", "necking"),
     ),
-    "fig_3_9": Entry("Fig. 3.9: bar hanging under its own weight", "chapter3", ("hanging_bar",)),
+    "fig_3_9": Entry(
+        "Fig. 3.9: bar hanging under its own weight",
+        "chapter3",
+        ("hanging_bar", "hanging_bar_consistent"),
+    ),
     "fig_3_10": Entry(
         "Fig. 3.10: clamped-free Timoshenko beam",
         "chapter3",
-        ("clamped_free", "clamped_free_ends_halved"),
+        ("clamped_free", "clamped_free_ends_halved", "clamped_free_consistent"),
     ),
     "fig_3_11": Entry(
         "Fig. 3.11: clamped-clamped Timoshenko beam",
         "chapter3",
-        ("clamped_clamped", "clamped_clamped_ends_halved"),
+        ("clamped_clamped", "clamped_clamped_ends_halved", "clamped_clamped_consistent"),
     ),
-    "fig_3_12": Entry("Fig. 3.12: necking", "chapter3", ("necking", "necking_printed")),
+    "fig_3_12": Entry(
+        "Fig. 3.12: necking", "chapter3", ("necking", "necking_printed", "necking_consistent")
+    ),
     "fig_calibration": Entry("Calibration and the number of vertices", "calibration", ("calibration",)),
-    "fig_3_13": Entry("Fig. 3.13: free vibration", "motion", ("vibration_c4_2", "vibration_c4_20")),
+    "fig_3_13": Entry(
+        "Fig. 3.13: free vibration",
+        "motion",
+        ("vibration_c4_2", "vibration_c4_20", "vibration_consistent"),
+    ),
+    "fig_convergence": Entry(
+        "Errors of the consistent rod", "consistent", ("convergence", "calibration")
+    ),
+    "fig_far": Entry(
+        "Large deflections", "consistent", ("elastica", "roll_up", "column_path", "arch_path")
+    ),
+    "fig_paths": Entry("Paths of equilibria", "consistent", ("column_path", "arch_path")),
     "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
     "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),
 }

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from cosserat import analytic
 from cosserat.figures.rod import draw_body
-from cosserat.figures.style import canvas, computed_points, exact_curve
+from cosserat.figures.style import canvas, computed_points, exact_curve, plain_points
 from cosserat.models.calibration import beam_of
 from cosserat.table.readouts import problem_of, tension_of, weight_of
 
@@ -60,6 +60,9 @@ def fig_3_9(data: Data) -> Figure:
         title="(a) displacement",
     )
     left.legend()
+    free = data["hanging_bar_consistent"]
+    plain_points(left, free.xi.to_numpy(), free.u.sel(axis="E3").to_numpy() * 1e3)
+    left.legend()
     at_vertices = analytic.hanging_bar_displacement(beam_of(problem), weight_of(problem), xi)
     computed_points(right, xi, (computed - at_vertices) / exact[-1] * 1e6, "")
     right.set(
@@ -73,6 +76,7 @@ def fig_3_10(data: Data) -> Figure:
     return _beam(
         data["clamped_free"],
         data["clamped_free_ends_halved"],
+        data["clamped_free_consistent"],
         analytic.clamped_free_displacement,
         analytic.clamped_free_director,
         ("eq. (3.5.3)", "eq. (3.5.4)"),
@@ -84,6 +88,7 @@ def fig_3_11(data: Data) -> Figure:
     return _beam(
         data["clamped_clamped"],
         data["clamped_clamped_ends_halved"],
+        data["clamped_clamped_consistent"],
         analytic.clamped_clamped_displacement,
         analytic.clamped_clamped_director,
         ("eq. (3.5.6)", "eq. (3.5.7)"),
@@ -93,6 +98,7 @@ def fig_3_11(data: Data) -> Figure:
 def _beam(
     full: xr.Dataset,
     halved: xr.Dataset,
+    consistent: xr.Dataset,
     displacement: analytic.BeamCurve,
     director: analytic.BeamCurve,
     equations: tuple[str, str],
@@ -108,6 +114,11 @@ def _beam(
         xi = run.xi.to_numpy()
         computed_points(left, xi, run.u.sel(axis="E2").to_numpy() * 1e3, label, variant=variant)
         computed_points(right, xi, run.delta.sel(axis="E3").to_numpy() * 1e3, label, variant=variant)
+    for ax, values in (
+        (left, consistent.u.sel(axis="E2")),
+        (right, consistent.delta.sel(axis="E3")),
+    ):
+        plain_points(ax, consistent.xi.to_numpy(), values.to_numpy() * 1e3)
     left.set(
         xlabel=_ALONG,
         ylabel=r"displacement $\mathbf{u} \cdot \mathbf{E}_2$ [mm]",
@@ -139,6 +150,9 @@ def fig_3_12(data: Data) -> Figure:
             exact_curve(ax, fine, curve * 1e6, label, dashed=theory != "printed")
         computed_points(ax, xi, (necked.lam.to_numpy() - 1) * 1e6, "discrete rod, half coupling")
         ax.set(xlabel=_ALONG, ylabel=r"section strain $\lambda - 1$ [$10^{-6}$]")
+    free = data["necking_consistent"]
+    for ax in (left, right):
+        plain_points(ax, free.xi.to_numpy(), (free.lam.to_numpy() - 1) * 1e6)
     computed_points(left, xi, (printed.lam.to_numpy() - 1) * 1e6, "coupling as printed", variant=True)
     left.set_title("(a) whole bar")
     left.legend(loc="center")

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat import analytic
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import BODY, COMPUTED, CONSISTENT, EXACT, INK, VARIANT, canvas
 from cosserat.models.calibration import beam_of
 from cosserat.table.readouts import problem_of
 
@@ -26,6 +26,7 @@ def fig_3_13(data: Data) -> Figure:
     for name, label, colour in (
         ("vibration_c4_2", "$c_4 = 2$", VARIANT),
         ("vibration_c4_20", "$c_4 = 20$", COMPUTED),
+        ("vibration_consistent", "consistent rod", CONSISTENT),
     ):
         run = data[name]
         left.plot(run.time, run.kinetic_energy, color=colour, label=label, linewidth=1.0)
@@ -43,7 +44,7 @@ def fig_3_13(data: Data) -> Figure:
             )
     left.set(xlabel="time [s]", ylabel="kinetic energy [J]", title="(a) kinetic energy, period halved")
     right.set(xlabel="time [s]", ylabel="tip displacement [mm]", title="(b) displacement")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 

@@ -16,6 +16,7 @@ from cosserat.data.dataset import whole_or_absent
 
 Array = NDArray[np.float64]
 
+CONSISTENT = "#3a7d44"
 INK, PAPER, EXACT, COMPUTED, VARIANT, BODY = (
     "#222222",
     "#ffffff",
@@ -82,4 +83,18 @@ def computed_points(ax: Axes, xi: Array, values: Array, label: str, *, variant: 
         markeredgecolor=colour,
         label=label,
         zorder=3,
+    )
+
+
+def plain_points(ax: Axes, xi: Array, values: Array) -> None:
+    """Values of the consistent rod, one small diamond a vertex."""
+    ax.plot(
+        xi,
+        values,
+        linestyle="none",
+        marker="D",
+        markersize=3,
+        color=CONSISTENT,
+        label="consistent rod",
+        zorder=4,
     )

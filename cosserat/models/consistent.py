@@ -23,11 +23,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numba import cfunc, njit, types
+from numba import cfunc, njit
 from numpy.typing import NDArray
 
 from cosserat.models.planar_rod import Geometry, Lumped
 from cosserat.solvers.banded import Band, Vector
+from cosserat.solvers.stepping import KERNEL
 
 Array = NDArray[np.float64]
 
@@ -48,7 +49,7 @@ TERMS = (
 PENALTY = 1e5
 """Lambda over 2 mu of an incompressible section."""
 
-_COLUMNS = 15
+_COLUMNS = 19
 
 
 def coefficients(
@@ -60,11 +61,12 @@ def coefficients(
     couples: Array,
     barrier: bool,
 ) -> Array:
-    """What the kernel needs, shape (N, 15): row K has edge K (the last row none), vertex K and its couple.
+    """What the kernel needs, shape (N, 19): row K has edge K (the last row none), vertex K and its couple.
 
     Columns: length, axial measure, shear measure and turning of the edge in the reference; 2 mu A, Lambda A, k mu A,
     EI, mu I of the edge; |D|, L and 2 mu A of the vertex; couple [N m]; one for the barriers of Fig. 3.7, else zero;
-    angle of the director in the reference, counted on from vertex to vertex.
+    angle of the director in the reference, counted on from vertex to vertex; and four numbers that are zero, or what
+    `ConsistentRod.displaced` puts there.
     """
     n = geometry.X.shape[0]
     rod = np.zeros((n, _COLUMNS))
@@ -104,16 +106,6 @@ def _moduli(part: Lumped, section: SectionState) -> tuple[Array, Array, Array]:
 
 _NO_VECTOR, _NO_BAND = np.empty(0), np.empty((0, 8))
 
-SIGNATURE = types.float64(
-    types.float64[::1],
-    types.float64[:, ::1],
-    types.int64,
-    types.float64[::1],
-    types.float64[:, ::1],
-    types.float64[::1],
-)
-"""Of every compiled energy: (q, rod, order, gradient, band, terms) -> energy."""
-
 
 @dataclass(frozen=True)
 class ConsistentRod:
@@ -126,10 +118,30 @@ class ConsistentRod:
         """Two neighbouring vertices of four numbers."""
         return 7
 
+    @property
+    def kernel(self) -> object:
+        """The compiled energy, for the compiled integrator."""
+        return _energy
+
+    @property
+    def parameters(self) -> Array:
+        """What that kernel takes besides the unknowns."""
+        return self.rod
+
+    def displaced(self, geometry: Geometry) -> ConsistentRod:
+        """The same rod, its unknowns counted from the reference.
+
+        Forces then feel the rounding of displacements instead of positions, which on fine meshes is far less.
+        """
+        rod = self.rod.copy()
+        rod[:-1, 15:17] = np.diff(geometry.X, axis=0)
+        rod[:, 17:19] = geometry.D
+        return ConsistentRod(rod)
+
     def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
         """Strain energy less the work of the couples [J] at q, shape (4 N,); overwrites gradient and band.
 
-        The energy is infinite where a section has shrunk to nothing or neighbouring directors oppose each other.
+        The energy is infinite where a section or an edge has shrunk to nothing or neighbouring directors oppose.
         """
         return float(_assemble(q, self.rod, 2, gradient, band, np.empty(7)))
 
@@ -150,7 +162,7 @@ class ConsistentRod:
 
 @njit(cache=True)
 def _well(s: float, barrier: float) -> tuple[float, float, float]:
-    """(s - 1)^2, or with a barrier (s^2 - s + 1/s - 1) / 2 of Fig. 3.7(a), and two derivatives: equal to second order."""
+    """(s - 1)^2, or with a barrier (s^2 - s + 1/s - 1) / 2 of Fig. 3.7(a): equal to second order; two derivatives."""
     u = s - 1
     if barrier == 0.0:
         return u * u, 2 * u, 2.0
@@ -193,14 +205,17 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
     band[:, :] = 0.0
     terms[:] = 0.0
     barrier = rod[0, 13]
-    angle = n0 = n1 = r_a = 0.0  # of the vertex before: angle, counted on from vertex to vertex, direction and length
+    angle = n0 = n1 = r_a = (
+        0.0  # of the vertex before: angle, counted on from vertex to vertex, direction and length
+    )
     v, w, c = np.zeros((6, 8)), np.zeros(6), np.zeros(8)
     for K in range(rod.shape[0]):
         p = 4 * K
-        r_b = np.hypot(q[p + 2], q[p + 3])
+        p0, p1 = q[p + 2] + rod[K, 17], q[p + 3] + rod[K, 18]
+        r_b = np.sqrt(p0 * p0 + p1 * p1)
         if not r_b > 0.0:
             return np.inf
-        p0, p1 = q[p + 2] / r_b, q[p + 3] / r_b
+        p0, p1 = p0 / r_b, p1 / r_b
         D = rod[K, 9]
         W_rb, W_rr, W_turn = 0.0, 0.0, -rod[K, 12]
         value, first, second = _well(r_b / D, barrier)
@@ -212,12 +227,16 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
         else:
             J = K - 1
             E, D_a = rod[J, 0], rod[J, 9]
-            e0, e1 = q[p] - q[p - 4], q[p + 1] - q[p - 3]
+            e0, e1 = q[p] - q[p - 4] + rod[J, 15], q[p + 1] - q[p - 3] + rod[J, 16]
             T = np.arctan2(n0 * p1 - n1 * p0, n0 * p0 + n1 * p1)
-            m0, m1 = np.cos(angle + T / 2), np.sin(angle + T / 2)
             angle += T
+            s0, s1 = n0 + p0, n1 + p1  # along m
+            both = np.sqrt(s0 * s0 + s1 * s1)
+            if not both > 0.0:
+                return np.inf
+            m0, m1 = s0 / both, s1 / both
             A, G = e0 * m1 - e1 * m0, e0 * m0 + e1 * m1
-            if barrier != 0.0 and not A > 0.0:
+            if not A > 0.0:
                 return np.inf
             strain, slide = (A - rod[J, 1]) / E, (G - rod[J, 2]) / E
             value, first, w_axial = _well(1 + strain, barrier)
@@ -258,7 +277,11 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                         v[3, i] = v[0, i] + E / 2 * (v[4, i] if i > 3 else -v[4, i])
                     else:
                         v[3, i] = v[0, i]
-                w[0], w[1], w[2] = rod[J, 4] / 2 * w_axial / E, rod[J, 6] / E, rod[J, 7] / (2 * E) * bent_second
+                w[0], w[1], w[2] = (
+                    rod[J, 4] / 2 * w_axial / E,
+                    rod[J, 6] / E,
+                    rod[J, 7] / (2 * E) * bent_second,
+                )
                 w[3], w[4], w[5] = rod[J, 5] / E, rod[J, 8] / E, -W_A * A - W_G * G
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
                 c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
@@ -277,3 +300,9 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
         n0, n1, r_a = p0, p1, r_b
     total: float = terms.sum()
     return total
+
+
+@cfunc(KERNEL, cache=True)
+def _energy(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+    """The same, as a function that compiled solvers can be handed."""
+    return _assemble(q, rod, order, gradient, band, terms)

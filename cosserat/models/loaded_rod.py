@@ -19,7 +19,7 @@ _TURN = 1.0  # largest turning of a director in one step [rad]
 class LoadedRod:
     """Dead loads, couples and moved supports, all of them times one factor.
 
-    body : without couples.  moments : (N,) [N m].  dead : (4 N,) [N].  start : (4 N,) the reference.
+    body : without couples, its unknowns displacements.  moments : (N,) [N m].  dead : (4 N,) [N].
     shift : (4 N,) how far held unknowns are moved at the factor one [m].
     """
 
@@ -27,13 +27,19 @@ class LoadedRod:
     moments: Array
     dead: Vector
     held: Mask
-    start: Vector
     shift: Vector
 
     @property
     def half_bandwidth(self) -> int:
         """That of the rod."""
         return self.body.half_bandwidth
+
+    @property
+    def grain(self) -> Vector:
+        """Edges and directors: stretches are rounded as shares of them."""
+        edge, director = self.body.rod[:, 0], self.body.rod[:, 9]
+        edge = np.append(edge[:-1], edge[-2])
+        return np.column_stack([edge, edge, director, director]).ravel()
 
     def coupled(self, factor: float) -> ConsistentRod:
         """The rod with its couples."""
@@ -45,7 +51,7 @@ class LoadedRod:
 
     def place(self, q: Vector, factor: float) -> Vector:
         """q with its held unknowns where the factor puts them."""
-        return np.where(self.held, self.start + factor * self.shift, q)
+        return np.where(self.held, factor * self.shift, q)
 
     def load(self, factor: float) -> Vector:
         """Dead load, shape (4 N,) [N]; a couple counts as the force of its director."""
@@ -59,6 +65,10 @@ class LoadedRod:
         gradient -= factor * self.dead
         return energy
 
+    def _directors(self, q: Vector) -> Array:
+        d: Array = self.body.rod[:, 17:19] + q.reshape(-1, 4)[:, 2:]
+        return d
+
     def rate(self, q: Vector, factor: float, band: Band) -> Vector:
         """Change of that gradient with the factor."""
         del factor  # all loads are proportional to it
@@ -66,7 +76,7 @@ class LoadedRod:
         if self.shift.any():
             change = change + band_product(band, self.shift)
         for vertex in np.flatnonzero(self.moments):
-            d0, d1 = q[4 * vertex + 2], q[4 * vertex + 3]
+            d0, d1 = self._directors(q)[vertex]
             square = d0 * d0 + d1 * d1
             change[4 * vertex + 2] += self.moments[vertex] * d1 / square
             change[4 * vertex + 3] -= self.moments[vertex] * d0 / square
@@ -74,6 +84,6 @@ class LoadedRod:
 
     def reach(self, q: Vector, step: Vector) -> float:
         """Largest share of a step that changes no director by more than its length, one radian."""
-        d, change = q.reshape(-1, 4)[:, 2:], step.reshape(-1, 4)[:, 2:]
+        d, change = self._directors(q), step.reshape(-1, 4)[:, 2:]
         fastest = float((np.hypot(*change.T) / np.hypot(*d.T)).max())
         return _TURN / fastest if fastest > 0 else np.inf

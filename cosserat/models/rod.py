@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import GetCoreSchemaHandler, model_validator
+from pydantic import GetCoreSchemaHandler, field_validator, model_validator
 from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.models.consistent import ConsistentRod, SectionState, coefficients
@@ -89,21 +89,30 @@ class Rod(Parameters):
     poisson_coupling: PoissonCoupling = "halved"
     intrinsic_curvature: IntrinsicCurvature = "subtracted"
 
+    @field_validator("calibration", mode="before")
+    @classmethod
+    def _none_at_all(cls, value: object) -> object:
+        """A file has no word for nothing: 'none' takes away a calibration that `like` brought in."""
+        return None if value == "none" else value
+
     @model_validator(mode="after")
     def _sound(self) -> Self:
         if (self.calibration is None) == (self.energy == "published"):
             fault = "needs a calibration" if self.calibration is None else "takes no calibration"
             raise PydanticCustomError(
-                "calibration", f"has energy = '{self.energy}', which {fault}; see 'calibration'"
+                "calibration",
+                f"has energy = '{self.energy}', which {fault}; give the one, or calibration = 'none'",
             )
         if self.energy == "published" and (self.section != "free" or self.barrier):
             raise PydanticCustomError(
-                "section", "has 'section' or 'barrier', which only energy = 'consistent' knows; leave them out"
+                "section",
+                "has 'section' or 'barrier', which only energy = 'consistent' knows; leave them out",
             )
         if self.section == "incompressible" and self.poisson < _INCOMPRESSIBLE:
             raise PydanticCustomError(
                 "section",
-                f"has section = 'incompressible' and 'poisson' = {self.poisson:g}; it must be {_INCOMPRESSIBLE} or more",
+                f"has section = 'incompressible' and 'poisson' = {self.poisson:g}; it must be {_INCOMPRESSIBLE} "
+                "or more",
             )
         places = [station.at for station in self.stations]
         if places != sorted(places):
@@ -299,9 +308,8 @@ class RodProblem(Parameters):
         moments = np.zeros(self.rod.vertices)
         for item in self.couples:
             moments[self._index(item.at)] += item.moment
-        start = np.hstack([geometry.X, geometry.D]).ravel()
         dead = self.loads(geometry).ravel()
-        return LoadedRod(rod, moments, dead, self.held().ravel(), start, self.drive(0.0)[0])
+        return LoadedRod(rod.displaced(geometry), moments, dead, self.held().ravel(), self.drive(0.0)[0])
 
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""

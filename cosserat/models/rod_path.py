@@ -40,7 +40,9 @@ class RodPath(RodProblem):
     @model_validator(mode="after")
     def _is_consistent(self) -> Self:
         if self.rod.calibration is not None:
-            raise PydanticCustomError("energy", "needs rod.energy = 'consistent'; the published rod has no paths")
+            raise PydanticCustomError(
+                "energy", "needs rod.energy = 'consistent'; the published rod has no paths"
+            )
         if any(move.frequency for move in self.moves):
             raise PydanticCustomError(
                 "static", "'moves' has a 'frequency', but a path has no time; leave it out"
@@ -60,8 +62,8 @@ class RodPath(RodProblem):
         refuse_rigid_motion(start, self.held(), name)
         climb = Climb(self.loaded(geometry), self.newton, name)
         arc = Arc(self.arc.first, self.arc.longest, self.arc.count, 1.0, self.arc.branch == "leave")
-        points: list[Point] = list(follow(climb, start.ravel(), arc))
-        q = np.array([point.q for point in points]).reshape(len(points), -1, 4)
+        points: list[Point] = list(follow(climb, np.zeros(start.size), arc))
+        q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
         fields = {
             "load_factor": np.array([point.factor for point in points]),
             "stable": np.array([float(point.stable) for point in points]),

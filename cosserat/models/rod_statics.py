@@ -10,6 +10,7 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import UnsupportedRodError
+from cosserat.models.consistent import ConsistentRod
 from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
 from cosserat.models.rod import RodBody, RodProblem
 from cosserat.outcome import Outcome
@@ -64,9 +65,7 @@ class RodStatics(RodProblem):
         )
         return modes(system, at_rest, count)
 
-    def equilibrium(
-        self, geometry: Geometry, body: RodBody, load: Array, name: str
-    ) -> Equilibrium:
+    def equilibrium(self, geometry: Geometry, body: RodBody, load: Array, name: str) -> Equilibrium:
         """The equilibrium of this problem's body under given loads, shape (N, 4)."""
         reference = np.hstack([geometry.X, geometry.D])
         held = self.held()
@@ -74,13 +73,13 @@ class RodStatics(RodProblem):
         start = reference.ravel() + self.drive(0.0)[0]
         if self.rod.calibration is None:
             climb = Climb(self.loaded(geometry), self.newton, name)
-            return _as_equilibrium(climb, climb.to(reference.ravel(), 1.0))
+            return _as_equilibrium(climb, climb.to(np.zeros(reference.size), 1.0), reference.ravel())
         return equilibrium(body, start, load.ravel(), held.ravel(), self.newton, name)
 
 
-def _as_equilibrium(climb: Climb, point: Point) -> Equilibrium:
+def _as_equilibrium(climb: Climb, point: Point, reference: Array) -> Equilibrium:
     return Equilibrium(
-        point.q,
+        reference + point.q,
         point.energy,
         point.reaction,
         point.iterations,
@@ -111,9 +110,7 @@ def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
         )
 
 
-def _fields(
-    geometry: Geometry, body: RodBody, state: Equilibrium, load: Array
-) -> dict[str, Array]:
+def _fields(geometry: Geometry, body: RodBody, state: Equilibrium, load: Array) -> dict[str, Array]:
     q = state.q.reshape(load.shape)
     x, d = q[:, : len(AXES)], q[:, len(AXES) :]
     measured = strains(geometry, x, d)
@@ -135,7 +132,7 @@ def _fields(
         "theta": measured.theta,
         "applied_force": load,
         "support_force": state.reaction.reshape(load.shape),
-        "energy": body.energy_terms(state.q),
+        "energy_parts" if isinstance(body, ConsistentRod) else "energy": body.energy_terms(state.q),
     }
 
 

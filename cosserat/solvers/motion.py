@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from cosserat.errors import DivergedError, InputError, NotConvergedError
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.banded import Band, Mask, Vector, hold, solve_positive
+from cosserat.solvers.stepping import Compiled, march
 
 if TYPE_CHECKING:
     from scipy.sparse import dia_array
@@ -118,12 +119,50 @@ def advance(
     if settings.method == "rk45":
         return _adaptive(system, state, duration, settings, name)
     count = max(1, round(duration / settings.step))
+    if settings.method == "implicit" and _runs_compiled(system):
+        return _marched(system, state, duration / count, count, name), count
     move = _Implicit(system, name).step if settings.method == "implicit" else _Rk4(system).step
     with np.errstate(over="ignore", invalid="ignore"):
         for _ in range(count):
             state = move(state, duration / count)
     _refuse_divergence(system, state, settings, name)
     return state, count
+
+
+def _runs_compiled(system: System) -> bool:
+    """Whether the body's energy is a compiled function, its supports rest and its momenta are of no concern."""
+    return isinstance(system.body, Compiled) and system.rigid is None and system.drive is None
+
+
+def _marched(system: System, state: State, h: float, count: int, name: str) -> State:
+    body = system.body
+    assert isinstance(body, Compiled)
+    q, v = state.q.copy(), np.where(system.held, 0.0, state.v)
+    width = 1 + max((k for k in range(system.mass.shape[1]) if system.mass[:, k].any()), default=0)
+    done = march(
+        body.kernel,
+        body.parameters,
+        q,
+        v,
+        np.ascontiguousarray(system.mass[:, :width]),
+        system.load,
+        system.held,
+        system.drag,
+        h,
+        count,
+        body.half_bandwidth,
+    )
+    if done < count:
+        raise _no_step(name, h)
+    return State(q, v, state.time + count * h)
+
+
+def _no_step(name: str, h: float) -> NotConvergedError:
+    return NotConvergedError(
+        f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
+        iterations=_MAX_ITERATIONS,
+        tolerance=_TOLERANCE,
+    )
 
 
 def stable_step(system: System, q: Vector) -> float:
@@ -238,12 +277,7 @@ class _Implicit:
             stalled = size > last / 2 and size < _STALL * rounding
             if stalled or size <= max(_TOLERANCE * float(np.abs(change).max()), rounding):
                 return self._arrived(state, change, h)
-        raise NotConvergedError(
-            f"{self.name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
-            iterations=_MAX_ITERATIONS,
-            residual=float("nan"),
-            tolerance=_TOLERANCE,
-        )
+        raise _no_step(self.name, h)
 
     def _arrived(self, state: State, change: Vector, h: float) -> State:
         v = 2 / h * change - state.v

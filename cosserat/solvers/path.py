@@ -1,10 +1,10 @@
 """Equilibria of a slender elastic body under a growing load, and the path they lie on.
 
 Slender bodies turn far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
-creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how much of
-a step that is.  Where a load is too much for one go it is halved; where the equilibrium found is unstable the body is
-pushed along its softest motion and comes to rest elsewhere.  Paths that turn back are followed by pseudo-arclength
-(Keller 1977; Crisfield 1991, chapter 9).  Nothing here knows what the unknowns mean.
+creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how
+much of a step that is.  Where a load is too much for one go it is halved; where the equilibrium found is unstable the
+body is pushed along its softest motion and comes to rest elsewhere.  Paths that turn back are followed by
+pseudo-arclength (Keller 1977; Crisfield 1991, chapter 9).  Nothing here knows what the unknowns mean.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from cosserat.solvers.newton import NewtonSettings
 
 _EPS = float(np.finfo(float).eps)
 _SMALLEST = 2.0**-12  # share of the load below which halving gives up
+_BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answer worthless
 _PUSH = 0.05  # share of its reach by which an unstable body is pushed
 _SHIFTS = tuple(2.0**k for k in range(-40, 12))  # shares of the largest diagonal entry, tried in turn
 _EASY, _HARD = 4, 8  # corrector iterations below which the arc grows and above which it shrinks
@@ -37,6 +38,10 @@ class Loaded(Protocol):
     @property
     def held(self) -> Mask:
         """Which unknowns keep their value, or the one that the factor gives them, shape (n,)."""
+
+    @property
+    def grain(self) -> Vector:
+        """Sizes (n,) that are rounded where the energy is computed, however small the unknowns are."""
 
     def place(self, q: Vector, factor: float) -> Vector:
         """q with its held unknowns where the factor puts them."""
@@ -126,15 +131,31 @@ class Climb:
             unbalanced = np.where(held, 0.0, -self.gradient)
             residual = float(np.abs(unbalanced).max())
             largest = max(largest, residual)
-            rounding = _EPS * float(absolute_product(self.band, q).max())
+            rounding = self.rounding(q)
             scale = max(load, float(np.abs(self.gradient[held]).max(initial=0.0)), largest * (load == 0))
             tolerance = max(self.settings.tolerance * scale, rounding)
+            if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
+                raise NotConvergedError(
+                    f"{self.name}: rounding the unknowns makes forces up to {rounding:.2g} N, too much beside the "
+                    "loads; use fewer vertices",
+                    iterations=self.iterations,
+                    residual=residual,
+                    tolerance=tolerance,
+                )
             hold(self.band, held)
             step = solve_positive(self.band, unbalanced)
             if residual <= tolerance:
                 reaction = np.where(held, self.gradient, 0.0)
                 return Point(
-                    q, factor, energy, reaction, self.iterations, residual, tolerance, rounding, step is not None
+                    q,
+                    factor,
+                    energy,
+                    reaction,
+                    self.iterations,
+                    residual,
+                    tolerance,
+                    rounding,
+                    step is not None,
                 )
             if step is None:
                 step = _shifted(self.band, unbalanced) if downhill else solve_any(self.band, unbalanced)
@@ -143,6 +164,11 @@ class Climb:
             q = q + min(1.0, body.reach(q, step)) * step
             self.iterations += 1
         return None
+
+    def rounding(self, q: Vector) -> float:
+        """Largest force that rounding can cause, by the Hessian assembled last [N]."""
+        size = np.maximum(np.abs(q), self.body.grain)
+        return _EPS * float(absolute_product(self.band, size).max())
 
     def _pushed(self, point: Point) -> Point | None:
         """From an unstable equilibrium, along its softest motion, to another one."""
@@ -156,11 +182,11 @@ class Climb:
 
     def _failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
         error = NotConvergedError(
-            f"{self.name}: no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); the path may turn back "
-            "there: follow it with kind = 'rod path', or check supports and loads",
+            f"{self.name}: no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); the path may turn "
+            "back there: follow it with kind = 'rod path', or check supports and loads",
             iterations=self.iterations,
         )
-        error.state = None if last is None else last.q
+        error.state = None if last is None else last.q  # as the body counts its unknowns
         error.factor = done
         return error
 
@@ -214,7 +240,9 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
                 yield branch
                 away = branch.q - found.q
                 size = _norm(body, branch.q, away)
-                new_tangent, new_slope = _tangent(climb, branch, (away / size, (branch.factor - found.factor) / size))
+                new_tangent, new_slope = _tangent(
+                    climb, branch, (away / size, (branch.factor - found.factor) / size)
+                )
                 found, new_sign = branch, _sign(climb, branch)
                 arc = Arc(arc.first, arc.longest, arc.count, arc.until, switch=False)
         else:
@@ -235,7 +263,7 @@ def _norm(body: Loaded, q: Vector, step: Vector) -> float:
 
 
 def _tangent(climb: Climb, point: Point, before: tuple[Vector, float] | None) -> tuple[Vector, float]:
-    """Direction of the path at a point: change of the unknowns and of the factor, of unit length, going on from before."""
+    """Direction of the path at a point: change of unknowns and factor, of unit length, going on from before."""
     body = climb.body
     body.assemble(point.q, point.factor, climb.gradient, climb.band)
     rate = body.rate(point.q, point.factor, climb.band)
@@ -268,7 +296,7 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
             return None
         unbalanced = np.where(held, 0.0, -climb.gradient)
         residual = float(np.abs(unbalanced).max())
-        rounding = _EPS * float(absolute_product(climb.band, q).max())
+        rounding = climb.rounding(q)
         load = float(np.abs(body.load(factor)).max())
         scale = max(load, float(np.abs(climb.gradient[held]).max(initial=0.0)))
         tolerance = max(climb.settings.tolerance * scale, rounding)
@@ -277,12 +305,16 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
         if residual <= tolerance:
             stable = solve_positive(climb.band, unbalanced) is not None
             reaction = np.where(held, climb.gradient, 0.0)
-            return Point(q, factor, energy, reaction, climb.iterations, residual, tolerance, rounding, stable)
+            return Point(
+                q, factor, energy, reaction, climb.iterations, residual, tolerance, rounding, stable
+            )
         a = solve_any(climb.band, unbalanced)
         b = solve_any(climb.band, np.where(held, 0.0, -rate))
         if a is None or b is None:
             return None
-        across = float(tangent @ (q - point.q - ds * tangent)) + weight * slope * (factor - point.factor - ds * slope)
+        across = float(tangent @ (q - point.q - ds * tangent)) + weight * slope * (
+            factor - point.factor - ds * slope
+        )
         change = -(across + float(tangent @ a)) / (float(tangent @ b) + weight * slope)
         step = a + change * b
         share = min(1.0, body.reach(q, step))

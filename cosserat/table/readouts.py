@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from cosserat import analytic
+from cosserat import analytic, elastica
 from cosserat.data.dataset import case_of
 from cosserat.errors import InputError
 from cosserat.models.calibration import beam_of
@@ -172,6 +172,43 @@ def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Reading
     return read
 
 
+def buckling_share(data: xr.Dataset) -> Array:
+    """Axial load of a clamped-free column as a share of Euler's, pi^2 EI / (4 L^2), at every point of its path."""
+    problem = problem_of(data)
+    beam = beam_of(problem)
+    euler = np.pi**2 / 4 * beam.young * beam.second_moment / beam.length**2
+    share: Array = data.load_factor.to_numpy() * problem.forces[0].force / euler
+    return share
+
+
+def _elastica_tip(data: xr.Dataset) -> Reading:
+    """Sideways displacement of the tip over the length, and that of Reissner's rod of the same stiffnesses."""
+    problem = problem_of(data)
+    beam = beam_of(problem)
+    unit = beam.young * beam.second_moment / beam.length**2
+    shear = beam.shear_correction * beam.young / (2 * (1 + beam.poisson)) * beam.area
+    exact, _ = elastica.shearable_tip(
+        problem.forces[0].force / unit, beam.axial_stiffness / unit, shear / unit
+    )
+    return Reading(float(data.u.sel(axis="E2")[-1]) / beam.length, exact)
+
+
+def _column_tip(data: xr.Dataset) -> Reading:
+    """Tip of the column at its full load, and that of the exact elastica."""
+    load = float(buckling_share(data)[-1]) * np.pi**2 / 4
+    return Reading(abs(float(data.x.sel(axis="E2")[-1, -1])), elastica.column_tip(load)[0])
+
+
+def _timoshenko_period(data: xr.Dataset) -> Reading:
+    exact = 2 * np.pi / elastica.timoshenko_frequencies(beam_of(problem_of(data)), 1)[0]
+    return Reading(_displacement_period(data).measured, float(exact))
+
+
+def _roll_up(data: xr.Dataset) -> Reading:
+    """Distance of the end from the start over the length."""
+    return Reading(float(np.hypot(*data.x[-1].to_numpy())) / problem_of(data).rod.length, 0.0)
+
+
 READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "stretching_coefficient": _stretching_coefficient,
     "hanging_bar_tip": lambda data: at_tip(hanging_bar_curve(data)),
@@ -196,6 +233,11 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "beam_theory_period": _beam_theory_period,
     "necking_midspan": lambda data: at_midspan(necking_curve(data)),
     "necking_profile": lambda data: _share(necking_curve(data)),
+    "elastica_tip": _elastica_tip,
+    "column_tip": _column_tip,
+    "timoshenko_period": _timoshenko_period,
+    "roll_up": _roll_up,
+    "necking_free_section": lambda data: _share(necking_curve(data, "free section")),
     **crawl_readouts.READOUTS,
 }
 """Read-outs by the name that a row gives."""

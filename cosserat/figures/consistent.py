@@ -1,0 +1,95 @@
+"""The rod that converges: its errors, how far it bends, and the paths it goes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from cosserat import elastica
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.table.readouts import buckling_share
+
+Array = NDArray[np.float64]
+Data = Mapping[str, xr.Dataset]
+
+
+def fig_convergence(data: Data) -> Figure:
+    """Errors over the number of edges, and the published rod beside them."""
+    figure, (left, right) = canvas(7.2, 3.8, 1, 2)
+    run = data["convergence"]
+    edges = run.vertices.to_numpy() - 1
+    for k, name in enumerate(run.measure.to_numpy()):
+        ax = right if str(name).startswith("frequency") else left
+        ax.loglog(edges, run.errors[k], marker=".", label=str(name))
+    published = data["calibration"]
+    off = np.abs(published.clamped_free_published - 1)
+    left.loglog(
+        published.vertices - 1, off, color=VARIANT, marker="s", label="clamped-free tip, published rod"
+    )
+    for ax, title in ((left, "(a) statics"), (right, "(b) vibration")):
+        ax.loglog(edges, 3 * edges**-2.0, color=EXACT, linestyle="--", label="second order")
+        ax.set(xlabel="edges [1]", ylabel="relative error [1]", title=title)
+        ax.legend(fontsize=6.5)
+    return figure
+
+
+def fig_far(data: Data) -> Figure:
+    """Shapes: a dead force across the tip, a couple that rolls the rod up, a buckled column, a snapping arch."""
+    figure, axes = canvas(7.2, 5.2, 2, 2)
+    titles = (
+        ("elastica", "(a) dead force, $PL^2/EI = 10$"),
+        ("roll_up", r"(b) couple $2\pi EI/L$"),
+        ("column_path", "(c) column beyond Euler's load"),
+        ("arch_path", "(d) hinged arch"),
+    )
+    for ax, (name, title) in zip(axes, titles, strict=True):
+        _shapes(ax, data[name])
+        ax.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=title)
+        ax.set_aspect("equal", adjustable="datalim")
+    return figure
+
+
+def _shapes(ax: Axes, run: xr.Dataset) -> None:
+    """The last shape, and every third one of a path before it."""
+    x = run.x.to_numpy()
+    ax.plot(*run.x_ref.to_numpy().T, color=EXACT, linestyle=":")
+    if x.ndim == 2:
+        ax.plot(*x.T, color=COMPUTED, marker=".")
+        return
+    for shape in x[1:-1:3]:
+        ax.plot(*shape.T, color=BODY)
+    ax.plot(*x[-1].T, color=COMPUTED, marker=".", markersize=3)
+
+
+def fig_paths(data: Data) -> Figure:
+    """Load over displacement, stable points filled: the column beside the exact elastica, and the arch."""
+    figure, (left, right) = canvas(7.2, 3.2, 1, 2)
+    column, arch = data["column_path"], data["arch_path"]
+    share = buckling_share(column)
+    _path(left, np.abs(column.x.sel(axis="E2").isel(vertex=-1).to_numpy()), share, column)
+    angles = np.linspace(0.01, 2.3, 60)
+    loads = [elastica.column_load(a) for a in angles]
+    exact = [elastica.column_tip(load)[0] for load in loads]
+    left.plot(exact, np.array(loads) / (np.pi**2 / 4), color=EXACT, label="exact elastica", zorder=1)
+    left.set(xlabel="tip aside [m]", ylabel="load / Euler's load [1]", title="(a) column")
+    left.legend()
+    middle = arch.sizes["vertex"] // 2
+    _path(right, arch.x.sel(axis="E2").isel(vertex=middle).to_numpy(), arch.load_factor.to_numpy(), arch)
+    right.set(xlabel="height of the middle [m]", ylabel="load / full load [1]", title="(b) hinged arch")
+    return figure
+
+
+def _path(ax: Axes, across: Array, load: Array, run: xr.Dataset) -> None:
+    stable = run.stable.to_numpy() > 0.5
+    ax.plot(across, load, color=INK, linewidth=0.8)
+    ax.plot(across[stable], load[stable], "o", color=COMPUTED, label="stable")
+    if not stable.all():
+        ax.plot(
+            across[~stable], load[~stable], "o", markerfacecolor="none", color=VARIANT, label="unstable"
+        )
+    ax.legend()

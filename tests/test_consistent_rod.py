@@ -1,0 +1,421 @@
+"""The rod that converges: gradients, invariance, exact answers and orders, large deflections, locking, speed."""
+
+import time
+
+import numpy as np
+import pytest
+from conftest import assembled
+from hypothesis import given
+from hypothesis import strategies as st
+
+import cosserat
+from cosserat import analytic, elastica
+from cosserat.errors import InputError
+from cosserat.models.calibration import beam_of
+from cosserat.models.consistent import ConsistentRod, coefficients
+from cosserat.models.convergence import MEASURES
+from cosserat.models.planar_rod import Geometry, Lumped, rigid_motions
+from cosserat.models.rod_motion import RodMotion
+from cosserat.models.rod_statics import RodStatics
+from cosserat.table.readouts import period
+
+SECTIONS = ("free", "plane strain", "incompressible")
+CLAMP = [{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}]
+
+
+def small_rod(section="free", barrier=False, couples=True, poisson=0.3):
+    geometry = Geometry.arc(6, 1.0, np.full(6, 0.05), 0.7)
+
+    def lumped(count):
+        return Lumped.uniform(count, area=0.01, second_moment=8e-6, young=1e6, poisson=poisson)
+
+    moments = np.array([0, 0, 3.0, 0, 0, -2.0]) * couples
+    return geometry, ConsistentRod(
+        coefficients(geometry, lumped(6), lumped(5), 5 / 6, section, moments, barrier)
+    )
+
+
+def strained(geometry, seed, size=0.02):
+    rng = np.random.default_rng(seed)
+    q = np.hstack([geometry.X, geometry.D])
+    q[:, :2] += size * rng.uniform(-1, 1, geometry.X.shape)
+    q[:, 2:] += size / 2 * rng.uniform(-1, 1, geometry.D.shape)
+    return q.ravel()
+
+
+def slender(elements, radius=0.005, **rod):
+    """A clamped rod of length 1 whose section bends as a circle of that radius."""
+    side = np.sqrt(3) * radius
+    changes = {"vertices": elements + 1, "height": side, "width": side, **rod}
+    posed = cosserat.case("elastica").problem
+    bare = posed.replace(rod=posed.rod.replace(**changes), forces=())
+    return bare, bare.rod.young * bare.rod.second_moment
+
+
+# ---------------------------------------------------------------- gradients and invariance
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+@pytest.mark.parametrize("barrier", [False, True])
+@given(st.integers(0, 1000))
+def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(section, barrier, seed):
+    geometry, rod = small_rod(section, barrier)
+    q = strained(geometry, seed)
+    _, gradient, hessian = assembled(rod, q)
+    h = 1e-7
+    numeric, columns = np.empty(q.size), np.empty((q.size, q.size))
+    ahead, behind = np.empty(q.size), np.empty(q.size)
+    for k in range(q.size):
+        shift = h * np.eye(q.size)[k]
+        numeric[k] = (rod.differentiate(q + shift, ahead) - rod.differentiate(q - shift, behind)) / (
+            2 * h
+        )
+        columns[k] = (ahead - behind) / (2 * h)
+    np.testing.assert_allclose(gradient, numeric, atol=1e-6 * np.abs(gradient).max())
+    np.testing.assert_allclose(hessian, columns, atol=1e-6 * np.abs(hessian).max())
+    assert rod.energy(q) == rod.energy_terms(q).sum()
+
+
+@given(st.integers(0, 1000), st.floats(-3, 3))
+def test_rigid_motions_cost_nothing_and_forces_balance(seed, turn):
+    geometry, rod = small_rod(couples=False)
+    q = strained(geometry, seed)
+    c, s = np.cos(turn), np.sin(turn)
+    R = np.array([[c, -s], [s, c]])
+    pairs = q.reshape(-1, 2, 2) @ R.T
+    pairs[:, 0] += [3.0, -1.0]
+    moved = pairs.reshape(-1)
+    energy = rod.energy(q)
+    assert rod.energy(moved) == pytest.approx(energy, rel=1e-10)
+    gradient = np.empty(q.size)
+    rod.differentiate(q, gradient)
+    work = rigid_motions(q.reshape(-1, 4)).reshape(3, -1) @ gradient
+    assert np.abs(work).max() < 1e-11 * np.abs(gradient).max()
+
+
+@pytest.mark.parametrize("barrier", [False, True])
+def test_the_reference_is_at_rest_also_where_it_is_curved(barrier):
+    geometry, rod = small_rod(couples=False, barrier=barrier)
+    q = np.hstack([geometry.X, geometry.D]).ravel()
+    gradient = np.empty(q.size)
+    assert abs(rod.differentiate(q, gradient)) < 1e-25
+    assert np.abs(gradient).max() < 1e-9
+
+
+def test_counted_from_the_reference_it_is_the_same_rod():
+    geometry, rod = small_rod()
+    q = strained(geometry, 1)
+    shifted = q - np.hstack([geometry.X, geometry.D]).ravel()
+    for one, other in zip(assembled(rod, q), assembled(rod.displaced(geometry), shifted), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-6)
+
+
+# ---------------------------------------------------------------- exact answers
+
+
+def test_second_order_in_every_measure_over_four_meshes(solved):
+    data = solved["convergence"]
+    orders = -np.diff(np.log(data.errors.to_numpy()), axis=1) / np.log(2)
+    for name, order in zip(MEASURES, orders, strict=True):
+        assert order[-3:] == pytest.approx(2.0, abs=0.15), name
+
+
+def test_the_beams_of_section_3_5_without_calibration(solved):
+    for name, formula, allowed in (
+        ("clamped_free_consistent", analytic.clamped_free_displacement, 5e-4),
+        ("clamped_clamped_consistent", analytic.clamped_clamped_displacement, 1.1e-2),
+    ):
+        data = solved[name]
+        problem = cosserat.case(name).problem
+        exact = formula(beam_of(problem), problem.gravity.g, data.xi.to_numpy())
+        computed = data.u.sel(axis="E2").to_numpy()
+        assert data.sizes["vertex"] == 20
+        assert np.abs(computed - exact).max() < allowed * np.abs(exact).max()
+    fine = cosserat.run(cosserat.case("clamped_clamped_consistent").vary("fine", rod={"vertices": 161}))
+    exact = analytic.clamped_clamped_displacement(
+        beam_of(problem), problem.gravity.g, fine.xi.to_numpy()
+    )
+    assert float(fine.u.sel(axis="E2")[80]) == pytest.approx(exact[80], rel=1.5e-4)
+
+
+@pytest.mark.parametrize(
+    ("case", "theory"),
+    [("necking_consistent", "free section"), ("necking_plane_strain", "plane strain")],
+)
+@pytest.mark.parametrize("poisson", [0.3, 0.4999])
+def test_necking_follows_theory_up_to_near_incompressibility(case, theory, poisson):
+    """(3.5.9) settled: 2 (1 + nu) A / I with the section free in E1, 2 A / (I (1 - nu)) in plane strain."""
+    errors = []
+    for vertices in (81, 161, 321):
+        posed = cosserat.case(case).vary(
+            "x", rod={"vertices": vertices, "poisson": poisson, "length": "1 m"}
+        )
+        data = cosserat.run(posed)
+        beam = beam_of(posed.problem)
+        beta = analytic.necking_decay(beam, theory)
+        strain = analytic.necking_strain(beam, 1000.0, beta, data.xi.to_numpy())
+        if theory == "plane strain":
+            strain = strain * (1 + poisson)
+        errors.append(np.abs(data.lam - 1 - strain).max() / np.abs(strain).max())
+    assert errors[-1] < 2e-3
+    assert (np.diff(np.log2(errors)) < -1.8).all()
+
+
+@pytest.mark.parametrize("thickness", [1e-1, 1e-2, 1e-3, 1e-4])
+def test_no_shear_locking(thickness):
+    posed, bending = slender(20, radius=thickness, poisson=0.3)
+    pulled = posed.replace(forces=({"at": "last", "along": "E2", "force": 0.1 * bending},))
+    tip = pulled.solve("x").fields["u"][-1, 1]
+    shear = bending / (5 / 6 * posed.rod.young / 2.6 * posed.rod.area)
+    assert tip == pytest.approx(elastica.transverse_tip(0.1)[0] + 0.1 * shear, rel=1e-3)
+
+
+def test_an_incompressible_section_keeps_its_area():
+    posed, _ = slender(20, radius=0.05, section="incompressible", poisson=0.4999)
+    stretched = posed.replace(
+        supports=({"at": "first", "hold": ["x3", "x2", "d3"]},),
+        forces=({"at": "last", "along": "E3", "force": 1e6},),
+    )
+    data = stretched.solve("x").fields
+    product = data["mu_edge"] * (data["lam"][1:] + data["lam"][:-1]) / 2
+    sum_ = data["mu_edge"] + (data["lam"][1:] + data["lam"][:-1]) / 2
+    assert data["mu_edge"].max() - 1 > 0.05
+    np.testing.assert_allclose(sum_, 2, atol=1e-5)
+    assert np.abs(product - 1).max() < 0.02
+
+
+@pytest.mark.parametrize(("elements", "allowed"), [(20, 1e-3), (40, 2.5e-4), (80, 6e-5)])
+@pytest.mark.parametrize("force", [1.0, 5.0, 10.0])
+def test_the_elastica_under_a_dead_tip_load(elements, allowed, force):
+    """Against Reissner's rod of the same stiffnesses: the inextensible elastica is 1e-4 away from that by itself."""
+    posed, bending = slender(elements)
+    unit = bending
+    shear = 5 / 6 * posed.rod.young / 2 * posed.rod.area / unit
+    sideways, shortening = elastica.shearable_tip(force, posed.rod.young * posed.rod.area / unit, shear)
+    u = (
+        posed.replace(forces=({"at": "last", "along": "E2", "force": force * unit},))
+        .solve("x")
+        .fields["u"][-1]
+    )
+    assert u[1] == pytest.approx(sideways, abs=allowed)
+    assert -u[0] == pytest.approx(shortening, abs=allowed)
+    rigid = elastica.transverse_tip(force)
+    assert (sideways, shortening) == pytest.approx(rigid, abs=1.1e-4)
+
+
+def test_loads_far_beyond_that_in_one_go():
+    posed, bending = slender(40)
+    done = posed.replace(forces=({"at": "last", "along": "E2", "force": 100 * bending},)).solve("x")
+    assert done.fields["u"][-1, 1] == pytest.approx(elastica.transverse_tip(100.0)[0], abs=2e-3)
+    assert done.statistics["iterations"] < 20
+
+
+@pytest.mark.parametrize("turns", [1, 2])
+@pytest.mark.parametrize("elements", [10, 40])
+def test_a_couple_rolls_the_rod_up(turns, elements):
+    posed, bending = slender(elements)
+    done = posed.replace(couples=({"at": "last", "moment": 2 * np.pi * turns * bending},)).solve("x")
+    assert np.hypot(*done.fields["x"][-1]) < 1e-10
+    energy = done.fields["energy_parts"]
+    assert energy[2] == pytest.approx(bending * (2 * np.pi * turns) ** 2 / 2, rel=1e-9)
+    assert energy[6] == pytest.approx(-2 * energy[2], rel=1e-9)  # the work of the couple
+
+
+# ---------------------------------------------------------------- buckling and snapping
+
+
+def column(factor, elements=80, radius=1e-3, aside=0.0):
+    """A clamped-free column under a share of pi^2 EI / 4, and a small force across."""
+    posed, bending = slender(elements, radius)
+    load = factor * np.pi**2 / 4 * bending
+    return posed.replace(
+        forces=(
+            {"at": "last", "along": "-E3", "force": load},
+            {"at": "last", "along": "E2", "force": aside * bending},
+        )
+    )
+
+
+@pytest.mark.parametrize("factor", [1.05, 1.5, 3.0])
+@pytest.mark.parametrize("aside", [0.0, 1e-4])
+def test_a_column_beyond_eulers_load_stands_where_the_exact_elastica_stands(factor, aside):
+    x = column(factor, aside=aside).solve("x").fields["x"][-1]
+    sideways, height = elastica.column_tip(factor * np.pi**2 / 4)
+    assert abs(x[1]) == pytest.approx(sideways, abs=2e-3)
+    assert x[0] == pytest.approx(height, abs=2e-3)
+
+
+def test_eulers_load_is_where_the_straight_column_loses_its_stability():
+    low, high = 0.9, 1.1
+    for _ in range(20):
+        middle = (low + high) / 2
+        pushed = column(middle).solve("x").statistics["shifted_hessians"]
+        low, high = (low, middle) if pushed else (middle, high)
+    assert low == pytest.approx(1.0, abs=1e-4)
+
+
+def test_the_path_leaves_the_straight_column_at_eulers_load(solved):
+    path = solved["column_path"]
+    factor = path.load_factor.to_numpy() * 2.3132 / (np.pi**2 / 4 * 0.46875)
+    tip = np.abs(path.x.sel(axis="E2").isel(vertex=-1).to_numpy())
+    bent = tip > 1e-3
+    assert factor[~bent].max() < 1.0 < factor[bent].min() + 1e-6
+    assert path.stable.to_numpy().all()
+    for load, sideways in zip(factor[bent], tip[bent], strict=True):
+        if load > 1.02:
+            assert sideways == pytest.approx(elastica.column_tip(load * np.pi**2 / 4)[0], abs=4e-3)
+    assert path.load_factor[-1] == 1
+
+
+def test_a_path_that_stays_goes_on_through_the_branching_point_and_knows_that_it_is_unstable():
+    straight = cosserat.run(cosserat.case("column_path").vary("stay", arc={"branch": "stay"}))
+    assert np.abs(straight.x.sel(axis="E2")).max() < 1e-9
+    factor = straight.load_factor.to_numpy() * 2.3132 / (np.pi**2 / 4 * 0.46875)
+    assert (straight.stable.to_numpy() == (factor < 1)).all()
+
+
+def test_an_arch_snaps_through(solved):
+    path = solved["arch_path"]
+    factor, middle = path.load_factor.to_numpy(), path.x.sel(axis="E2").isel(vertex=20).to_numpy()
+    assert factor.min() < -0.05 < 0.15 < factor[: factor.argmin()].max() < 0.3
+    assert (np.diff(middle[factor.argmax() if factor.argmax() < factor.argmin() else 0 :][:3]) > 0).all()
+    assert not path.stable.to_numpy().all()
+    assert factor[-1] == 1
+    dead = cosserat.case("arch_path").vary("x").problem
+    statics = RodStatics.read(
+        {k: v for k, v in dead.model_dump().items() if k not in ("kind", "arc")},
+        "x",
+        units_required=False,
+    )
+    snapped = statics.solve("x").fields["x"][20, 1]
+    assert snapped == pytest.approx(middle[-1], abs=1e-6)
+
+
+def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last_state():
+    """A bar pushed by twice EA: without a barrier its edges would have to vanish half-way."""
+    posed, _ = slender(20, radius=0.05)
+    stiff = posed.rod.young * posed.rod.area
+    pushed = posed.replace(
+        supports=[{"at": k, "hold": ["x2", "d3"] if k else ["x3", "x2", "d3"]} for k in range(21)],
+        forces=({"at": "last", "along": "-E3", "force": 2 * stiff},),
+    )
+    with pytest.raises(
+        cosserat.NotConvergedError, match=r"x: no equilibrium found beyond 0\.49\d* of the load"
+    ) as caught:
+        pushed.solve("x")
+    assert caught.value.factor == pytest.approx(0.5, abs=1e-2)
+    assert caught.value.state.reshape(-1, 4)[-1, 0] == pytest.approx(-2 * caught.value.factor)
+    kept = pushed.replace(rod=pushed.rod.replace(barrier=True)).solve("x").fields
+    assert kept["mu_edge"].min() > 0.1
+
+
+def test_prescribed_motion_of_a_support():
+    posed, _ = slender(40)
+    both = [*CLAMP, {"at": "last", "hold": ["x3", "x2", "d3", "d2"]}]
+    moved = (
+        posed.replace(supports=both, moves=({"at": "last", "unknown": "x3", "by": -0.3},))
+        .solve("x")
+        .fields
+    )
+    assert moved["x"][-1, 0] == pytest.approx(0.7)
+    assert np.abs(moved["x"][:, 1]).max() > 0.25  # buckled between its clamps
+
+
+# ---------------------------------------------------------------- motion
+
+
+def test_the_period_of_the_exact_timoshenko_beam(solved):
+    data = solved["vibration_consistent"]
+    exact = (
+        2
+        * np.pi
+        / elastica.timoshenko_frequencies(beam_of(cosserat.case("vibration_consistent").problem), 1)[0]
+    )
+    assert data.sizes["vertex"] == 20
+    tip = data.x.sel(axis="E2").isel(vertex=-1).to_numpy()
+    assert period(data.time.to_numpy(), tip) == pytest.approx(exact, rel=1e-3)
+    energy = (data.kinetic_energy + data.strain_energy).to_numpy()
+    assert np.abs(energy / energy[0] - 1).max() < 1e-10
+
+
+def test_the_compiled_integrator_is_the_one_in_python(monkeypatch):
+    case = cosserat.case("vibration_consistent").vary("x", duration="10 ms")
+    compiled = cosserat.run(case)
+    monkeypatch.setattr("cosserat.solvers.motion._runs_compiled", lambda _: False)
+    plain = cosserat.run(case)
+    np.testing.assert_allclose(compiled.x, plain.x, atol=1e-12)
+
+
+def test_a_tumbling_stretching_rod_keeps_energy_and_momenta():
+    thrown = cosserat.case("vibration_consistent").vary(
+        "thrown",
+        supports=[],
+        start={"amplitude": "5 cm", "speed": "2 m/s", "along": "E2", "spin": "20 rad/s"},
+        duration="0.25 s",
+        every="2.5 ms",
+    )
+    assert isinstance(thrown.problem, RodMotion)
+    flight = cosserat.run(thrown)
+    assert '"steps": 2000' in flight.attrs["solver"]
+    energy = (flight.kinetic_energy + flight.strain_energy).to_numpy()
+    assert np.abs(energy / energy[0] - 1).max() < 1e-8
+    spin, momentum = flight.angular_momentum.to_numpy(), flight.momentum.to_numpy()
+    assert np.abs(spin / spin[0] - 1).max() < 1e-10
+    assert np.abs(momentum - momentum[0]).max() < 1e-10 * np.abs(momentum[0]).max()
+
+
+# ---------------------------------------------------------------- options, bad input, size
+
+
+def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
+    posed, bending = slender(40)
+    bent = posed.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
+    plain = bent.solve("x").fields["u"][-1, 1]
+    distance = []
+    for elements in (20, 40, 80):
+        posed, bending = slender(elements)
+        pulled = posed.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
+        with_barrier = pulled.replace(rod=pulled.rod.replace(barrier=True)).solve("x").fields["u"][-1, 1]
+        distance.append(abs(with_barrier - pulled.solve("x").fields["u"][-1, 1]))
+    assert distance[0] > 1e-5
+    assert distance[-1] < distance[0] / 8
+    assert plain == pytest.approx(0.8107, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"calibration": {"c1": 1, "c2": 1, "c3": 1, "c4": 1, "c5": 1, "c6": 1, "c7": 1}},
+            "takes no calibration",
+        ),
+        ({"energy": "published"}, "needs a calibration"),
+        ({"section": "incompressible"}, "'poisson' = 0; it must be 0.49 or more"),
+        ({"section": "thick"}, "must be 'free', 'plane strain' or 'incompressible'"),
+        ({"poisson": 0.5}, "'rod.poisson' is 0.5; it must be below 0.5"),
+    ],
+)
+def test_bad_input(changes, sentence):
+    with pytest.raises(InputError, match=sentence):
+        cosserat.case("elastica").vary("x", rod=changes)
+
+
+def test_the_published_rod_has_no_section_and_no_path():
+    with pytest.raises(InputError, match="which only energy = 'consistent' knows"):
+        cosserat.case("clamped_free").vary("x", rod={"section": "plane strain"})
+    table = cosserat.case("clamped_free").problem.model_dump() | {"kind": "rod path"}
+    table.pop("newton")
+    from cosserat.models.rod_path import RodPath
+
+    with pytest.raises(InputError, match="needs rod.energy = 'consistent'"):
+        RodPath.read(table, "x", units_required=False)
+
+
+def test_a_million_vertices():
+    """In memory and well under a minute: a hanging bar, whose answer is known."""
+    posed = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 1_000_000}).problem
+    start = time.perf_counter()
+    fields = posed.solve("x").fields
+    assert time.perf_counter() - start < 30
+    exact = analytic.hanging_bar_displacement(beam_of(posed), 9.81, fields["xi"])
+    assert fields["u"][-1, 0] == pytest.approx(exact[-1], rel=1e-6)
