@@ -111,6 +111,11 @@ rule chapter:
         "results/check.txt",
         "results/errata.toml",
         expand("results/figures/{figure}.svg", figure=FIGURES),
+        measured=lambda wildcards: (
+            ["results/peers.csv"]
+            if wildcards.chapter == "ch5_peers" and os.path.exists("results/peers.csv")
+            else []
+        ),
         source="chapters/{chapter}.py",
     output:
         "results/notebooks/{chapter}.ipynb",
@@ -120,6 +125,21 @@ rule chapter:
         "results/benchmarks/chapter/{chapter}.tsv"
     shell:
         "python -m cosserat chapter {input.source} --output {output} > {log} 2>&1"
+
+
+rule peers:
+    output:
+        "results/peers.csv",
+    params:
+        packages="exudyn==1.13.6 pyelastica==1.0.0 scipy",
+    log:
+        "results/logs/peers.log",
+    benchmark:
+        "results/benchmarks/peers.tsv"
+    threads: workflow.cores
+    shell:
+        "(python -m venv --clear .peers && .peers/bin/python -m pip install --quiet {params.packages} && "
+        "python -m cosserat peers .peers/bin/python --output {output}) > {log} 2>&1 || (cat {log} >&2; exit 1)"
 
 
 rule book:

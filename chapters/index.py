@@ -31,6 +31,7 @@
 # ch3_calibration
 # ch3_rods
 # ch4_consistent
+# ch5_peers
 # results_table
 # errata
 # ```

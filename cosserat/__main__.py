@@ -115,6 +115,16 @@ def _parser() -> argparse.ArgumentParser:
 
     add("speed", _speed, "time the implicit integrator, and a stride of the worm by either solver")
 
+    sub = add(
+        "peers", _peers, "time the consistent rod beside other packages; 'snakemake peers' sets them up"
+    )
+    sub.add_argument(
+        "python", type=Path, help="the Python of the environment that holds the other packages"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, default=RESULTS / "peers.csv", help="table to write (%(default)s)"
+    )
+
     sub = add("chapter", _chapter, "execute a chapter into a notebook")
     sub.add_argument("chapter", type=Path, help="the chapter's .py file")
     sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
@@ -221,6 +231,8 @@ def _done(dataset: xr.Dataset) -> str:
         return f"{done['points']} points in {done['iterations']} Newton iterations"
     if "steps" in done:
         return f"{dataset.sizes['time'] - 1} frames in {done['steps']} steps"
+    if "residual_N" not in done:
+        return ", ".join(f"{value} {key}" for key, value in done.items())
     return (
         f"{done['iterations']} Newton iterations, largest unbalanced force {done['residual_N']:.2g} N "
         f"(allowed {done['tolerance_N']:.2g} N)"
@@ -262,16 +274,26 @@ def _figure(options: argparse.Namespace) -> None:
 
 def _plot(options: argparse.Namespace) -> None:
     from cosserat.data.dataset import case_of, check_destination, load
-    from cosserat.figures import crawlers, rod
+    from cosserat.figures import consistent, crawlers, motion, rod
     from cosserat.figures.style import settings, write
-    from cosserat.models.peristalsis import CrawlerProblem
 
     path = options.output or options.file.with_suffix(".svg")
     check_destination(path, ".svg")
     data = load(options.file)
-    shown = crawlers if isinstance(case_of(data).problem, CrawlerProblem) else rod
+    drawn = {
+        "rod statics": rod.picture,
+        "rod motion": motion.picture,
+        "rod path": consistent.picture,
+        "posture": crawlers.picture,
+        "crawl": crawlers.picture,
+    }
+    kind = case_of(data).problem.kind
+    if kind not in drawn:
+        raise InputError(
+            f"{options.file} is of kind '{kind}', which has no picture; see it with 'cosserat show'"
+        )
     with settings():
-        figure = shown.picture(data)
+        figure = drawn[kind](data)
     write(figure, path)
     print(f"wrote {path}")
 
@@ -314,6 +336,22 @@ def _speed(_: argparse.Namespace) -> None:
         print(line)
     for line in speed.stride():
         print(line)
+
+
+def _peers(options: argparse.Namespace) -> None:
+    from cosserat.data.dataset import check_destination
+    from cosserat.peers import compare
+
+    check_destination(options.output, ".csv")
+    lines = list(
+        compare.compare(options.python, lambda words: print(words, file=sys.stderr, flush=True))
+    )
+    compare.write(lines, options.output)
+    for line in lines:
+        print(
+            f"{line.problem:32} {line.package:11} {1e3 * line.seconds:10.2f} ms  error {line.error:.1e}"
+        )
+    print(f"wrote {options.output}")
 
 
 def _chapter(options: argparse.Namespace) -> None:

@@ -244,6 +244,26 @@ def test_running_a_case_as_a_process_takes_less_than_two_and_a_half_seconds(tmp_
     assert min(times) < 2.5
 
 
+def test_every_case_has_a_summary(solved):
+    from cosserat.__main__ import _done
+
+    for name, data in solved.items():
+        assert _done(data)[0].isdigit() or _done(data).startswith("solve_bvp"), name
+
+
+def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
+    for name in ("worm_at_rest", "soft_robot", "column_path", "vibration_consistent"):
+        code, _, err = call(capsys, "run", name, "--output", tmp_path / f"{name}.nc")
+        assert (code, err) == (0, "")
+        code, _, err = call(capsys, "plot", tmp_path / f"{name}.nc")
+        assert (code, err) == (0, "")
+        assert (tmp_path / f"{name}.svg").stat().st_size > 10_000
+    call(capsys, "run", "convergence", "--output", tmp_path / "c.nc")
+    code, _, err = call(capsys, "plot", tmp_path / "c.nc")
+    assert code == 2
+    assert "is of kind 'convergence', which has no picture" in err
+
+
 def test_speed_is_measured(capsys):
     code, out, _ = call(capsys, "speed")
     assert code == 0

@@ -32,6 +32,7 @@ ROOMS = (
     "speed",
     "table",
     "figures",
+    "peers",
     "book",
     "__main__",
 )

@@ -93,3 +93,17 @@ def _path(ax: Axes, across: Array, load: Array, run: xr.Dataset) -> None:
             across[~stable], load[~stable], "o", markerfacecolor="none", color=VARIANT, label="unstable"
         )
     ax.legend()
+
+
+def picture(data: xr.Dataset) -> Figure:
+    """Shapes along a path, and the load over the largest displacement: what `cosserat plot` shows of a path."""
+    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
+    _shapes(left, data)
+    left.set_aspect("equal", adjustable="datalim")
+    left.set(
+        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=data.attrs["title"]
+    )
+    moved = np.linalg.norm(data.x.to_numpy() - data.x_ref.to_numpy(), axis=2).max(axis=1)
+    _path(right, moved, data.load_factor.to_numpy(), data)
+    right.set(xlabel="largest displacement [m]", ylabel="load / full load [1]")
+    return figure

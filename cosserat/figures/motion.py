@@ -61,6 +61,26 @@ def anim_relaxation(data: Data) -> str:
     return _animation(run.sel(time=slice(0, 0.5)), magnified=20.0, seconds=4.0)
 
 
+def picture(data: xr.Dataset) -> Figure:
+    """Some shapes, the path of the last vertex, and energies over time: what `cosserat plot` shows of a motion."""
+    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
+    x = data.x.to_numpy()
+    for shape in x[:: max(1, x.shape[0] // 12)]:
+        left.plot(*shape.T, color=BODY)
+    left.plot(*x[:, -1].T, color=VARIANT, linewidth=0.8, label="last vertex")
+    left.plot(*x[-1].T, color=COMPUTED, label="last frame")
+    left.set_aspect("equal", adjustable="datalim")
+    left.set(
+        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=data.attrs["title"]
+    )
+    right.plot(data.time, data.kinetic_energy, color=COMPUTED, label="kinetic")
+    right.plot(data.time, data.strain_energy, color=VARIANT, label="strain")
+    right.set(xlabel="time [s]", ylabel="energy [J]")
+    for ax in (left, right):
+        ax.legend()
+    return figure
+
+
 def _animation(data: xr.Dataset, *, magnified: float, seconds: float, frames: int = 60) -> str:
     chosen = np.unique(np.linspace(0, data.sizes["time"] - 1, frames).round().astype(int))
     x = data.x_ref.to_numpy() + magnified * (data.x.to_numpy()[chosen] - data.x_ref.to_numpy())

@@ -21,7 +21,8 @@ from cosserat.models.published import (
     PublishedRod,
     stiffnesses,
 )
-from cosserat.models.section import Station, lump, mean, share
+from cosserat.models.section import Station, lump, mean
+from cosserat.models.section import share as share_of
 from cosserat.parameters import Count, Parameters, Quantity
 
 Array = NDArray[np.float64]
@@ -149,7 +150,7 @@ class Rod(Parameters):
     def geometry(self) -> Geometry:
         """Its reference configuration; the directors reach the upper surface."""
         arc = np.linspace(0.0, self.length, self.vertices)
-        heights = self.height * share(self.stations, "height", arc, before=False)
+        heights = self.height * share_of(self.stations, "height", arc, before=False)
         return Geometry.arc(self.vertices, self.length, (1 - self.centreline) * heights, self.curvature)
 
     def part_masses(self, geometry: Geometry) -> Array:
@@ -312,13 +313,32 @@ class RodProblem(Parameters):
         return LoadedRod(rod.displaced(geometry), moments, dead, self.held().ravel(), self.drive(0.0)[0])
 
     def mass(self, geometry: Geometry) -> Array:
-        """Mass matrix (3.3.43) as a symmetric band, shape (4 N, 3): rho0 L times 1, Y02 and Y22."""
+        """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
+
+        The consistent rod takes the mean of that and of the mass that straight edges have, shape (4 N, 5): their errors
+        in a frequency are opposite.  Where the centreline is off the area centres it takes (3.3.43) too.
+        """
+        if self.rod.calibration is None and self.rod.first_inertia == 0.0:
+            return self._mean_mass(geometry)
         part = self.rod.part_masses(geometry)
         band = np.zeros((part.size, len(UNKNOWNS), 3))
         band[:, :2, 0] = part[:, None]
         band[:, 2:, 0] = part[:, None] * self.rod.second_inertia
         band[:, :2, 2] = part[:, None] * self.rod.first_inertia
         return band.reshape(-1, 3)
+
+    def _mean_mass(self, geometry: Geometry) -> Array:
+        arc = geometry.arc_length
+        area = mean(self.rod.stations, lambda w, h, _: w * h, arc[:-1], arc[1:])
+        edge = self.rod.line_density * geometry.edge_length * area
+        own = np.zeros(arc.size)
+        own[:-1] += 5 / 12 * edge
+        own[1:] += 5 / 12 * edge
+        band = np.zeros((arc.size, len(UNKNOWNS), 5))
+        for columns, share in ((slice(0, 2), 1.0), (slice(2, 4), self.rod.second_inertia)):
+            band[:, columns, 0] = share * own[:, None]
+            band[:-1, columns, 4] = share * edge[:, None] / 12
+        return band.reshape(-1, 5)
 
     def drive(self, time: float) -> tuple[Array, Array]:
         """Prescribed displacement and velocity of the held numbers at a time, each of shape (4 N,)."""
