@@ -19,6 +19,7 @@ Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, a
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import Literal
 
@@ -121,7 +122,7 @@ class ConsistentRod:
     @property
     def kernel(self) -> object:
         """The compiled energy, for the compiled integrator."""
-        return _energy
+        return _compiled_energy()
 
     @property
     def parameters(self) -> Array:
@@ -302,7 +303,12 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
     return total
 
 
-@cfunc(KERNEL, cache=True)
 def _energy(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
     """The same, as a function that compiled solvers can be handed."""
     return _assemble(q, rod, order, gradient, band, terms)
+
+
+@functools.cache
+def _compiled_energy() -> object:
+    """Loaded only where a motion needs it: 0.2 s."""
+    return cfunc(KERNEL, cache=True)(_energy)

@@ -139,7 +139,7 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
     assert isinstance(body, Compiled)
     q, v = state.q.copy(), np.where(system.held, 0.0, state.v)
     width = 1 + max((k for k in range(system.mass.shape[1]) if system.mass[:, k].any()), default=0)
-    done = march(
+    done = march()(
         body.kernel,
         body.parameters,
         q,

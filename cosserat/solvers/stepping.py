@@ -6,6 +6,8 @@ corrections shrink fast, which they do where little changes in a step.
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -96,23 +98,7 @@ def _times(mass: Band, x: Vector, y: Vector) -> None:
             y[j] += mass[j, k] * x[j + k]
 
 
-@njit(
-    types.int64(
-        types.FunctionType(KERNEL),
-        types.float64[:, ::1],
-        types.float64[::1],
-        types.float64[::1],
-        types.float64[:, ::1],
-        types.float64[::1],
-        types.boolean[::1],
-        types.float64,
-        types.float64,
-        types.int64,
-        types.int64,
-    ),
-    cache=True,
-)
-def march(kernel, rod, q, v, mass, load, held, drag, h, steps, width):  # type: ignore[no-untyped-def]
+def _march(kernel, rod, q, v, mass, load, held, drag, h, steps, width):  # type: ignore[no-untyped-def]
     """Take steps of h, overwriting q and v; returns the number of steps taken, fewer where one found no solution."""
     n = q.size
     gradient, none, terms = np.empty(n), np.empty((0, width + 1)), np.empty(16)
@@ -203,3 +189,24 @@ def march(kernel, rod, q, v, mass, load, held, drag, h, steps, width):  # type: 
         if not np.isfinite(before):
             return done
     return steps
+
+
+@functools.cache
+def march() -> Callable[..., int]:
+    """`_march`, compiled; loaded only where a motion needs it."""
+    vector, matrix = types.float64[::1], types.float64[:, ::1]
+    signature = types.int64(
+        types.FunctionType(KERNEL),
+        matrix,
+        vector,
+        vector,
+        matrix,
+        vector,
+        types.boolean[::1],
+        types.float64,
+        types.float64,
+        types.int64,
+        types.int64,
+    )
+    compiled: Callable[..., int] = njit(signature, cache=True)(_march)
+    return compiled
