@@ -14,7 +14,7 @@ all: $(READY)
 test: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	@$(BIN)/mypy & types=$$!; $(BIN)/pytest --cov --cov-report=term; tests=$$?; \
+	@$(BIN)/mypy & types=$$!; $(BIN)/pytest --cov --cov-report=term --numprocesses=2 --dist=loadfile; tests=$$?; \
 	  wait $$types || { echo "mypy found errors, above" >&2; exit 1; }; exit $$tests
 
 $(READY): requirements.lock pyproject.toml

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +54,15 @@ def solved():
     import cosserat
 
     return {name: cosserat.run(case) for name, case in cosserat.published().items()}
+
+
+@pytest.fixture
+def untraced():
+    """No tracing of lines while something is timed: coverage slows Python, not what is compiled."""
+    tracer = sys.gettrace()
+    sys.settrace(None)
+    yield
+    sys.settrace(tracer)
 
 
 @pytest.fixture

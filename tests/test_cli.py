@@ -264,6 +264,7 @@ def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
     assert "is of kind 'convergence', which has no picture" in err
 
 
+@pytest.mark.usefixtures("untraced")
 def test_speed_is_measured(capsys):
     code, out, _ = call(capsys, "speed")
     assert code == 0

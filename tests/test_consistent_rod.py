@@ -419,3 +419,38 @@ def test_a_million_vertices():
     assert time.perf_counter() - start < 30
     exact = analytic.hanging_bar_displacement(beam_of(posed), 9.81, fields["xi"])
     assert fields["u"][-1, 0] == pytest.approx(exact[-1], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("supports", "compliance"),
+    [
+        # hinges at both ends: P L^3 / 48 EI + P L / 4 kGA
+        ([{"at": "first", "hold": ["x3", "x2"]}, {"at": "last", "hold": ["x2"]}], (1 / 48, 1 / 4)),
+        # a clamp and a guide, which keeps the slope: half of a clamped-clamped beam of twice the length
+        (
+            [{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}, {"at": "last", "hold": ["d3"]}],
+            (1 / 12, 1.0),
+        ),
+        # a clamp and a hinge: 7 P L^3 / 768 EI without shear; left to the mesh's own limit
+        ([{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}, {"at": "last", "hold": ["x2"]}], None),
+    ],
+)
+def test_hinges_and_guides_lose_no_order(supports, compliance):
+    """A force at mid-span, or at the guide; small, so that the answer is linear."""
+    guided = compliance == (1 / 12, 1.0)
+    tips = []
+    for elements in (10, 20, 40, 80):
+        posed, bending = slender(elements, radius=0.05)
+        at = elements if guided else elements // 2
+        loaded = posed.replace(
+            supports=supports, forces=({"at": at, "along": "E2", "force": 1e-5 * bending},)
+        )
+        tips.append(loaded.solve("x").fields["u"][at, 1] / 1e-5)
+    if compliance:
+        shear = 5 / 6 * posed.rod.young / 2 * posed.rod.area / bending
+        exact = compliance[0] + compliance[1] / shear
+    else:
+        exact = tips[-1] + (tips[-1] - tips[-2]) / 3
+    errors = np.abs(np.array(tips) - exact)
+    assert -np.diff(np.log2(errors))[:2] == pytest.approx(2, abs=0.15)
+    assert errors[1] < 5e-3 * exact

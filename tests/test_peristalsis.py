@@ -395,6 +395,7 @@ def test_layers_too_steep_for_the_ground_are_refused():
         cosserat.run(steep)
 
 
+@pytest.mark.usefixtures("untraced")
 def test_the_banded_solver_is_more_than_twenty_times_faster_at_that_accuracy():
     """On some instants of the stride; `cosserat speed` times all of them."""
     problem = WORM.replace(strides=1, step=1.0)
