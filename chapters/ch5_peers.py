@@ -50,8 +50,8 @@ else:
 shown
 
 # %% [markdown]
-# What bounds the consistent rod: in (a) and (b) the Newton iterations, some 20 microseconds each at 20 vertices, of which the
-# compiled kernel takes 4 and LAPACK's banded Cholesky 6, the rest is NumPy around them; one load step is enough, where
-# others take ten. In (c) everything is compiled: an iteration of the modified Newton method evaluates the gradient and, towards
+# What bounds the consistent rod: in (a) and (b) the Newton iterations, some 35 microseconds each at 20 vertices, of which the
+# compiled kernel takes 4 and LAPACK's banded Cholesky 3; the rest is NumPy and Python around them, which finer meshes
+# outgrow. One load step is enough, where others take ten. In (c) everything is compiled: an iteration of the modified Newton method evaluates the gradient and, towards
 # the end of a step, the energy, and substitutes into a factor that is made anew only when the corrections no longer
 # shrink fast; per vertex that is some 35 nanoseconds for the gradient, 25 for the energy and 60 for the substitution.
