@@ -1,8 +1,7 @@
 """Exudyn's geometrically exact linear beam on one problem: `python with_exudyn.py PROBLEM RUNS` prints a JSON answer.
 
 Static problems by its Newton solver, with five load steps where the deflection is large, which suited it best; motion
-by its implicit
-trapezoidal rule with a modified Newton method.
+by its implicit trapezoidal rule with a modified Newton method.
 """
 
 # mypy: ignore-errors
