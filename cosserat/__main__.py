@@ -30,6 +30,12 @@ def main(arguments: list[str] | None = None) -> int:
     except CosseratError as error:
         print(f"cosserat: {error}", file=sys.stderr)
         return 2 if isinstance(error, InputError) else 1
+    except MemoryError:
+        print(
+            "cosserat: this needs more memory than there is; take fewer vertices, sections, elements or frames",
+            file=sys.stderr,
+        )
+        return 2
     except KeyboardInterrupt:
         print("cosserat: interrupted; nothing half-done was written", file=sys.stderr)
         return 130
@@ -228,7 +234,12 @@ def _done(dataset: xr.Dataset) -> str:
     if "misfit_evaluations" in done:
         return f"{done['misfit_evaluations']} evaluations of the misfits"
     if "points" in done:
-        return f"{done['points']} points in {done['iterations']} Newton iterations"
+        reached = done["load_factor_reached"]
+        end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to go on"
+        return (
+            f"{done['points']} points, {done['unstable_points']} of them unstable, up to {reached:.4g} of the load, "
+            f"{done['iterations']} Newton iterations{end}"
+        )
     if "steps" in done:
         return f"{dataset.sizes['time'] - 1} frames in {done['steps']} steps"
     if "residual_N" not in done:

@@ -123,6 +123,7 @@ class Count:
     symbol: str = ""
     source: str = ""
     at_least: int = 0
+    at_most: int = 20_000_000
 
     def check(self, value: object) -> int:
         """Read and range-check one value."""
@@ -130,6 +131,8 @@ class Count:
             raise PydanticCustomError("type", f"is {value!r}; it must be a whole number")
         if value < self.at_least:
             raise PydanticCustomError("range", f"is {value}; it must be at least {self.at_least}")
+        if int(value) > self.at_most:
+            raise PydanticCustomError("range", f"is {value}; it must be at most {self.at_most}")
         return int(value)
 
     def __get_pydantic_core_schema__(

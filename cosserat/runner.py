@@ -11,6 +11,7 @@ import xarray as xr
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.dataset import to_dataset
 from cosserat.data.parts import Parts
+from cosserat.errors import InputError
 from cosserat.models.peristalsis import Crawl
 from cosserat.models.rod_motion import RodMotion
 from cosserat.outcome import Outcome
@@ -34,6 +35,8 @@ def run(case: Case | str, *, result: Path | None = None, progress: Progress | No
     NotConvergedError, DivergedError, OutOfReachError : no solution; what a motion computed before stays in its parts.
     """
     known = find(case) if isinstance(case, str) else case
+    if not isinstance(known, Case):
+        raise InputError(f"run takes a case or the name of a published one, not {case!r}")
     name = f"case '{known.name}'"
     if isinstance(known.problem, RodMotion):
         outcome = _in_parts(known, known.problem, name, Parts(result) if result else None, progress)

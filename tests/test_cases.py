@@ -159,3 +159,13 @@ def test_lumped_properties_may_vary_along_the_rod():
     state = equilibrium(body, start.ravel(), load.ravel(), held.ravel(), NewtonSettings(), "two halves")
     strain = np.diff(state.q.reshape(11, 4)[:, 0]) / geometry.edge_length - 1
     np.testing.assert_allclose(strain, 100.0 / (young * 0.25), rtol=1e-5)
+
+
+def test_a_bad_case_does_not_keep_its_neighbours_from_running(tmp_path):
+    file = tmp_path / "my.toml"
+    file.write_text('[good]\nlike = "necking"\n[bad]\nlike = "necking"\nrod.length = "5 kg"\n')
+    assert cosserat.case("good", file).name == "good"
+    with pytest.raises(InputError, match="case 'bad': 'rod.length'"):
+        cosserat.case("bad", file)
+    with pytest.raises(InputError, match="run takes a case or the name of a published one, not 3"):
+        cosserat.run(3)

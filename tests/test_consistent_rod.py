@@ -259,7 +259,10 @@ def test_the_path_leaves_the_straight_column_at_eulers_load(solved):
     factor = path.load_factor.to_numpy() * 2.3132 / (np.pi**2 / 4 * 0.46875)
     tip = np.abs(path.x.sel(axis="E2").isel(vertex=-1).to_numpy())
     bent = tip > 1e-3
-    assert factor[~bent].max() < 1.0 < factor[bent].min() + 1e-6
+    assert (
+        0.99 < factor[~bent].max() < 1.0 + 1e-4
+    )  # closed in on; the column shortens a little before it buckles
+    assert factor[bent].min() > 0.9999
     assert path.stable.to_numpy().all()
     for load, sideways in zip(factor[bent], tip[bent], strict=True):
         if load > 1.02:
@@ -454,3 +457,83 @@ def test_hinges_and_guides_lose_no_order(supports, compliance):
     errors = np.abs(np.array(tips) - exact)
     assert -np.diff(np.log2(errors))[:2] == pytest.approx(2, abs=0.15)
     assert errors[1] < 1e-2 * exact
+
+
+COLUMN = {"supports": [{"at": "first", "hold": ["x3", "x2"]}, {"at": "last", "hold": ["x2"]}]}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        # a straight column turns nowhere, so that arcs grow past the branching point unless it is closed in on
+        {**COLUMN, "forces": [{"at": "last", "along": "-E3", "force": "6 N"}]},
+        {**COLUMN, "forces": [{"at": "last", "along": "-E3", "force": "9 N"}]},
+        # a moved clamp: two eigenvalues change their sign within the first arc
+        {
+            "supports": [*CLAMP, {"at": "last", "hold": ["x3", "x2", "d3", "d2"]}],
+            "moves": [{"at": "last", "unknown": "x3", "by": "-20 cm"}],
+            "forces": [],
+        },
+        # imperfect columns, whose corrections end in rounding
+        *(
+            {
+                "forces": [
+                    {"at": "last", "along": "-E3", "force": force},
+                    {"at": "last", "along": "E2", "force": "1 mN"},
+                ]
+            }
+            for force in ("4 N", "11.5 N")
+        ),
+    ],
+)
+def test_paths_reach_their_load_bent_and_stable(changes):
+    path = cosserat.run(cosserat.case("column_path").vary("x", **changes))
+    assert path.load_factor[-1] == 1
+    assert path.stable[-1] == 1
+    assert np.abs(path.x.sel(axis="E2")[-1]).max() > 0.15
+    assert path.load_factor.max() <= 1.5
+
+
+def test_a_path_that_ends_early_says_so():
+    path = cosserat.run(cosserat.case("arch_path").vary("x", arc={"count": 3}))
+    assert '"load_factor_reached": 0.' in path.attrs["solver"]
+    from cosserat.__main__ import _done
+
+    assert "raise 'arc.count' to go on" in _done(path)
+
+
+def test_shear_is_that_of_the_edges():
+    posed, bending = slender(40, radius=0.05)
+    done = posed.replace(forces=({"at": "last", "along": "E2", "force": 1e-3 * bending},)).solve("x")
+    shear = 1e-3 * bending / (5 / 6 * posed.rod.young / 2 * posed.rod.area)
+    np.testing.assert_allclose(done.fields["shear"], shear, rtol=1e-3)
+    assert "theta" not in done.fields
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"line_loads": [{"along": "E2", "density": "1 N/m", "start": "0.3 m", "end": "0.2 m"}]},
+            "from 0.3 m to 0.2 m",
+        ),
+        (
+            {"line_loads": [{"along": "E2", "density": "1 N/m", "start": "0.5 m", "end": "6 m"}]},
+            "the rod goes from 0 to 1 m",
+        ),
+        (
+            {
+                "moves": [
+                    {"at": "first", "unknown": "x3", "by": "1 cm"},
+                    {"at": 0, "unknown": "x3", "by": "2 cm"},
+                ]
+            },
+            "moves the same number of a vertex twice",
+        ),
+        ({"rod": {"vertices": 100_000_000}}, "'rod.vertices' is 100000000; it must be at most 20000000"),
+        ({"newton": {"load_steps": 10**9}}, "it must be at most 100000"),
+    ],
+)
+def test_loads_that_would_be_dropped_and_sizes_that_cannot_be(changes, sentence):
+    with pytest.raises(InputError, match=sentence):
+        cosserat.case("elastica").vary("x", **changes)

@@ -240,7 +240,7 @@ def test_an_incompressible_body_has_to_anchor_somewhere():
             {"crawler": {"radius": "1e-100 m"}},
             "has length / radius = 2.5e[+]99; it must be below 1e[+]06",
         ),
-        ({"crawler": {"density": "1 kg/m^3"}}, "'crawler' needs either a mass or a density"),
+        ({"crawler": {"density": "1 kg/m^3"}}, "'crawler' has both a mass and a density; give one"),
         (
             {"crawler": {"material": {"kind": "compressible", "young": "10 kPa", "bulk": "1e30 Pa"}}},
             "Poisson's ratio of 0.5; it must be",
@@ -262,6 +262,8 @@ def test_crawls_that_cannot_be_are_refused(changes, sentence):
 def test_a_sweep_needs_masses_and_a_weight_can_collapse_a_body():
     with pytest.raises(InputError, match="'masses' is empty"):
         cosserat.case("worm_masses").vary("x", masses=[])
+    with pytest.raises(InputError, match="'worm.gait.phases' has 4; it takes two"):
+        cosserat.case("worm_masses").vary("x", worm=cosserat.case("soft_robot").problem.model_dump())
     with pytest.raises(
         InputError, match="'loads.anchoring' = 0 N and a weight of 40 N/m would collapse"
     ):

@@ -91,6 +91,10 @@ def find(name: str, file: Path | None = None) -> Case:
     """
     if file is None and name in titles():
         return _published_case(name)
+    if file is not None:
+        tables = _read(file)
+        if name in tables and not name.startswith("_"):
+            return _build(name, _published_tables() | tables)
     known = published() if file is None else load(file)
     if name not in known:
         place = "" if file is None else f" in {file}"
@@ -105,6 +109,12 @@ def load(file: Path) -> Mapping[str, Case]:
     ------
     InputError : the file cannot be read, is not TOML, or one of its cases is not valid.
     """
+    tables = _read(file)
+    return _build_all(tables, _published_tables() | tables)
+
+
+def _read(file: Path) -> dict[str, Any]:
+    """The tables of a case file."""
     try:
         tables = tomllib.loads(file.read_text(encoding="utf-8-sig"))
     except OSError as error:
@@ -122,7 +132,7 @@ def load(file: Path) -> Mapping[str, Case]:
         )
     if not tables:
         raise InputError(f"{file} holds no case; begin one with its name, such as [my_rod]")
-    return _build_all(tables, _published_tables() | tables)
+    return tables
 
 
 def parse(parameters: str) -> Case:

@@ -62,6 +62,9 @@ VARIABLES: dict[str, Variable] = {
     "phi": Variable(("vertex",), "rad", "turning angle", r"{}_K\varphi", "3.3.18", 1e-11),
     "kappa": Variable(("vertex",), "m-1", "centreline curvature", r"{}_K\kappa", "3.3.23", 1e-10),
     "theta": Variable(("vertex",), "rad", "shear angle", r"{}_K\vartheta", "3.3.26", 1e-11),
+    "shear": Variable(
+        ("edge",), "rad", "shear angle of the edges of the consistent rod", "g/a", "3.3.24", 1e-11
+    ),
     "applied_force": Variable(
         ("vertex", "unknown"), "N", "applied force", r"\mathbf{F}_{ext}", "3.3.40", 1e-9
     ),

@@ -37,10 +37,10 @@ def picture(data: xr.Dataset) -> Figure:
         (data.u.sel(axis="E3"), "displacement along E3 [m]"),
         (data.u.sel(axis="E2"), "displacement along E2 [m]"),
         (data.lam - 1, r"section strain $\lambda - 1$ [1]"),
-        (data.theta, r"shear angle $\vartheta$ [rad]"),
+        (data.theta if "theta" in data else data.shear, "shear angle [rad]"),
     ]
     for ax, (values, label) in zip(axes[2:], curves, strict=True):
-        ax.plot(data.xi, values, color=COMPUTED, marker=".")
+        ax.plot(data.xi if "vertex" in values.dims else data.xi_edge, values, color=COMPUTED, marker=".")
         ax.set(xlabel=r"arc length $\xi$ [m]", ylabel=label)
     return figure
 

@@ -94,6 +94,14 @@ def coefficients(
     return rod
 
 
+def edge_shear(x: Array, d: Array) -> Array:
+    """Angle of each edge against the normal of the mean of its two directors, shape (N - 1,) [rad]."""
+    unit = d / np.linalg.norm(d, axis=1)[:, None]
+    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
+    angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
+    return angle
+
+
 def _moduli(part: Lumped, section: SectionState) -> tuple[Array, Array, Array]:
     """mu, Lambda and the modulus of bending."""
     if section == "incompressible":

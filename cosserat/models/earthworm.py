@@ -74,7 +74,11 @@ def resting_diameter(mass: float) -> float:
 
 
 class BodyMasses(Parameters):
-    """A worm's crawl at many body masses, under one law for its muscles."""
+    """A worm's crawl at many body masses, under one law for its muscles.
+
+    Length, radius, mass and durations of the worm are replaced by those of Table 2.1, its loads by those of the law,
+    and one stride is made.
+    """
 
     kind: Literal["body masses"] = "body masses"
     worm: Crawl
@@ -85,6 +89,12 @@ class BodyMasses(Parameters):
     def _has_masses(self) -> Self:
         if not self.masses:
             raise PydanticCustomError("masses", "'masses' is empty; give at least one body mass")
+        if len(self.worm.gait.phases) != 2:
+            raise PydanticCustomError(
+                "phases",
+                f"'worm.gait.phases' has {len(self.worm.gait.phases)}; it takes two, protrusion and stance, whose "
+                "durations Table 2.1 then gives",
+            )
         return self
 
     def solve(self, name: str) -> Outcome:

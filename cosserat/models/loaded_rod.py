@@ -53,8 +53,10 @@ class LoadedRod:
         """q with its held unknowns where the factor puts them."""
         return np.where(self.held, factor * self.shift, q)
 
-    def load(self, factor: float) -> Vector:
-        """Dead load, shape (4 N,) [N]; a couple counts as the force of its director."""
+    def load(self, factor: float, *, signed: bool = False) -> Vector:
+        """Dead load, shape (4 N,) [N]; unsigned, a couple counts as the force of its director."""
+        if signed:
+            return factor * self.dead
         force = np.abs(self.moments) / self.body.rod[:, 9]
         size: Vector = np.abs(factor) * np.maximum(np.abs(self.dead), np.repeat(force, 4))
         return size

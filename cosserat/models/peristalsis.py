@@ -31,7 +31,7 @@ class CrawlerProblem(Parameters):
     """"collocation" is the thesis's way, `scipy.integrate.solve_bvp`: the reference, and slower."""
     collocation_tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-2)] = 1e-4
     mesh: RegionSettings = RegionSettings()
-    sections: Annotated[int, Count(at_least=2)] = 251
+    sections: Annotated[int, Count(at_least=2, at_most=100_001)] = 251
     """Equally spaced cross-sections at which results are stored."""
 
     @property
@@ -154,7 +154,7 @@ class Crawl(CrawlerProblem):
 
     kind: Literal["crawl"] = "crawl"
     gait: Gait
-    strides: Annotated[int, Count(at_least=1)] = 3
+    strides: Annotated[int, Count(at_least=1, at_most=10_000)] = 3
     step: Annotated[float, Quantity("s", "t_{step}", "2.5.9", above=0)]
 
     @model_validator(mode="after")

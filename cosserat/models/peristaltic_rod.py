@@ -15,7 +15,7 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.models.directed_rod import Section, integrated_stiffnesses
@@ -81,10 +81,20 @@ class Crawler(Parameters):
     mass: Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None = None
     density: Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None = None
 
+    @field_validator("mass", "density", mode="before")
+    @classmethod
+    def _none_at_all(cls, value: object) -> object:
+        """A file has no word for nothing: 'none' takes away what `like` brought in."""
+        return None if value == "none" else value
+
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
         if (self.mass is None) == (self.density is None):
-            raise PydanticCustomError("mass", "needs either a mass or a density")
+            fault = "has neither" if self.mass is None else "has both"
+            raise PydanticCustomError(
+                "mass",
+                f"{fault} a mass and a density; give one of them (and 'none' for what 'like' brought in)",
+            )
         if self.length > _SLENDER * self.radius:
             raise PydanticCustomError(
                 "slender",

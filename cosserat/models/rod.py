@@ -263,6 +263,19 @@ class RodProblem(Parameters):
                     f"'at' is {at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
                     "choose one of those, 'first' or 'last'",
                 )
+        for line in self.line_loads:
+            end = self.rod.length if line.end is None else line.end
+            if not line.start < end <= self.rod.length * (1 + 1e-12):
+                raise PydanticCustomError(
+                    "range",
+                    f"'line_loads' has one from {line.start:g} m to {end:g} m, but the rod goes from 0 to "
+                    f"{self.rod.length:g} m; let it begin before it ends, on the rod",
+                )
+        moved = [(self._index(move.at), move.unknown) for move in self.moves]
+        if len(set(moved)) < len(moved):
+            raise PydanticCustomError(
+                "twice", "'moves' moves the same number of a vertex twice; put both together"
+            )
         held = self.held()
         for move in self.moves:
             if not held[self._index(move.at), UNKNOWNS.index(move.unknown)]:

@@ -24,8 +24,10 @@ class ArcSettings(Parameters):
 
     first: Annotated[float, Quantity("1", above=0)] = 0.05
     longest: Annotated[float, Quantity("1", above=0)] = 0.3
-    count: Annotated[int, Count(at_least=1)] = 200
+    count: Annotated[int, Count(at_least=1, at_most=100_000)] = 200
     """Most arcs."""
+    limit: Annotated[float, Quantity("1", above=1)] = 3.0
+    """Share of the load, either way, beyond which the path is given up."""
     branch: Literal["leave", "stay"] = "leave"
     """At a branching point, whether to leave along the softest motion or to stay on the path."""
 
@@ -50,7 +52,7 @@ class RodPath(RodProblem):
         return self
 
     def solve(self, name: str) -> Outcome:
-        """Every point of the path.
+        """Every point of the path; after 'arc.count' arcs it ends where it is, which the statistics say.
 
         Raises
         ------
@@ -61,7 +63,14 @@ class RodPath(RodProblem):
         start = np.hstack([geometry.X, geometry.D])
         refuse_rigid_motion(start, self.held(), name)
         climb = Climb(self.loaded(geometry), self.newton, name)
-        arc = Arc(self.arc.first, self.arc.longest, self.arc.count, 1.0, self.arc.branch == "leave")
+        arc = Arc(
+            self.arc.first,
+            self.arc.longest,
+            self.arc.count,
+            until=1.0,
+            limit=self.arc.limit,
+            switch=self.arc.branch == "leave",
+        )
         points: list[Point] = list(follow(climb, np.zeros(start.size), arc))
         q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
         fields = {
@@ -74,4 +83,10 @@ class RodPath(RodProblem):
             "d": q[..., 2:],
             "potential": np.array([point.energy for point in points]),
         }
-        return Outcome(fields, {"points": len(points), "iterations": climb.iterations}, along="point")
+        statistics = {
+            "points": len(points),
+            "iterations": climb.iterations,
+            "load_factor_reached": points[-1].factor,
+            "unstable_points": sum(not point.stable for point in points),
+        }
+        return Outcome(fields, statistics, along="point")

@@ -10,7 +10,7 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import UnsupportedRodError
-from cosserat.models.consistent import ConsistentRod
+from cosserat.models.consistent import ConsistentRod, edge_shear
 from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
 from cosserat.models.rod import RodBody, RodProblem
 from cosserat.outcome import Outcome
@@ -115,7 +115,11 @@ def _fields(geometry: Geometry, body: RodBody, state: Equilibrium, load: Array) 
     x, d = q[:, : len(AXES)], q[:, len(AXES) :]
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
-    return {
+    if isinstance(body, ConsistentRod):
+        own = {"shear": edge_shear(x, d), "energy_parts": body.energy_terms(state.q)}
+    else:
+        own = {"theta": measured.theta, "energy": body.energy_terms(state.q)}
+    return own | {
         "xi": arc,
         "xi_edge": (arc[1:] + arc[:-1]) / 2,
         "x_ref": geometry.X,
@@ -129,10 +133,8 @@ def _fields(geometry: Geometry, body: RodBody, state: Equilibrium, load: Array) 
         "lam": measured.lam,
         "phi": measured.phi,
         "kappa": measured.kappa,
-        "theta": measured.theta,
         "applied_force": load,
         "support_force": state.reaction.reshape(load.shape),
-        "energy_parts" if isinstance(body, ConsistentRod) else "energy": body.energy_terms(state.q),
     }
 
 

@@ -14,17 +14,25 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from cosserat.errors import NotConvergedError
-from cosserat.solvers.banded import Band, Mask, Vector, absolute_product, hold, solve_positive
+from cosserat.solvers.banded import (
+    Mask,
+    Vector,
+    absolute_product,
+    hold,
+    negative_eigenvalues,
+    solve_positive,
+)
+from cosserat.solvers.indefinite import shifted, softest, solve_any
 from cosserat.solvers.newton import NewtonSettings
 
 _EPS = float(np.finfo(float).eps)
 _SMALLEST = 2.0**-12  # share of the load below which halving gives up
 _BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answer worthless
+_ROUGH = 16.0  # multiple of the estimate below which a residual that no longer falls is rounding
+_CLOSE = 0.02  # share of the first arc to which a crossing of paths is closed in on
 _PUSH = 0.05  # share of its reach by which an unstable body is pushed
-_SHIFTS = tuple(2.0**k for k in range(-40, 12))  # shares of the largest diagonal entry, tried in turn
 _EASY, _HARD = 4, 8  # corrector iterations below which the arc grows and above which it shrinks
 
 
@@ -49,8 +57,8 @@ class Loaded(Protocol):
     def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
         """Elastic energy at q; overwrites the gradient of the potential, loads included, and the Hessian."""
 
-    def load(self, factor: float) -> Vector:
-        """Dead load, shape (n,): the scale of what counts as balanced."""
+    def load(self, factor: float, *, signed: bool = False) -> Vector:
+        """Dead load, shape (n,), and unsigned also what couples amount to: the scale of what counts as balanced."""
 
     def rate(self, q: Vector, factor: float, band: Band) -> Vector:
         """Change of that gradient with the factor, shape (n,); `band` is the Hessian at q."""
@@ -64,7 +72,7 @@ class Point:
     """One equilibrium.
 
     factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance, rounding : as
-    in `newton.Equilibrium` [N].  stable : whether it is a minimum of the potential.
+    in `newton.Equilibrium` [N].  negative : how many eigenvalues of the Hessian are negative.
     """
 
     q: Vector
@@ -75,7 +83,12 @@ class Point:
     residual: float
     tolerance: float
     rounding: float
-    stable: bool
+    negative: int
+
+    @property
+    def stable(self) -> bool:
+        """Whether the potential has a minimum there."""
+        return self.negative == 0
 
 
 class Climb:
@@ -86,6 +99,9 @@ class Climb:
         self.body, self.settings, self.name = body, settings, name
         self.gradient, self.band = np.empty(n), np.empty((n, body.half_bandwidth + 1))
         self.iterations = self.halvings = self.pushes = 0
+        self.remedy = (
+            "the path may turn back there: follow it with kind = 'rod path', or check supports and loads"
+        )
 
     def to(self, start: Vector, factor: float) -> Point:
         """A stable equilibrium at the factor, by as few increments as it takes.
@@ -123,7 +139,7 @@ class Climb:
         body, held = self.body, self.body.held
         q = body.place(q, factor)
         load = float(np.abs(body.load(factor)).max())
-        largest = 0.0
+        largest, last = 0.0, np.inf
         for _ in range(self.settings.max_iterations + 1):
             energy = body.assemble(q, factor, self.gradient, self.band)
             if not np.isfinite(energy):
@@ -137,14 +153,14 @@ class Climb:
             if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
                 raise NotConvergedError(
                     f"{self.name}: rounding the unknowns makes forces up to {rounding:.2g} N, too much beside the "
-                    "loads; use fewer vertices",
+                    "loads; use fewer vertices, or loads that strain the body less",
                     iterations=self.iterations,
                     residual=residual,
                     tolerance=tolerance,
                 )
             hold(self.band, held)
             step = solve_positive(self.band, unbalanced)
-            if residual <= tolerance:
+            if residual <= tolerance or _stalled(residual, last, rounding):
                 reaction = np.where(held, self.gradient, 0.0)
                 return Point(
                     q,
@@ -155,10 +171,11 @@ class Climb:
                     residual,
                     tolerance,
                     rounding,
-                    step is not None,
+                    0 if step is not None else negative_eigenvalues(self.band),
                 )
+            last = residual
             if step is None:
-                step = _shifted(self.band, unbalanced) if downhill else solve_any(self.band, unbalanced)
+                step = shifted(self.band, unbalanced) if downhill else solve_any(self.band, unbalanced)
             if step is None or not np.isfinite(step).all():
                 return None
             q = q + min(1.0, body.reach(q, step)) * step
@@ -176,14 +193,15 @@ class Climb:
         self.body.assemble(point.q, point.factor, self.gradient, self.band)
         hold(self.band, self.body.held)
         motion = softest(self.band, self.body.held)
+        if float(self.body.load(point.factor, signed=True) @ motion) < 0:
+            motion = -motion  # to the side that the loads push to
         reach = self.body.reach(point.q, motion)
         found = self.at(point.q + _PUSH * reach * motion, point.factor, downhill=True)
         return found if found is not None and found.stable else None
 
     def _failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
         error = NotConvergedError(
-            f"{self.name}: no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); the path may turn "
-            "back there: follow it with kind = 'rod path', or check supports and loads",
+            f"{self.name}: no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); {self.remedy}",
             iterations=self.iterations,
         )
         error.state = None if last is None else last.q  # as the body counts its unknowns
@@ -195,65 +213,94 @@ class Climb:
 class Arc:
     """How a path is followed: length of the first arc and of the longest, number of arcs, and where to stop.
 
-    A length is the change of the unknowns in the norm of the largest, as a share of the reach of the body.
+    A length is the change of the unknowns in the norm of the largest, as a share of the reach of the body, and that of
+    the factor.  until : factor at which the path ends.  limit : factor beyond which it is given up.
+    switch : whether to leave the path where it branches.
     """
 
     first: float
     longest: float
     count: int
     until: float
+    limit: float
     switch: bool
 
 
 def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
     """Points along the path from the factor zero on, by pseudo-arclength, until the factor passes `until`.
 
-    switch : leave the path where it branches, along the softest motion.
+    Where an eigenvalue changes its sign without the path turning back, another path crosses: the crossing is closed in
+    on by halving, and the path left along the softest motion there.
 
     Raises
     ------
-    NotConvergedError : no further point; the last one is its `state`.
+    NotConvergedError : no further point, or the factor goes beyond the limit; the last point is its `state`.
     """
+    climb.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
     point = climb.at(start, 0.0)
     if point is None:
         raise climb._failure(0.0, 0.0, None)
     yield point
-    body = climb.body
-    tangent, slope = _tangent(climb, point, None)
-    ds, sign = arc.first, _sign(climb, point)
+    body, switch = climb.body, arc.switch
+    direction = _tangent(climb, point, None)
+    ds = arc.first
     for _ in range(arc.count):
-        found = None
-        while found is None and ds > _SMALLEST * arc.first:
-            before = climb.iterations
-            found = _corrected(climb, point, tangent, slope, ds)
-            if found is None:
-                ds /= 2
-        if found is None:
-            raise climb._failure(point.factor, point.factor + slope * ds, point)
+        before = climb.iterations
+        found, ds = _next(climb, point, direction, ds, arc)
         effort = climb.iterations - before
-        new_tangent, new_slope = _tangent(climb, found, (tangent, slope))
-        new_sign = _sign(climb, found)
-        branches = new_sign != sign and new_slope * slope > 0
-        if branches and arc.switch:
-            branch = _branch(climb, found, ds)
-            if branch is not None:
-                yield branch
-                away = branch.q - found.q
-                size = _norm(body, branch.q, away)
-                new_tangent, new_slope = _tangent(
-                    climb, branch, (away / size, (branch.factor - found.factor) / size)
-                )
-                found, new_sign = branch, _sign(climb, branch)
-                arc = Arc(arc.first, arc.longest, arc.count, arc.until, switch=False)
-        else:
-            passed = (found.factor - arc.until) * (point.factor - arc.until) <= 0 < abs(found.factor)
-            if passed and found.factor != 0.0 and point.factor != arc.until:
-                last = climb.at(found.q, arc.until)
-                yield found if last is None else last
-                return
-            yield found
-        point, tangent, slope, sign = found, new_tangent, new_slope, new_sign
+        ahead = _tangent(climb, found, direction)
+        if switch and found.negative != point.negative and ahead[1] * direction[1] > 0:
+            near, found = _crossing(climb, point, direction, ds, arc)
+            if near is not point:
+                yield near
+            branch = _branch(climb, found, arc)
+            if branch is None:
+                raise climb._failure(found.factor, found.factor, point)
+            away = branch.q - found.q
+            size = np.hypot(_norm(body, branch.q, away), branch.factor - found.factor)
+            ahead = _tangent(climb, branch, (away / size, (branch.factor - found.factor) / size))
+            found, switch, ds = branch, False, arc.first
+        if point.factor != 0.0 and (found.factor - arc.until) * (point.factor - arc.until) <= 0:
+            last = climb.at(found.q, arc.until)
+            yield found if last is None else last
+            return
+        if abs(found.factor) > arc.limit:
+            raise climb._failure(point.factor, found.factor, point)
+        yield found
+        point, direction = found, ahead
         ds = min(arc.longest, 2 * ds) if effort <= _EASY else ds / 2 if effort > _HARD else ds
+
+
+def _next(
+    climb: Climb, point: Point, direction: tuple[Vector, float], ds: float, arc: Arc
+) -> tuple[Point, float]:
+    """The next point along a direction, and the arc that led to it."""
+    while ds > _SMALLEST * arc.first:
+        found = _corrected(climb, point, *direction, ds)
+        if found is not None:
+            return found, ds
+        ds /= 2
+    raise climb._failure(point.factor, point.factor + direction[1] * ds, point)
+
+
+def _crossing(
+    climb: Climb, point: Point, direction: tuple[Vector, float], ds: float, arc: Arc
+) -> tuple[Point, Point]:
+    """The points just before and just after the first change of sign of an eigenvalue within an arc."""
+    low, high = 0.0, ds
+    before, after = point, None
+    while after is None or high - low > _CLOSE * arc.first:
+        middle = high if after is None else (low + high) / 2
+        found = _corrected(climb, point, *direction, middle)
+        if found is None:
+            break
+        if found.negative == point.negative:
+            low, before = middle, found
+        else:
+            high, after = middle, found
+    if after is None:
+        raise climb._failure(point.factor, point.factor, point)
+    return before, after
 
 
 def _norm(body: Loaded, q: Vector, step: Vector) -> float:
@@ -288,7 +335,7 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
     """The equilibrium on the plane across the tangent at an arc of ds, with its factor."""
     body, held = climb.body, climb.body.held
     q, factor = point.q + ds * tangent, point.factor + ds * slope
-    weight = _weight(tangent)
+    weight, last = _weight(tangent), np.inf
     for _ in range(2 * _HARD):
         q = body.place(q, factor)
         energy = body.assemble(q, factor, climb.gradient, climb.band)
@@ -302,12 +349,13 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
         tolerance = max(climb.settings.tolerance * scale, rounding)
         rate = body.rate(q, factor, climb.band)
         hold(climb.band, held)
-        if residual <= tolerance:
-            stable = solve_positive(climb.band, unbalanced) is not None
+        if residual <= tolerance or _stalled(residual, last, rounding):
+            negative = negative_eigenvalues(climb.band)
             reaction = np.where(held, climb.gradient, 0.0)
             return Point(
-                q, factor, energy, reaction, climb.iterations, residual, tolerance, rounding, stable
+                q, factor, energy, reaction, climb.iterations, residual, tolerance, rounding, negative
             )
+        last = residual
         a = solve_any(climb.band, unbalanced)
         b = solve_any(climb.band, np.where(held, 0.0, -rate))
         if a is None or b is None:
@@ -323,71 +371,24 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
     return None
 
 
-def _branch(climb: Climb, point: Point, ds: float) -> Point | None:
-    """A point on the path that leaves this one along its softest motion."""
+def _branch(climb: Climb, point: Point, arc: Arc) -> Point | None:
+    """A point on the path that leaves this one along its softest motion, to the side that the loads push to."""
     body = climb.body
     body.assemble(point.q, point.factor, climb.gradient, climb.band)
     hold(climb.band, body.held)
     motion = softest(climb.band, body.held)
     motion = motion / _norm(body, point.q, motion)
-    return _corrected(climb, point, motion, 0.0, ds)
-
-
-def _sign(climb: Climb, point: Point) -> int:
-    """Sign of the determinant of the Hessian at a point."""
-    climb.body.assemble(point.q, point.factor, climb.gradient, climb.band)
-    hold(climb.band, climb.body.held)
-    factors, pivots, _ = _factorised(climb.band)
-    width = climb.band.shape[1] - 1
-    swaps = int(np.count_nonzero(pivots != np.arange(pivots.size)))
-    negative = int(np.count_nonzero(factors[2 * width] < 0))
-    return 1 - 2 * ((swaps + negative) % 2)
-
-
-def _factorised(band: Band) -> tuple[Vector, Vector, int]:
-    """Factors with row interchanges of a symmetric band."""
-    n, width = band.shape[0], band.shape[1] - 1
-    general = np.zeros((3 * width + 1, n), order="F")
-    for k in range(width + 1):
-        general[2 * width + k, : n - k] = band[: n - k, k]
-        general[2 * width - k, k:] = band[: n - k, k]
-    factors, pivots, info = dgbtrf(general, width, width, overwrite_ab=1)
-    return factors, pivots, int(info)
-
-
-def solve_any(band: Band, right: Vector) -> Vector | None:
-    """Solve with a symmetric band that need not be positive; None where it is singular."""
-    factors, pivots, info = _factorised(band)
-    if info != 0:
-        return None
-    width = band.shape[1] - 1
-    x, _ = dgbtrs(factors, width, width, right, pivots)
-    return np.asarray(x)
-
-
-def _shifted(band: Band, right: Vector) -> Vector | None:
-    """Solve with the band and as much of the unit matrix as makes it positive."""
-    largest = float(np.abs(band[:, 0]).max())
-    trial = band.copy()
-    for shift in _SHIFTS:
-        trial[:, 0] = band[:, 0] + shift * largest
-        step = solve_positive(trial, right)
-        if step is not None:
-            return step
+    if float(body.load(point.factor, signed=True) @ motion) < 0:
+        motion = -motion
+    ds = arc.first
+    while ds > _SMALLEST * arc.first:
+        found = _corrected(climb, point, motion, 0.0, ds)
+        if found is not None and _norm(body, point.q, found.q - point.q) > ds / 2:
+            return found
+        ds /= 2
     return None
 
 
-def softest(band: Band, held: Mask) -> Vector:
-    """The eigenvector of the smallest eigenvalue, of unit largest component, by inverse iteration with a shift."""
-    largest = float(np.abs(band[:, 0]).max())
-    x = np.where(held, 0.0, np.cos(1.7 * np.arange(held.size)))
-    trial = band.copy()
-    for shift in _SHIFTS:
-        trial[:, 0] = band[:, 0] + shift * largest
-        if solve_positive(trial, x) is not None:
-            break
-    for _ in range(50):
-        found = solve_positive(trial, x)
-        assert found is not None
-        x = np.where(held, 0.0, found / np.abs(found).max())
-    return x
+def _stalled(residual: float, last: float, rounding: float) -> bool:
+    """Whether what is left no longer falls and is of the size of rounding, whose bound is an estimate."""
+    return residual > last / 2 and residual <= _ROUGH * rounding

@@ -56,9 +56,9 @@ class Equation(Protocol):
 class RegionSettings(Parameters):
     """Mesh and effort of the banded solver."""
 
-    elements: Annotated[int, Count(at_least=3)] = 6
+    elements: Annotated[int, Count(at_least=3, at_most=1000)] = 6
     """Elements on each side of a junction."""
-    degree: Annotated[int, Count(at_least=2)] = 8
+    degree: Annotated[int, Count(at_least=2, at_most=20)] = 8
     """Degree of the polynomials in each element."""
     tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-3)] = 1e-11
     """Largest correction of a converged answer."""
