@@ -17,6 +17,7 @@ import numpy as np
 
 from cosserat.errors import NotConvergedError
 from cosserat.solvers.banded import (
+    Band,
     Mask,
     Vector,
     absolute_product,
