@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 RESULTS = Path("results")
+_INTERRUPTED = "cosserat: interrupted; nothing half-done was written"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -36,8 +37,8 @@ def main(arguments: list[str] | None = None) -> int:
             file=sys.stderr,
         )
         return 2
-    except KeyboardInterrupt:
-        print("cosserat: interrupted; nothing half-done was written", file=sys.stderr)
+    except KeyboardInterrupt as stopped:
+        print(f"cosserat: {stopped}" if str(stopped) else _INTERRUPTED, file=sys.stderr)
         return 130
     except BrokenPipeError:
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - whoever read our output has gone
@@ -203,10 +204,12 @@ def _run(options: argparse.Namespace) -> None:
         if not kept.is_dir():
             raise
         if isinstance(stopped, KeyboardInterrupt):
-            raise CosseratError(
+            raise KeyboardInterrupt(
                 f"interrupted; run the same command again to go on from {kept}"
             ) from None
-        raise type(stopped)(f"{stopped}; what was computed is in {kept}") from None
+        raise type(stopped)(
+            f"{stopped}; what was computed is in {kept}, which has to go before the case is changed"
+        ) from None
     save(dataset, path)
     Parts(path).remove()
     print(f"{case.name}: {_done(dataset)}; wrote {path}")
