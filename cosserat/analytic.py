@@ -36,6 +36,16 @@ class Beam:
         """EA [N]."""
         return self.young * self.area
 
+    @property
+    def bending_stiffness(self) -> float:
+        """EI [N m^2]."""
+        return self.young * self.second_moment
+
+    @property
+    def shear_stiffness(self) -> float:
+        """kGA [N]."""
+        return self.shear_correction * self.young / (2 * (1 + self.poisson)) * self.area
+
 
 BeamCurve = Callable[[Beam, float, Array], Array]
 """A closed form of a beam under its weight: (beam, g, xi) -> values at xi."""
@@ -107,7 +117,7 @@ def first_beam_mode(length: float, xi: Array) -> tuple[Array, Array]:
 def first_frequency(beam: Beam) -> float:
     """omega_1 of a clamped-free Bernoulli-Euler beam, eq. (3.5.15) [rad/s]."""
     factor = first_root() ** 2 / beam.length**2
-    return float(factor * np.sqrt(beam.young * beam.second_moment / beam.line_density))
+    return float(factor * np.sqrt(beam.bending_stiffness / beam.line_density))
 
 
 def clamped_free_tip_of_published_rod(beam: Beam, g: float, c3: float, c4: float, c5: float) -> float:
@@ -119,8 +129,8 @@ def clamped_free_tip_of_published_rod(beam: Beam, g: float, c3: float, c4: float
     clamp and tangent.  The moment M there turns the beam by M / sqrt(k4 k5); the rest bends with k3.
     """
     weight, length = beam.line_density * g, beam.length
-    shear = beam.shear_correction * beam.young / (2 * (1 + beam.poisson)) * beam.area
-    bending = beam.young * beam.second_moment
+    shear = beam.shear_stiffness
+    bending = beam.bending_stiffness
     hinge = weight * length**2 / 2 / np.sqrt(c4 * shear * c5 * bending)
     return float(-weight * length**4 / (8 * c3 * bending) - hinge * length)
 

@@ -90,8 +90,8 @@ def timoshenko_frequencies(beam: Beam, count: int) -> Array:
     """
     from scipy.optimize import brentq
 
-    shear = beam.shear_correction * beam.young / (2 * (1 + beam.poisson)) * beam.area
-    bending = beam.young * beam.second_moment
+    shear = beam.shear_stiffness
+    bending = beam.bending_stiffness
     rotary = beam.line_density * beam.second_moment / beam.area
 
     def determinant(omega: float) -> float:

@@ -27,7 +27,8 @@ class NotConvergedError(CosseratError):
     ----------
     iterations : iterations done before giving up.
     residual, tolerance : the largest unbalanced force and the one that was allowed [N].
-    state, factor : the last equilibrium that was found, or None, and the share of the load it stands under.
+    state, factor : the last equilibrium that was found, or None, as displacements from the reference, and the share of
+        the load it stands under.
     """
 
     state: NDArray[np.float64] | None = None

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 import cosserat
 from cosserat.models import rod_motion
 from cosserat.models.planar_rod import rigid_motions, strains
-from cosserat.solvers import motion
+from cosserat.solvers import banded
 
 BAR, BEAM = cosserat.case("hanging_bar"), cosserat.case("clamped_free")
 PULL = {"gravity": None, "forces": [{"at": "last", "along": "E3", "force": 10.0}]}
@@ -281,10 +281,10 @@ def test_mass_couples_position_and_director_where_the_page_says():
     y02, y22 = problem.rod.first_inertia, problem.rod.second_inertia
     matrix = np.kron(np.array([[1, y02], [y02, y22]]), np.eye(2))  # eq. (3.3.43)
     expected = np.array([m * matrix @ row for m, row in zip(part, v, strict=True)])
-    found = motion.band_product(problem.mass(geometry), v.ravel()).reshape(20, 4)
+    found = banded.band_product(problem.mass(geometry), v.ravel()).reshape(20, 4)
     np.testing.assert_allclose(found, expected, rtol=1e-13)
     spin = rigid_motions(np.hstack([geometry.X, geometry.D]))[2]
-    assert (spin * motion.band_product(problem.mass(geometry), spin.ravel()).reshape(20, 4)).sum() > 0
+    assert (spin * banded.band_product(problem.mass(geometry), spin.ravel()).reshape(20, 4)).sum() > 0
 
 
 def test_a_moved_support_stretches_a_bar_by_hooke():

@@ -7,6 +7,7 @@ import json
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 import xarray as xr
@@ -17,6 +18,7 @@ from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import InputError
 from cosserat.outcome import Outcome
 
+P = TypeVar("P")
 THESIS = "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
 
 
@@ -76,6 +78,19 @@ def case_of(dataset: xr.Dataset) -> Case:
     if "parameters" not in dataset.attrs:
         raise InputError("this Dataset has no attribute 'parameters'; use one that cosserat wrote")
     return parse(dataset.attrs["parameters"])
+
+
+def problem_of(dataset: xr.Dataset, kind: type[P], otherwise: str) -> P:
+    """The problem that a Dataset was computed from, if it is of this kind; `otherwise` says what the case is instead.
+
+    Raises
+    ------
+    InputError : it is of another kind.
+    """
+    problem = case_of(dataset).problem
+    if not isinstance(problem, kind):
+        raise InputError(f"the case '{dataset.attrs['case']}' {otherwise}")
+    return problem
 
 
 def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:

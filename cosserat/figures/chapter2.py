@@ -16,7 +16,7 @@ from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.models import doublets
 from cosserat.models.earthworm import SEGMENT_50
 from cosserat.models.gait import Gait
-from cosserat.table.crawl_readouts import SLOPES, crawl, segment, slope
+from cosserat.table.crawl_readouts import SLOPES, crawl, instants_per_stride, segment, slope
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -174,7 +174,7 @@ def fig_masses(data: Data) -> Figure:
 def anim_worm(data: Data) -> str:
     """Two strides of the worm in real time."""
     run = data["worm"]
-    count = 2 * crawlers.instants_per_stride(run)
+    count = 2 * instants_per_stride(run)
     part = run.isel(time=slice(0, count + 1))
     return crawlers.animation(part, seconds=float(part.time[-1]), mark=SEGMENT_50)
 

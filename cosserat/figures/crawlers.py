@@ -8,8 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.data.dataset import case_of
-from cosserat.errors import InputError
+from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
 from cosserat.models.peristalsis import CrawlerProblem
 from cosserat.table.crawl_readouts import crawl
@@ -18,7 +17,7 @@ Array = NDArray[np.float64]
 
 THINNED = "#f3d3a8"  # where advancing loads act
 GAMMA, ETA = "#3a7d44", "#0b5fa5"
-_WIDTH, _HEIGHT, _MARGIN = 720, 130, 14  # of an animation, in pixels
+_WIDTH, _MARGIN = 720, 14  # of an animation, in pixels
 _SHOWN = 126  # sections of an animated outline
 
 
@@ -29,15 +28,7 @@ def crawler_of(data: xr.Dataset) -> CrawlerProblem:
     ------
     InputError : it was computed from another kind of case.
     """
-    problem = case_of(data).problem
-    if not isinstance(problem, CrawlerProblem):
-        raise InputError(f"the case '{data.attrs['case']}' is no crawler; use the result of one that is")
-    return problem
-
-
-def instants_per_stride(data: xr.Dataset) -> int:
-    """Stored times from the start of one stride to the start of the next."""
-    return (data.sizes["time"] - 1) // crawl(data).strides
+    return problem_of(data, CrawlerProblem, "is no crawler; use the result of one that is")
 
 
 def draw_crawler(
@@ -147,14 +138,11 @@ def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) ->
     keys = ";".join(f"{t:.5f}" for t in (times[:-1] - times[0]) / (times[-1] - times[0]))
     frames = range(times.size - 1)
 
-    def moving(attribute: str, values: list[str]) -> str:
-        return (
-            f'<animate attributeName="{attribute}" calcMode="discrete" dur="{seconds}s" repeatCount="indefinite" '
-            f'keyTimes="{keys}" values="{";".join(values)}"/>'
-        )
-
     def shape(paths: list[str], look: str) -> str:
-        return f'<path d="{paths[0]}" {look}>{moving("d", paths)}</path>'
+        return (
+            f'<path d="{paths[0]}" {look}><animate attributeName="d" calcMode="discrete" dur="{seconds}s" '
+            f'repeatCount="indefinite" keyTimes="{keys}" values="{";".join(paths)}"/></path>'
+        )
 
     bodies = [outline(f, slice(None)) for f in frames]
     thinned = ["".join(outline(f, run) for run in _runs(thin[f])) or "M0 0" for f in frames]

@@ -86,10 +86,11 @@ class Convergence(Parameters):
         )
         found.append(_share(fields["lam"] - 1, strain))
         beam = beam_of(slender)
-        unit = beam.young * beam.second_moment / beam.length**2
+        unit = beam.bending_stiffness / beam.length**2
         pulled = slender.replace(forces=(PointForce(at="last", along="E2", force=_TIP_FORCE * unit),))
-        shear = beam.shear_correction * beam.young / (2 * (1 + beam.poisson)) * beam.area
-        sideways, _ = elastica.shearable_tip(_TIP_FORCE, beam.axial_stiffness / unit, shear / unit)
+        sideways, _ = elastica.shearable_tip(
+            _TIP_FORCE, beam.axial_stiffness / unit, beam.shear_stiffness / unit
+        )
         tip = float(pulled.solve(name).fields["u"][-1, 1]) / beam.length
         found.append(abs(tip / sideways - 1))
         computed = slender.modes(5).angular_frequency

@@ -88,8 +88,7 @@ class Gait(Parameters):
         found = [float(n) for n in range(len(self.phases) + 1)] + [
             p for track in tracks for p, _ in track
         ]
-        found.sort()
-        return [p for k, p in enumerate(found) if k == 0 or p - found[k - 1] > _SAME]
+        return _distinct(found)
 
     def time(self, phase: float) -> float:
         """Seconds since the start of the stride."""
@@ -148,13 +147,11 @@ class Gait(Parameters):
                 f"'step' = {step:g} s divides a stride of {self.duration:g} s into more than {_MOST_MOMENTS} instants; "
                 "take a longer one"
             )
-        phases = set(self.breaks())
+        phases = self.breaks()
         for number, duration in enumerate(self.phases):
             count = math.ceil(duration / step - _SAME)
-            phases.update(number + k / count for k in range(count + 1))
-        ordered = sorted(phases)
-        kept = [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > _SAME]
-        return [Moment(p, self.time(p), self.regions(p), self.anchored(p)) for p in kept]
+            phases.extend(number + k / count for k in range(count + 1))
+        return [Moment(p, self.time(p), self.regions(p), self.anchored(p)) for p in _distinct(phases)]
 
     def _check_track(self, name: str, track: Track) -> None:
         if len(track) < 2:
@@ -246,6 +243,12 @@ class Gait(Parameters):
                     f"at phase {phase:g} the anchor lies on the front {kind} at {place:g}, where the body changes "
                     "under it; put it beside the front",
                 )
+
+
+def _distinct(phases: list[float]) -> list[float]:
+    """Increasing, those that are one taken once."""
+    ordered = sorted(phases)
+    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > _SAME]
 
 
 def _follow(track: Track, phase: float) -> float | None:

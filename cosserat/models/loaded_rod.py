@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.models.consistent import ConsistentRod
-from cosserat.solvers.banded import Band, Mask, Vector
-from cosserat.solvers.motion import band_product
+from cosserat.solvers.banded import Band, Mask, Vector, band_product
 
 Array = NDArray[np.float64]
 _TURN = 1.0  # largest turning of a director in one step [rad]

@@ -157,6 +157,11 @@ class Instant:
                 result = result + sign * fade[:, None] * jump
         return result
 
+    def _cold(self, mesh: Mesh) -> Array:
+        """The guess at the nodes of a mesh."""
+        z = np.append(mesh.places[:, :-1].ravel(), mesh.ends[-1])
+        return self.guess(z, np.append(np.repeat(mesh.region, mesh.degree), mesh.region[-1]))
+
     def solve(self, settings: RegionSettings, before: Array | None) -> tuple[Profile, Array]:
         """The banded solver, warm-started from the last instant's nodal values where their number is the same.
 
@@ -168,15 +173,13 @@ class Instant:
         """
         mesh = self.mesh(settings)
         equation = _Equation(self, mesh)
-        z = np.append(mesh.places[:, :-1].ravel(), mesh.ends[-1])
-        cold = self.guess(z, np.append(np.repeat(mesh.region, mesh.degree), mesh.region[-1]))
-        start = before if before is not None and before.shape == cold.shape else cold
-        try:
-            solved = solve(mesh, equation, start, settings, self.name)
-        except NotConvergedError:
-            if start is cold:
-                raise
-            solved = solve(mesh, equation, cold, settings, self.name)
+        if before is None or before.shape[0] != mesh.nodes:
+            solved = solve(mesh, equation, self._cold(mesh), settings, self.name)
+        else:
+            try:
+                solved = solve(mesh, equation, before, settings, self.name)
+            except NotConvergedError:
+                solved = solve(mesh, equation, self._cold(mesh), settings, self.name)
         mu = mesh.split(solved.u)
         mu_3, multiplier = equation.along(mu)
         profile = Profile(mesh, mu, mesh.slope(mu), mu_3, multiplier, solved.iterations)

@@ -306,10 +306,7 @@ class RodProblem(Parameters):
 
     def body(self, geometry: Geometry) -> RodBody:
         """The rod with its couples, which have a potential but are no dead load."""
-        moments = np.zeros(self.rod.vertices)
-        for item in self.couples:
-            moments[self._index(item.at)] += item.moment
-        rod = self.rod.body(geometry, moments)
+        rod = self.rod.body(geometry, self._moments())
         if isinstance(rod, ConsistentRod) or not self.couples:
             return rod
         couples = tuple((self._index(item.at), item.moment) for item in self.couples)
@@ -319,11 +316,16 @@ class RodProblem(Parameters):
         """The consistent rod with all its loads, couples and moves growing together."""
         rod = self.rod.body(geometry)
         assert isinstance(rod, ConsistentRod)
+        dead = self.loads(geometry).ravel()
+        held = self.held().ravel()
+        return LoadedRod(rod.displaced(geometry), self._moments(), dead, held, self.drive(0.0)[0])
+
+    def _moments(self) -> Array:
+        """Couple at each vertex, shape (N,) [N m]."""
         moments = np.zeros(self.rod.vertices)
         for item in self.couples:
             moments[self._index(item.at)] += item.moment
-        dead = self.loads(geometry).ravel()
-        return LoadedRod(rod.displaced(geometry), moments, dead, self.held().ravel(), self.drive(0.0)[0])
+        return moments
 
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.

@@ -13,13 +13,13 @@ from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, rigid_motions
 from cosserat.models.rod import Direction, RodBody, RodProblem, unit_vector
 from cosserat.outcome import Outcome
 from cosserat.parameters import Parameters, Quantity
+from cosserat.solvers.banded import band_product
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.motion import (
     IntegratorSettings,
     State,
     System,
     advance,
-    band_product,
     kinetic_energy,
     refuse_unstable_step,
 )

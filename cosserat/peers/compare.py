@@ -85,7 +85,7 @@ def problems() -> dict[Problem, RodStatics | RodMotion]:
     slender = find("elastica").problem
     assert isinstance(slender, RodStatics)
     beam = beam_of(slender)
-    force = _FORCE * beam.young * beam.second_moment / beam.length**2
+    force = _FORCE * beam.bending_stiffness / beam.length**2
     for count in (20, 40, 80):
         bent = slender.replace(
             rod=slender.rod.replace(vertices=count + 1),
@@ -107,8 +107,8 @@ def _problem(name: str, kind: str, elements: int, posed: RodStatics | RodMotion,
         elements,
         length=beam.length,
         axial=beam.axial_stiffness,
-        shear=beam.shear_correction * beam.young / (2 * (1 + beam.poisson)) * beam.area,
-        bending=beam.young * beam.second_moment,
+        shear=beam.shear_stiffness,
+        bending=beam.bending_stiffness,
         line_density=beam.line_density,
         rotary=beam.line_density * beam.second_moment / beam.area,
         load=load,

@@ -41,6 +41,19 @@ def absolute_product(band: Band, x: Vector) -> Vector:
 
 
 @njit(cache=True)
+def band_product(band: Band, x: Vector) -> Vector:
+    """H x, shape (n,)."""
+    n, width = band.shape
+    y = np.zeros(n)
+    for j in range(n):
+        y[j] += band[j, 0] * x[j]
+        for k in range(1, min(width, n - j)):
+            y[j + k] += band[j, k] * x[j]
+            y[j] += band[j, k] * x[j + k]
+    return y
+
+
+@njit(cache=True)
 def negative_eigenvalues(band: Band) -> int:
     """How many eigenvalues of H are negative, from the signs of the pivots of L D L' (Sylvester's law of inertia)."""
     n, width = band.shape

@@ -17,15 +17,13 @@ from numpy.typing import NDArray
 
 from cosserat.errors import DivergedError, InputError, NotConvergedError
 from cosserat.parameters import Parameters, Quantity
-from cosserat.solvers.banded import Band, Mask, Vector, hold, solve_positive
-from cosserat.solvers.stepping import Compiled, march
+from cosserat.solvers.banded import Band, Mask, Vector, band_product, hold, solve_positive
+from cosserat.solvers.stepping import MAX_ITERATIONS, STALL, TOLERANCE, Compiled, march
 
 if TYPE_CHECKING:
     from scipy.sparse import dia_array
 
-_TOLERANCE = 1e-11  # of the last correction, as a share of the step; its error is far less
 _MAX_ITERATIONS = 30
-_STALL = 1e4  # corrections that no longer shrink are rounding if they are below this multiple of it
 _EPS = float(np.finfo(float).eps)
 _RK4_LIMIT = 2.8284271247461903  # largest omega h on the imaginary axis, 2 sqrt(2)
 
@@ -153,15 +151,15 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
         body.half_bandwidth,
     )
     if done < count:
-        raise _no_step(name, h)
+        raise _no_step(name, h, MAX_ITERATIONS)
     return State(q, v, state.time + count * h)
 
 
-def _no_step(name: str, h: float) -> NotConvergedError:
+def _no_step(name: str, h: float, iterations: int) -> NotConvergedError:
     return NotConvergedError(
         f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
-        iterations=_MAX_ITERATIONS,
-        tolerance=_TOLERANCE,
+        iterations=iterations,
+        tolerance=TOLERANCE,
     )
 
 
@@ -218,19 +216,6 @@ def _sparse(band: Band) -> dia_array:
 
 
 @njit(cache=True)
-def band_product(band: Band, x: Vector) -> Vector:
-    """H x, shape (n,)."""
-    n, width = band.shape
-    y = np.zeros(n)
-    for j in range(n):
-        y[j] += band[j, 0] * x[j]
-        for k in range(1, min(width, n - j)):
-            y[j + k] += band[j, k] * x[j]
-            y[j] += band[j, k] * x[j + k]
-    return y
-
-
-@njit(cache=True)
 def _step_matrix(band: Band, mass: Band, factor: float) -> None:
     """Overwrite a Hessian with half of it plus factor times the mass."""
     for j in range(band.shape[0]):
@@ -274,10 +259,10 @@ class _Implicit:
             change += correction
             size, last = float(np.abs(correction).max()), size
             rounding = _EPS * float(np.abs(state.q).max())
-            stalled = size > last / 2 and size < _STALL * rounding
-            if stalled or size <= max(_TOLERANCE * float(np.abs(change).max()), rounding):
+            stalled = size > last / 2 and size < STALL * rounding
+            if stalled or size <= max(TOLERANCE * float(np.abs(change).max()), rounding):
                 return self._arrived(state, change, h)
-        raise _no_step(self.name, h)
+        raise _no_step(self.name, h, _MAX_ITERATIONS)
 
     def _arrived(self, state: State, change: Vector, h: float) -> State:
         v = 2 / h * change - state.v

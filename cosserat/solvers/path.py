@@ -188,16 +188,20 @@ class Climb:
         size = np.maximum(np.abs(q), self.body.grain)
         return _EPS * float(absolute_product(self.band, size).max())
 
-    def _pushed(self, point: Point) -> Point | None:
-        """From an unstable equilibrium, along its softest motion, to another one."""
-        self.pushes += 1
+    def softest_motion(self, point: Point) -> Vector:
+        """The softest motion at a point, one reach long, to the side that the loads push to."""
         self.body.assemble(point.q, point.factor, self.gradient, self.band)
         hold(self.band, self.body.held)
         motion = softest(self.band, self.body.held)
         if float(self.body.load(point.factor, signed=True) @ motion) < 0:
-            motion = -motion  # to the side that the loads push to
-        reach = self.body.reach(point.q, motion)
-        found = self.at(point.q + _PUSH * reach * motion, point.factor, downhill=True)
+            motion = -motion
+        return self.body.reach(point.q, motion) * motion
+
+    def _pushed(self, point: Point) -> Point | None:
+        """From an unstable equilibrium, along its softest motion, to another one."""
+        self.pushes += 1
+        motion = self.softest_motion(point)
+        found = self.at(point.q + _PUSH * motion, point.factor, downhill=True)
         return found if found is not None and found.stable else None
 
     def _failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
@@ -319,9 +323,8 @@ def _tangent(climb: Climb, point: Point, before: tuple[Vector, float] | None) ->
     moved = body.place(point.q, point.factor + 1.0) - point.q
     change = solve_any(climb.band, np.where(body.held, 0.0, -rate))
     change = np.where(body.held, moved, np.zeros_like(point.q) if change is None else change)
-    slope = 1.0
     size = np.hypot(_norm(body, point.q, change), 1.0)
-    change, slope = change / size, slope / size
+    change, slope = change / size, 1.0 / size
     if before is not None and float(change @ before[0]) + slope * before[1] * _weight(before[0]) < 0:
         change, slope = -change, -slope
     return change, slope
@@ -357,10 +360,10 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
                 q, factor, energy, reaction, climb.iterations, residual, tolerance, rounding, negative
             )
         last = residual
-        a = solve_any(climb.band, unbalanced)
-        b = solve_any(climb.band, np.where(held, 0.0, -rate))
-        if a is None or b is None:
+        both = solve_any(climb.band, np.column_stack([unbalanced, np.where(held, 0.0, -rate)]))
+        if both is None:
             return None
+        a, b = both.T
         across = float(tangent @ (q - point.q - ds * tangent)) + weight * slope * (
             factor - point.factor - ds * slope
         )
@@ -374,14 +377,7 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
 
 def _branch(climb: Climb, point: Point, arc: Arc) -> Point | None:
     """A point on the path that leaves this one along its softest motion, to the side that the loads push to."""
-    body = climb.body
-    body.assemble(point.q, point.factor, climb.gradient, climb.band)
-    hold(climb.band, body.held)
-    motion = softest(climb.band, body.held)
-    motion = motion / _norm(body, point.q, motion)
-    if float(body.load(point.factor, signed=True) @ motion) < 0:
-        motion = -motion
-    ds = arc.first
+    body, motion, ds = climb.body, climb.softest_motion(point), arc.first
     while ds > _SMALLEST * arc.first:
         found = _corrected(climb, point, motion, 0.0, ds)
         if found is not None and _norm(body, point.q, found.q - point.q) > ds / 2:

@@ -26,12 +26,12 @@ KERNEL = types.float64(
 )
 """A compiled energy: (q, parameters, order, gradient, band, terms) -> energy; order 1 the gradient, 2 the Hessian."""
 
-_TOLERANCE = 1e-11  # of the last correction, as a share of the step
-_MAX_ITERATIONS = 60
+TOLERANCE = 1e-11  # of the last correction, as a share of the step
+MAX_ITERATIONS = 60
 _FAST = 0.05  # ratio of two corrections above which the matrix is made anew
 _NEAR = 1e-3  # last correction, as a share of the step, from which on the change of energy is asked for
 _TINY = float(np.finfo(float).tiny)
-_STALL = 1e4  # corrections that no longer shrink are rounding if they are below this multiple of it
+STALL = 1e4  # corrections that no longer shrink are rounding if they are below this multiple of it
 _EPS = float(np.finfo(float).eps)
 
 
@@ -115,12 +115,9 @@ def _march(kernel, rod, q, v, mass, load, held, drag, h, steps, width):  # type:
             pull[i] = load[i] + 2 / h * pull[i]
             guess = h * v[i] if done < 2 else 2 * earlier[i] - earliest[i]
             change[i] = 0.0 if held[i] else guess
-        relative, arrived, after = (
-            np.inf,
-            False,
-            before,
-        )  # relative: last correction as a share of the step
-        for _ in range(_MAX_ITERATIONS):
+        arrived, after = False, before
+        relative = np.inf  # last correction as a share of the step
+        for _ in range(MAX_ITERATIONS):
             for i in range(n):
                 middle[i] = q[i] + change[i] / 2
             if not fresh:
@@ -168,8 +165,8 @@ def _march(kernel, rod, q, v, mass, load, held, drag, h, steps, width):  # type:
                 change[i] += force[i]
                 size, moved = max(size, abs(force[i])), max(moved, abs(change[i]))
             rounding = _EPS * reach
-            settled = size <= max(_TOLERANCE * moved, rounding)
-            stalled = size > relative * moved / 2 and size < _STALL * rounding
+            settled = size <= max(TOLERANCE * moved, rounding)
+            stalled = size > relative * moved / 2 and size < STALL * rounding
             if near and (settled or stalled):
                 arrived = True
                 break

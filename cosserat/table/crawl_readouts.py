@@ -8,8 +8,7 @@ import numpy as np
 import xarray as xr
 
 from cosserat import analytic
-from cosserat.data.dataset import case_of
-from cosserat.errors import InputError
+from cosserat.data.dataset import problem_of
 from cosserat.models.earthworm import (
     SEGMENT_50,
     circumference,
@@ -37,10 +36,12 @@ def crawl(data: xr.Dataset) -> Crawl:
     ------
     InputError : it was computed from another kind of case.
     """
-    problem = case_of(data).problem
-    if not isinstance(problem, Crawl):
-        raise InputError(f"the case '{data.attrs['case']}' has no gait; use the result of a crawl")
-    return problem
+    return problem_of(data, Crawl, "has no gait; use the result of a crawl")
+
+
+def instants_per_stride(data: xr.Dataset) -> int:
+    """Stored times from the start of one stride to the start of the next."""
+    return (data.sizes["time"] - 1) // crawl(data).strides
 
 
 def segment(data: xr.Dataset) -> xr.Dataset:
@@ -51,8 +52,7 @@ def segment(data: xr.Dataset) -> xr.Dataset:
 
 def strides(data: xr.Dataset) -> np.ndarray:
     """Stride lengths by eq. (2.8.5), one for each stride [m]."""
-    count = (data.sizes["time"] - 1) // crawl(data).strides
-    front = data.along.isel(section=-1).to_numpy()[::count]
+    front = data.along.isel(section=-1).to_numpy()[:: instants_per_stride(data)]
     return np.diff(front)
 
 

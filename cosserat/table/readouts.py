@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from cosserat import analytic, elastica
-from cosserat.data.dataset import case_of
-from cosserat.errors import InputError
+from cosserat.data.dataset import problem_of as posed
 from cosserat.models.calibration import beam_of
 from cosserat.models.rod import RodProblem
 from cosserat.table import crawl_readouts
@@ -31,12 +30,7 @@ def problem_of(data: xr.Dataset) -> RodProblem:
     ------
     InputError : it was not computed from one.
     """
-    problem = case_of(data).problem
-    if not isinstance(problem, RodProblem):
-        raise InputError(
-            f"the case '{data.attrs['case']}' is not of one rod; use the result of one that is"
-        )
-    return problem
+    return posed(data, RodProblem, "is not of one rod; use the result of one that is")
 
 
 def weight_of(problem: RodProblem) -> float:
@@ -176,7 +170,7 @@ def buckling_share(data: xr.Dataset) -> Array:
     """Axial load of a clamped-free column as a share of Euler's, pi^2 EI / (4 L^2), at every point of its path."""
     problem = problem_of(data)
     beam = beam_of(problem)
-    euler = np.pi**2 / 4 * beam.young * beam.second_moment / beam.length**2
+    euler = np.pi**2 / 4 * beam.bending_stiffness / beam.length**2
     share: Array = data.load_factor.to_numpy() * problem.forces[0].force / euler
     return share
 
@@ -185,10 +179,9 @@ def _elastica_tip(data: xr.Dataset) -> Reading:
     """Sideways displacement of the tip over the length, and that of Reissner's rod of the same stiffnesses."""
     problem = problem_of(data)
     beam = beam_of(problem)
-    unit = beam.young * beam.second_moment / beam.length**2
-    shear = beam.shear_correction * beam.young / (2 * (1 + beam.poisson)) * beam.area
+    unit = beam.bending_stiffness / beam.length**2
     exact, _ = elastica.shearable_tip(
-        problem.forces[0].force / unit, beam.axial_stiffness / unit, shear / unit
+        problem.forces[0].force / unit, beam.axial_stiffness / unit, beam.shear_stiffness / unit
     )
     return Reading(float(data.u.sel(axis="E2")[-1]) / beam.length, exact)
 
