@@ -31,10 +31,11 @@ def fig_convergence(data: Data) -> Figure:
     left.loglog(
         published.vertices - 1, off, color=VARIANT, marker="s", label="clamped-free tip, published rod"
     )
+    left.set_ylim(bottom=1e-7)  # room for the legend
     for ax, title in ((left, "(a) statics"), (right, "(b) vibration")):
         ax.loglog(edges, 3 * edges**-2.0, color=EXACT, linestyle="--", label="second order")
         ax.set(xlabel="edges [1]", ylabel="relative error [1]", title=title)
-        ax.legend(fontsize=6.5)
+        ax.legend(fontsize=6.5, loc="lower left")
     return figure
 
 

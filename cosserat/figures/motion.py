@@ -23,14 +23,15 @@ _WIDTH, _HEIGHT, _MARGIN = 640, 200, 12  # of an animation, in pixels
 def fig_3_13(data: Data) -> Figure:
     """Kinetic energies of the two beams released from the first mode shape, and what their tips do meanwhile."""
     figure, (left, right) = canvas(7.2, 3.1, 1, 2)
-    for name, label, colour in (
-        ("vibration_c4_2", "$c_4 = 2$", VARIANT),
-        ("vibration_c4_20", "$c_4 = 20$", COMPUTED),
-        ("vibration_consistent", "consistent rod", CONSISTENT),
+    for name, label, colour, line in (
+        ("vibration_c4_2", "$c_4 = 2$", VARIANT, "-"),
+        ("vibration_c4_20", "$c_4 = 20$", COMPUTED, "-"),
+        ("vibration_consistent", "consistent rod", CONSISTENT, "--"),
     ):
         run = data[name]
-        left.plot(run.time, run.kinetic_energy, color=colour, label=label, linewidth=1.0)
-        right.plot(run.time, run.x.sel(axis="E2").isel(vertex=-1) * 1e3, color=colour, linewidth=1.0)
+        tip = run.x.sel(axis="E2").isel(vertex=-1) * 1e3
+        left.plot(run.time, run.kinetic_energy, line, color=colour, label=label, linewidth=1.0)
+        right.plot(run.time, tip, line, color=colour, linewidth=1.0)
     omega = analytic.first_frequency(beam_of(problem_of(data["vibration_c4_20"])))
     last = float(data["vibration_c4_20"].time[-1])
     for ax, length in ((left, np.pi / omega), (right, 2 * np.pi / omega)):
