@@ -189,7 +189,8 @@ def _cases(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace) -> None:
     from cosserat.cases.catalogue import find
-    from cosserat.data.dataset import check_destination, save
+    from cosserat.data.dataset import save
+    from cosserat.data.files import check_destination
     from cosserat.data.parts import Parts
 
     case = find(options.case, options.file)
@@ -287,7 +288,8 @@ def _figure(options: argparse.Namespace) -> None:
 
 
 def _plot(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import case_of, check_destination, load
+    from cosserat.data.dataset import case_of, load
+    from cosserat.data.files import check_destination
     from cosserat.figures import consistent, crawlers, motion, rod
     from cosserat.figures.style import settings, write
 
@@ -313,7 +315,7 @@ def _plot(options: argparse.Namespace) -> None:
 
 
 def _measure(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import check_destination
+    from cosserat.data.files import check_destination
     from cosserat.table.measure import measure, summary
     from cosserat.table.tolerances import read_table, write_report
 
@@ -332,7 +334,7 @@ def _check(options: argparse.Namespace) -> None:
 
 
 def _accept(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import check_destination
+    from cosserat.data.files import check_destination
     from cosserat.runner import run
     from cosserat.table.reference import accept
 
@@ -353,7 +355,7 @@ def _speed(_: argparse.Namespace) -> None:
 
 
 def _peers(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import check_destination
+    from cosserat.data.files import check_destination
     from cosserat.peers import compare
 
     check_destination(options.output, ".csv")

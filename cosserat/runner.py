@@ -55,8 +55,7 @@ def _in_parts(
     for number in range(problem.parts):
         stored = store.load(number) if store else None
         if store and stored is not None:
-            if not done:
-                store.refuse_others(stored, to_dataset(case, Outcome({}, {})))
+            store.refuse_others(stored, to_dataset(case, Outcome({}, {})))
             outcome = _outcome(stored)
             state = problem.resume(dict(outcome.fields))
         else:

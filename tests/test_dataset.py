@@ -2,7 +2,12 @@
 
 import hashlib
 import json
+import os
+import platform
 import re
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -81,6 +86,43 @@ def test_a_failed_write_leaves_the_old_file_and_no_rest(tmp_path, solved, monkey
         cosserat.save(solved["necking"], path)
     assert path.read_text() == "old"
     assert [file.name for file in tmp_path.iterdir()] == ["a.nc"]
+
+
+def test_what_a_killed_process_was_writing_is_swept_away(tmp_path, solved):
+    finished = subprocess.Popen([sys.executable, "-c", ""])
+    finished.wait()
+    dead, other, alive, foreign = (
+        tmp_path / name
+        for name in (
+            f".a.nc.{platform.node()}.{finished.pid}.part",
+            f".b.nc.{platform.node()}.{finished.pid}.part",
+            f".a.nc.{platform.node()}.{os.getppid()}.part",
+            f".a.nc.another-machine.{finished.pid}.part",
+        )
+    )
+    for file in (dead, other, alive, foreign):
+        file.write_text("half")
+    cosserat.save(solved["necking"], tmp_path / "a.nc")
+    assert sorted(tmp_path.iterdir()) == sorted([tmp_path / "a.nc", other, alive, foreign])
+
+
+def test_ctrl_c_waits_until_a_file_is_written(tmp_path, solved, monkeypatch):
+    """In the midst of xarray's writing it would leave a lock taken, and the run would hang for ever."""
+    write, written = xr.Dataset.to_netcdf, []
+
+    def interrupted(self, *arguments, **options):
+        signal.raise_signal(signal.SIGINT)
+        write(self, *arguments, **options)
+        written.append(signal.getsignal(signal.SIGINT))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(xr.Dataset, "to_netcdf", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            cosserat.save(solved["necking"], tmp_path / "a.nc")
+    assert len(written) == 1
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert not list(tmp_path.iterdir())
+    cosserat.save(solved["necking"], tmp_path / "a.nc")
 
 
 def test_bad_destinations_and_files_are_refused(tmp_path, solved):

@@ -66,14 +66,12 @@ def test_ten_kills_leave_whole_files_and_the_same_bytes(tmp_path):
 
 @pytest.mark.workflow
 def test_ctrl_c_says_how_to_go_on(tmp_path):
-    (tmp_path / "long.toml").write_text(LONG)
+    (tmp_path / "long.toml").write_text(LONG.replace("0.4 s", "4 s"))
     running = start(tmp_path, "cut.nc")
-    for _ in range(200):
+    while running.poll() is None and not (tmp_path / "cut.nc.parts").exists():
         time.sleep(0.05)
-        if (tmp_path / "cut.nc.parts").exists():
-            break
     running.send_signal(signal.SIGINT)
     _, errors = running.communicate()
-    assert running.returncode == 130
+    assert running.returncode in (130, -signal.SIGINT)  # Python itself may choose the latter
     assert "interrupted; run the same command again to go on from cut.nc.parts" in errors
     assert errors.count("\n") == 1

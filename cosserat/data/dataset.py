@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TypeVar
 
@@ -13,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, parse
+from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import InputError
@@ -108,50 +106,6 @@ def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
         ) from None
 
 
-def check_destination(path: Path, suffix: str = "") -> None:
-    """Refuse a file that could not be written, before anything is computed.
-
-    Raises
-    ------
-    InputError : the folder is missing or cannot be written to, or the path is a folder, a device or of another kind.
-    """
-    remedy = "choose another with --output"
-    try:
-        path.exists()
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path} cannot name a file ({error}); {remedy}") from None
-    if not path.parent.is_dir():
-        raise InputError(f"the folder {path.parent} does not exist; make it first or {remedy}")
-    if path.is_dir():
-        raise InputError(f"{path} is a folder; give the name of a file with --output")
-    if path.exists() and not path.is_file():
-        raise InputError(f"{path} is no ordinary file; {remedy}")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"the folder {path.parent} cannot be written to; {remedy}")
-    if suffix and path.suffix != suffix:
-        raise InputError(f"{path} would be written as {suffix[1:]}; let its name end in '{suffix}'")
-
-
-@contextlib.contextmanager
-def whole_or_absent(path: Path) -> Iterator[Path]:
-    """A temporary name beside `path` to write to; it takes the place of `path` when the block ends well.
-
-    Raises
-    ------
-    InputError : the system refuses to write.
-    """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        yield temporary
-        temporary.replace(path)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"cannot write {path}: {reason}; check name, space and permissions") from None
-    finally:
-        with contextlib.suppress(OSError):
-            temporary.unlink()
-
-
 def save(dataset: xr.Dataset, path: Path) -> None:
     """Write a netCDF file under a temporary name and rename it, so that no half-written file is ever seen.
 
@@ -167,7 +121,7 @@ def save(dataset: xr.Dataset, path: Path) -> None:
         for name, variable in dataset.variables.items()
         if variable.dtype.kind == "f"
     }
-    with whole_or_absent(path) as temporary:
+    with whole_or_absent(path) as temporary, uninterrupted():
         dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
 
@@ -185,7 +139,7 @@ def load(path: Path) -> xr.Dataset:
             f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"
         )
     try:
-        with xr.open_dataset(path, engine="netcdf4") as dataset:
+        with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
             return dataset.load()
     except (OSError, ValueError, RuntimeError) as error:
         raise InputError(

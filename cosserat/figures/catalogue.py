@@ -113,7 +113,8 @@ def draw_to(name: str, folder: Path, path: Path) -> None:
     ------
     InputError : no figure of that name, or a file is missing or unreadable.
     """
-    from cosserat.data.dataset import check_destination, load
+    from cosserat.data.dataset import load
+    from cosserat.data.files import check_destination
     from cosserat.figures.style import write
 
     check_destination(path, ".svg")

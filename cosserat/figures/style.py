@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.data.dataset import whole_or_absent
+from cosserat.data.files import whole_or_absent
 
 Array = NDArray[np.float64]
 

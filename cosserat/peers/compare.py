@@ -20,7 +20,7 @@ import numpy as np
 
 from cosserat import analytic, elastica
 from cosserat.cases.catalogue import find
-from cosserat.data.dataset import whole_or_absent
+from cosserat.data.files import whole_or_absent
 from cosserat.errors import CosseratError
 from cosserat.models.calibration import beam_of
 from cosserat.models.rod import PointForce

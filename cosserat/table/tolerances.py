@@ -13,7 +13,7 @@ from typing import Annotated, Literal, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.data.dataset import whole_or_absent
+from cosserat.data.files import whole_or_absent
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters, Quantity, to_si
 from cosserat.table.readouts import READOUTS
