@@ -32,7 +32,7 @@ import cosserat
 from cosserat.book import page
 from cosserat.data.dataset import case_of
 from cosserat.models import rod_motion
-from cosserat.solvers import motion
+from cosserat.solvers import stepping
 from cosserat.table import readouts
 
 # %% tags=["remove-input"]
@@ -57,10 +57,10 @@ page.source(rod_motion.RodMotion.mass)
 # as they are as well.
 
 # %% tags=["remove-input"]
-page.source(motion._Implicit.step)
+page.excerpt(stepping._march, "arrived, near", "if not arrived")
 
 # %% tags=["remove-input"]
-page.source(motion._Implicit._correction)
+page.source(stepping._sigma)
 
 # %% [markdown]
 # ## A vibrating beam

@@ -17,7 +17,7 @@
 # %% tags=["remove-cell"]
 import cosserat
 from cosserat.book import page
-from cosserat.models import couples, rod, section
+from cosserat.models import published, rod, section
 
 # %% [markdown]
 # ## Sections that vary
@@ -72,7 +72,7 @@ print(
 # twice that of (3.3.41) for a director that reaches the surface at half the height (E3.10).
 
 # %% tags=["remove-input"]
-page.source(couples.Coupled._potential)
+page.excerpt(published._assemble, "W_turn = W_theta", "total: float")
 
 # %% [markdown]
 # Line loads act over any stretch of the rod, and held numbers may be moved: at rest to a new place, in motion to and fro.

@@ -29,7 +29,7 @@ import numpy as np
 from cosserat import analytic
 from cosserat.book import page
 from cosserat.data.dataset import case_of, statistics_of
-from cosserat.models import planar_rod, published
+from cosserat.models import planar_rod, published, stiffness
 from cosserat.solvers import newton
 from cosserat.table import readouts
 
@@ -147,7 +147,7 @@ page.excerpt(published._assemble, "# Second pass", "# Third pass")
 # \end{equation*}
 
 # %% tags=["remove-input"]
-page.excerpt(published.stiffnesses, "end_factor = ", "    )")
+page.excerpt(stiffness.stiffnesses, "end_factor = ", "    )")
 
 # %% [markdown]
 # ## Forces, and rest

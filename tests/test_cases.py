@@ -139,7 +139,8 @@ def test_lumped_properties_may_vary_along_the_rod():
     import numpy as np
     from conftest import make_rod
 
-    from cosserat.models.published import PublishedRod, stiffnesses
+    from cosserat.models.published import PublishedRod
+    from cosserat.models.stiffness import stiffnesses
     from cosserat.solvers.newton import NewtonSettings, equilibrium
 
     rod = make_rod(vertices=11, poisson=0)
@@ -150,7 +151,9 @@ def test_lumped_properties_may_vary_along_the_rod():
     )
     young = np.where(np.arange(10) < 5, 1e9, 2e9)
     edge = Lumped(edge.area, edge.second_moment, young, young / 2, edge.poisson)
-    body = PublishedRod(stiffnesses(geometry, vertex, edge, 5 / 6, rod.calibration, "full", "halved"))
+    body = PublishedRod.of(
+        stiffnesses(geometry, vertex, edge, 5 / 6, rod.calibration, "full", "halved"), geometry
+    )
     held = np.zeros((11, 4), dtype=bool)
     held[0] = True
     load = np.zeros((11, 4))

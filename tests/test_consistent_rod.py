@@ -341,14 +341,6 @@ def test_the_period_of_the_exact_timoshenko_beam(solved):
     assert np.abs(energy / energy[0] - 1).max() < 1e-10
 
 
-def test_the_compiled_integrator_is_the_one_in_python(monkeypatch):
-    case = cosserat.case("vibration_consistent").vary("x", duration="10 ms")
-    compiled = cosserat.run(case)
-    monkeypatch.setattr("cosserat.solvers.motion._runs_compiled", lambda _: False)
-    plain = cosserat.run(case)
-    np.testing.assert_allclose(compiled.x, plain.x, atol=1e-12)
-
-
 def test_a_tumbling_stretching_rod_keeps_energy_and_momenta():
     thrown = cosserat.case("vibration_consistent").vary(
         "thrown",

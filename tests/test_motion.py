@@ -60,12 +60,24 @@ def test_a_large_motion_keeps_energy_where_the_plain_midpoint_rule_does_not():
     energy = total_energy(data)
     assert np.abs(energy / energy[0] - 1).max() < 1e-10
     _, system, state = parts_of(BEAM.vary("large", **large))
-    plain = motion._Implicit(system, "plain")
-    plain._correction = lambda q, change, before: np.zeros_like(change)
+    q, v = state.q, state.v
     for _ in range(1000):
-        state = plain.step(state, 1e-4)
-    after = system.body.energy(state.q) + motion.kinetic_energy(system, state)
+        q, v = plain_midpoint(system, q, v, 1e-4)
+    after = system.body.energy(q) + motion.kinetic_energy(system, motion.State(q, v))
     assert abs(after / energy[0] - 1) > 1e-6
+
+
+def plain_midpoint(system, q, v, h):
+    """A step of the midpoint rule without a correction of the energy, by dense Newton."""
+    change, free = np.where(system.held, 0.0, h * v), ~system.held
+    mass = banded.to_dense(system.mass)
+    gradient, band = np.empty(q.size), np.empty((q.size, system.body.half_bandwidth + 1))
+    for _ in range(10):
+        system.body.assemble(q + change / 2, gradient, band)
+        force = 2 / h * mass @ (v - change / h) - gradient
+        matrix = 2 / h**2 * mass + banded.to_dense(band) / 2
+        change[free] += np.linalg.solve(matrix[free][:, free], force[free])
+    return q + change, 2 / h * change - v
 
 
 def test_a_free_rod_keeps_momentum_and_angular_momentum_to_rounding():

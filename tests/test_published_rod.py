@@ -60,7 +60,7 @@ def test_each_term_alone_has_its_own_derivatives(seed):
         others = {
             k: np.zeros_like(getattr(full, k)) for k in full._fields if k.startswith("k") and k != name
         }
-        body = published.PublishedRod(full._replace(**others))
+        body = published.PublishedRod.of(full._replace(**others), rod.geometry())
         _, gradient, hessian = assembled(body, q)
         slope = fourth_order(lambda p, b=body: assembled(b, p)[0], q, direction, 1e-4)
         curve = fourth_order(lambda p, b=body: assembled(b, p)[1], q, direction, 1e-4)

@@ -92,11 +92,21 @@ VARIABLES: dict[str, Variable] = {
     "d_rate": Variable(
         ("vertex", "axis"), "m s-1", "director velocity", r"\dot{\mathbf{d}}", "3.3.27", 1e-9
     ),
+    "first_angle": Variable(
+        ("time",),
+        "rad",
+        "angle of the first director, from E3 towards E2, counted through whole turns",
+        "",
+        "3.3.41",
+        1e-9,
+    ),
     "kinetic_energy": Variable(("time",), "J", "kinetic energy", "T", "3.3.33", 1e-9),
     "strain_energy": Variable(
         ("time",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9
     ),
-    "load_potential": Variable(("time",), "J", "potential of the dead loads", "-W", "3.3.40", 1e-9),
+    "load_potential": Variable(
+        ("time",), "J", "potential of the dead loads and couples", "-W", "3.3.40", 1e-9
+    ),
     "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-7),
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7

@@ -27,7 +27,7 @@ import numpy as np
 from numba import cfunc, njit
 from numpy.typing import NDArray
 
-from cosserat.models.planar_rod import Geometry, Lumped
+from cosserat.models.planar_rod import Geometry, Lumped, counted_angles
 from cosserat.solvers.banded import Band, Vector
 from cosserat.solvers.stepping import KERNEL
 
@@ -50,7 +50,7 @@ TERMS = (
 PENALTY = 1e5
 """Lambda over 2 mu of an incompressible section."""
 
-_COLUMNS = 19
+_COLUMNS = 20
 
 
 def coefficients(
@@ -62,17 +62,18 @@ def coefficients(
     couples: Array,
     barrier: bool,
 ) -> Array:
-    """What the kernel needs, shape (N, 19): row K has edge K (the last row none), vertex K and its couple.
+    """What the kernel needs, shape (N, 20): row K has edge K (the last row none), vertex K and its couple.
 
     Columns: length, axial measure, shear measure and turning of the edge in the reference; 2 mu A, Lambda A, k mu A,
     EI, mu I of the edge; |D|, L and 2 mu A of the vertex; couple [N m]; one for the barriers of Fig. 3.7, else zero;
-    angle of the director in the reference, counted on from vertex to vertex; and four numbers that are zero, or what
-    `ConsistentRod.displaced` puts there.
+    angle of the director in the reference, counted on from vertex to vertex; four numbers that are zero, or what
+    `ConsistentRod.displaced` puts there; and, in row 0, the angle within half a turn of which that of the first
+    director is counted.
     """
     n = geometry.X.shape[0]
     rod = np.zeros((n, _COLUMNS))
-    e, alpha = np.diff(geometry.X, axis=0), np.arctan2(geometry.D[:, 1], geometry.D[:, 0])
-    turn = np.angle(np.exp(1j * np.diff(alpha)))
+    e, alpha = np.diff(geometry.X, axis=0), counted_angles(geometry.D)
+    turn = np.diff(alpha)
     b = alpha[:-1] + turn / 2
     rod[:-1, 0] = geometry.edge_length
     rod[:-1, 1] = e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b)
@@ -90,7 +91,8 @@ def coefficients(
     rod[:, 11] = 2 * shear * vertex.area
     rod[:, 12] = couples
     rod[:, 13] = float(barrier)
-    rod[:, 14] = alpha[0] + np.concatenate([[0.0], np.cumsum(turn)])
+    rod[:, 14] = alpha
+    rod[0, 19] = alpha[0]
     return rod
 
 
@@ -129,13 +131,19 @@ class ConsistentRod:
 
     @property
     def kernel(self) -> object:
-        """The compiled energy, for the compiled integrator."""
+        """The compiled energy, for compiled solvers."""
         return _compiled_energy()
 
     @property
     def parameters(self) -> Array:
         """What that kernel takes besides the unknowns."""
         return self.rod
+
+    def counted_near(self, angle: float) -> ConsistentRod:
+        """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
+        rod = self.rod.copy()
+        rod[0, 19] = angle
+        return ConsistentRod(rod)
 
     def displaced(self, geometry: Geometry) -> ConsistentRod:
         """The same rod, its unknowns counted from the reference.
@@ -233,6 +241,7 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
         W_rr = rod[K, 11] / 2 * rod[K, 10] * second / D**2
         if K == 0:
             angle = np.arctan2(p1, p0)
+            angle -= 2 * np.pi * np.round((angle - rod[0, 19]) / (2 * np.pi))
         else:
             J = K - 1
             E, D_a = rod[J, 0], rod[J, 9]

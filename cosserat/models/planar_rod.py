@@ -162,6 +162,13 @@ def signed_angle(a: Array, b: Array) -> Array:
     return angle
 
 
+def counted_angles(d: Array) -> Array:
+    """Polar angles of directors (N, 2), each within half a turn of the vertex before: (N,) [rad]."""
+    turns = np.concatenate([[np.arctan2(d[0, 1], d[0, 0])], signed_angle(d[:-1], d[1:])])
+    angles: Array = np.cumsum(turns)
+    return angles
+
+
 def lengths(vectors: Array) -> Array:
     """Norms of the rows of an (n, 2) array: (n,)."""
     norm: Array = np.hypot(vectors[:, 0], vectors[:, 1])

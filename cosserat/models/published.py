@@ -14,16 +14,17 @@ All compiled functions of this model stand in this file: Numba's cache does not 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Literal, NamedTuple
+import functools
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
+from numba import cfunc, njit
 from numpy.typing import NDArray
 
-from cosserat.models.planar_rod import Geometry, Lumped, signed_angle
-from cosserat.parameters import Parameters, Quantity
+from cosserat.models.planar_rod import Geometry, counted_angles
+from cosserat.models.stiffness import Stiffness
 from cosserat.solvers.banded import Band, Vector
+from cosserat.solvers.stepping import KERNEL
 
 Array = NDArray[np.float64]
 
@@ -39,129 +40,83 @@ TERMS = (
 """The seven terms, in the order of eq. (3.4.11)."""
 
 
-class Calibration(Parameters):
-    """The calibration coefficients of eq. (3.4.13)."""
+EDGE, K1, K5, K6, VORONOI, DIRECTOR, K2, K3, K4, K7, INTRINSIC, COUPLE, ANGLE, START = range(14)
+"""Columns of what the kernel reads: row K has edge K (the last row none), vertex K and its couple; row 0 the start."""
 
-    c1: Annotated[float, Quantity("1", "c_1", "3.4.13", above=0)]
-    c2: Annotated[float, Quantity("1", "c_2", "3.4.13", above=0)]
-    c3: Annotated[float, Quantity("1", "c_3", "3.4.13", above=0)]
-    c4: Annotated[float, Quantity("1", "c_4", "3.4.13", above=0)]
-    c5: Annotated[float, Quantity("1", "c_5", "3.4.13", at_least=0)]
-    c6: Annotated[float, Quantity("1", "c_6", "3.4.13", at_least=0)]
-    c7: Annotated[float, Quantity("1", "c_7", "3.4.13")]
-
-
-class Stiffness(NamedTuple):
-    """What the kernel needs of the reference configuration and the material.
-
-    edge, voronoi, director : ||E|| (N - 1,), L (N,) and ||D|| (N,) [m].
-    k1 (N - 1,), k2 (N,), k4 (N,), k7 (N,) [N]; k3 (N,), k5 (N - 1,), k6 (N - 1,) [N m^2].
-    intrinsic : (N,) half the Voronoi length times the curvature K of the unbent rod, eq. (3.3.23) [1].
-    """
-
-    edge: Array
-    voronoi: Array
-    director: Array
-    k1: Array
-    k2: Array
-    k3: Array
-    k4: Array
-    k5: Array
-    k6: Array
-    k7: Array
-    intrinsic: Array
-
-
-EndSections = Literal["full", "halved"]
-PoissonCoupling = Literal["halved", "printed"]
-IntrinsicCurvature = Literal["subtracted", "printed"]
-
-
-def stiffnesses(
-    geometry: Geometry,
-    vertex: Lumped,
-    edge: Lumped,
-    shear_correction: float,
-    c: Calibration,
-    end_sections: EndSections,
-    poisson_coupling: PoissonCoupling,
-    intrinsic_curvature: IntrinsicCurvature = "subtracted",
-) -> Stiffness:
-    """Eq. (3.4.13), with the two readings that the page leaves open.
-
-    end_sections : "halved" halves the areas of the boundary vertices, eq. (3.4.10), on top of their half length.
-    poisson_coupling : "printed" takes 2 sum k7 (lambda - 1)(mu - 1) L in eq. (3.4.11) as it stands; "halved" drops
-        the 2, which is what the published c7 = 1.66 fits (erratum E3.2).
-    intrinsic_curvature : "subtracted" measures bending from the reference, as section 3.2 asks; "printed" from the
-        straight rod, as eq. (3.4.11) stands: a curved reference is then not at rest (E3.24).
-    """
-    end_factor = np.ones(vertex.area.size)
-    if end_sections == "halved":
-        end_factor[[0, -1]] = 0.5
-    area = vertex.area * end_factor
-    coupling = 1.0 if poisson_coupling == "printed" else 0.5
-    vertex_lame = vertex.young / ((1 + vertex.poisson) * (1 - 2 * vertex.poisson))
-    edge_lame = edge.young / ((1 + edge.poisson) * (1 - 2 * edge.poisson))
-    return Stiffness(
-        edge=geometry.edge_length,
-        voronoi=geometry.voronoi_length,
-        director=geometry.director_length,
-        k1=c.c1 * edge_lame * edge.area * (1 - edge.poisson),
-        k2=c.c2 * vertex_lame * area * (1 - vertex.poisson),
-        k3=c.c3 * vertex.young * vertex.second_moment,
-        k4=c.c4 * shear_correction * vertex.shear * area,
-        k5=c.c5 * edge.young * edge.second_moment,
-        k6=c.c6 * edge.young * edge.second_moment / (1 + edge.poisson),
-        k7=c.c7 * vertex_lame * area * vertex.poisson * coupling,
-        intrinsic=_reference_turns(geometry) * (intrinsic_curvature == "subtracted"),
-    )
-
-
-def _reference_turns(geometry: Geometry) -> Array:
-    """tan(Phi / 2) at the interior vertices of the reference, zero at the others, eqs. (3.3.15), (3.3.23)."""
-    edges = np.diff(geometry.X, axis=0)
-    turns = np.zeros(geometry.X.shape[0])
-    turns[1:-1] = np.tan(signed_angle(edges[:-1], edges[1:]) / 2)
-    return turns
-
-
-_NO_VECTOR, _NO_BAND = (
-    np.empty(0),
-    np.empty((0, 14)),
-)  # what the kernel is given for derivatives not asked
+_NO_VECTOR, _NO_BAND = np.empty(0), np.empty((0, 14))
 
 
 @dataclass(frozen=True)
 class PublishedRod:
-    """The published rod as a solver sees it: an energy with its gradient and banded Hessian."""
+    """The published rod with its couples as a solver sees it: an energy with its gradient and banded Hessian.
+
+    A couple M on a director that has turned by alpha has the potential -M alpha.  Minus its gradient is the director
+    force M n / |d|, n across the director: eq. (3.3.41) with |d| in place of lambda H, which for a director that
+    reaches the surface at half the height is twice the printed force (E3.10).
+
+    couples : (N,) moments that turn with their sections, positive from E3 towards E2 [N m].
+    angles : (N,) angles of the directors in the reference, counted on from vertex to vertex [rad].
+    start : angle within half a turn of which that of the first director is counted; None: that of the reference.
+    """
 
     stiffness: Stiffness
+    couples: Array
+    angles: Array
+    start: float | None = None
+
+    @classmethod
+    def of(cls, stiffness: Stiffness, geometry: Geometry, couples: Array | None = None) -> PublishedRod:
+        """The rod of a reference configuration, without couples if none are given."""
+        moments = np.zeros(geometry.X.shape[0]) if couples is None else couples
+        return cls(stiffness, moments, counted_angles(geometry.D))
 
     @property
     def half_bandwidth(self) -> int:
         """x_(K-1) meets x_(K+2) in the shearing gradients: three vertices of four numbers, and one component."""
         return 13
 
-    def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
-        """Strain energy [J] at q, shape (4 N,), less that of the reference; overwrites gradient and band.
+    @property
+    def kernel(self) -> object:
+        """The compiled energy, for compiled solvers."""
+        return _compiled_energy()
 
-        The energy is infinite where a section or an edge has shrunk to nothing or a shear angle has reached pi/2.
+    @functools.cached_property
+    def parameters(self) -> Array:
+        """What the kernel takes besides the unknowns, shape (N, 14)."""
+        k = self.stiffness
+        rod = np.zeros((k.voronoi.size, START + 1))
+        rod[:-1, : K6 + 1] = np.column_stack([k.edge, k.k1, k.k5, k.k6])
+        rod[:, VORONOI:START] = np.column_stack(
+            [k.voronoi, k.director, k.k2, k.k3, k.k4, k.k7, k.intrinsic, self.couples, self.angles]
+        )
+        rod[0, START] = self.angles[0] if self.start is None else self.start
+        return rod
+
+    def counted_near(self, angle: float) -> PublishedRod:
+        """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
+        return replace(self, start=angle)
+
+    def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
+        """Strain energy less the work of the couples [J] at q, shape (4 N,), from the reference on.
+
+        Overwrites gradient and band.  The energy is infinite where a section or an edge has shrunk to nothing or a
+        shear angle has reached pi/2.
         """
-        return float(_assemble(q, self.stiffness, 2, gradient, band, np.empty(7)))
+        return float(_assemble(q, self.parameters, 2, gradient, band, np.empty(8)))
 
     def energy(self, q: Vector) -> float:
-        """Strain energy [J] at q, as `assemble` gives it."""
-        return float(_assemble(q, self.stiffness, 0, _NO_VECTOR, _NO_BAND, np.empty(7)))
+        """The same energy [J]."""
+        return float(_assemble(q, self.parameters, 0, _NO_VECTOR, _NO_BAND, np.empty(8)))
 
     def differentiate(self, q: Vector, gradient: Vector) -> float:
-        """Strain energy [J] at q; overwrites its gradient, shape (4 N,) [N]."""
-        return float(_assemble(q, self.stiffness, 1, gradient, _NO_BAND, np.empty(7)))
+        """The same energy [J]; overwrites its gradient, shape (4 N,) [N]."""
+        return float(_assemble(q, self.parameters, 1, gradient, _NO_BAND, np.empty(8)))
 
     def energy_terms(self, q: Vector) -> Array:
         """The seven terms of eq. (3.4.11) at q, in the order of `TERMS`, shape (7,) [J]."""
-        terms = np.empty(7)
-        _assemble(q, self.stiffness, 0, _NO_VECTOR, _NO_BAND, terms)
-        return terms
+        terms = np.empty(8)
+        _assemble(q, self.parameters, 0, _NO_VECTOR, _NO_BAND, terms)
+        return terms[:7]
 
 
 @njit(cache=True, error_model="numpy")
@@ -231,11 +186,9 @@ def _edge_block(
 
 
 @njit(cache=True, error_model="numpy")
-def _assemble(
-    q: Vector, rod: Stiffness, order: int, gradient: Vector, band: Band, terms: Array
-) -> float:
-    """The energy and its seven terms; with order 1 also the gradient, with order 2 the Hessian too."""
-    n = rod.voronoi.size
+def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+    """The energy and its terms, the couples' last; with order 1 also the gradient, with order 2 the Hessian too."""
+    n = rod.shape[0]
     gradient[:] = 0.0
     band[:, :] = 0.0
     terms[:] = 0.0
@@ -268,57 +221,69 @@ def _assemble(
     W_phi, W_phiphi = np.zeros(n), np.zeros(n)
     W_theta, W_thetatheta, W_theta_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
     W_lam, W_lamlam, W_lam_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
-    lam = r / rod.director  # eq. (3.3.21)
+    lam = r / rod[:, DIRECTOR]  # eq. (3.3.21)
     for K in range(n - 1):
-        E = rod.edge[K]
+        E = rod[K, EDGE]
         value, first, second = stretching(m[K] / E)  # eq. (3.3.19)
-        terms[0] += rod.k1[K] / 2 * value * E
-        W_m[K] += rod.k1[K] / 2 * first
-        W_mm[K] += rod.k1[K] / 2 * second / E
+        terms[0] += rod[K, K1] / 2 * value * E
+        W_m[K] += rod[K, K1] / 2 * first
+        W_mm[K] += rod[K, K1] / 2 * second / E
 
         jump = theta[K + 1] - theta[K]
-        terms[4] += rod.k5[K] / 2 * jump * jump / E
-        W_theta[K] -= rod.k5[K] * jump / E
-        W_theta[K + 1] += rod.k5[K] * jump / E
-        W_thetatheta[K] += rod.k5[K] / E
-        W_thetatheta[K + 1] += rod.k5[K] / E
-        W_theta_next[K] -= rod.k5[K] / E
+        terms[4] += rod[K, K5] / 2 * jump * jump / E
+        W_theta[K] -= rod[K, K5] * jump / E
+        W_theta[K + 1] += rod[K, K5] * jump / E
+        W_thetatheta[K] += rod[K, K5] / E
+        W_thetatheta[K + 1] += rod[K, K5] / E
+        W_theta_next[K] -= rod[K, K5] / E
 
-        jump = r[K + 1] / rod.director[K + 1] - r[K] / rod.director[K]
-        terms[5] += rod.k6[K] / 2 * jump * jump / E
-        W_lam[K] -= rod.k6[K] * jump / E
-        W_lam[K + 1] += rod.k6[K] * jump / E
-        W_lamlam[K] += rod.k6[K] / E
-        W_lamlam[K + 1] += rod.k6[K] / E
-        W_lam_next[K] -= rod.k6[K] / E
+        jump = r[K + 1] / rod[K + 1, DIRECTOR] - r[K] / rod[K, DIRECTOR]
+        terms[5] += rod[K, K6] / 2 * jump * jump / E
+        W_lam[K] -= rod[K, K6] * jump / E
+        W_lam[K + 1] += rod[K, K6] * jump / E
+        W_lamlam[K] += rod[K, K6] / E
+        W_lamlam[K + 1] += rod[K, K6] / E
+        W_lam_next[K] -= rod[K, K6] / E
     for K in range(n):
-        L = rod.voronoi[K]
+        L = rod[K, VORONOI]
         value, first, second = stretching(lam[K])
-        terms[1] += rod.k2[K] / 2 * value * L
-        W_lam[K] += rod.k2[K] / 2 * first * L
-        W_lamlam[K] += rod.k2[K] / 2 * second * L
+        terms[1] += rod[K, K2] / 2 * value * L
+        W_lam[K] += rod[K, K2] / 2 * first * L
+        W_lamlam[K] += rod[K, K2] / 2 * second * L
 
         value, first, second = squared_tangent(theta[K], 0.0)
-        terms[3] += rod.k4[K] / 2 * value * L
-        W_theta[K] += rod.k4[K] / 2 * first * L
-        W_thetatheta[K] += rod.k4[K] / 2 * second * L
+        terms[3] += rod[K, K4] / 2 * value * L
+        W_theta[K] += rod[K, K4] / 2 * first * L
+        W_thetatheta[K] += rod[K, K4] / 2 * second * L
     for K in range(1, n - 1):  # bending and the Poisson effect: interior vertices only
-        L = rod.voronoi[K]
+        L = rod[K, VORONOI]
         turn = t0[K - 1] * t1[K] - t1[K - 1] * t0[K]
         phi = np.arctan2(turn, t0[K - 1] * t0[K] + t1[K - 1] * t1[K])  # eqs. (3.3.15), (3.3.18)
         # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23), less the intrinsic K of the reference
-        value, first, second = squared_tangent(phi / 2, rod.intrinsic[K])
-        terms[2] += 2 * rod.k3[K] / L * value
-        W_phi[K] = rod.k3[K] / L * first
-        W_phiphi[K] = rod.k3[K] / (2 * L) * second
+        value, first, second = squared_tangent(phi / 2, rod[K, INTRINSIC])
+        terms[2] += 2 * rod[K, K3] / L * value
+        W_phi[K] = rod[K, K3] / L * first
+        W_phiphi[K] = rod[K, K3] / (2 * L) * second
 
-        stretch = (r[K] - rod.director[K]) / rod.director[K]
+        stretch = (r[K] - rod[K, DIRECTOR]) / rod[K, DIRECTOR]
         # excess = (mu - 1) L, eqs. (3.3.13), (3.3.20)
-        excess = ((m[K - 1] - rod.edge[K - 1]) + (m[K] - rod.edge[K])) / 2
-        terms[6] += rod.k7[K] * stretch * excess
-        W_lam[K] += rod.k7[K] * excess
-        W_m[K - 1] += rod.k7[K] / 2 * stretch
-        W_m[K] += rod.k7[K] / 2 * stretch
+        excess = ((m[K - 1] - rod[K - 1, EDGE]) + (m[K] - rod[K, EDGE])) / 2
+        terms[6] += rod[K, K7] * stretch * excess
+        W_lam[K] += rod[K, K7] * excess
+        W_m[K - 1] += rod[K, K7] / 2 * stretch
+        W_m[K] += rod[K, K7] / 2 * stretch
+    W_turn = W_theta - rod[:, COUPLE]  # of the directors alone: a couple does the work of a couple
+    if rod[:, COUPLE].any():
+        angle = np.arctan2(d1[0], d0[0])
+        angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))  # counted on from there
+        for K in range(n):
+            if K > 0:
+                before, across = (
+                    d0[K - 1] * d0[K] + d1[K - 1] * d1[K],
+                    d0[K - 1] * d1[K] - d1[K - 1] * d0[K],
+                )
+                angle += np.arctan2(across, before)
+            terms[7] -= rod[K, COUPLE] * (angle - rod[K, ANGLE])
 
     total: float = terms.sum()
     if order == 0:
@@ -345,17 +310,17 @@ def _assemble(
         gradient[p + 1] -= W_theta[K] * g1
         gradient[s] += W_theta[K] * g0
         gradient[s + 1] += W_theta[K] * g1
-        gradient[u] += W_theta[K] * h0 + W_lam[K] * d0[K] / rod.director[K]
-        gradient[u + 1] += W_theta[K] * h1 + W_lam[K] * d1[K] / rod.director[K]
+        gradient[u] += W_turn[K] * h0 + W_lam[K] * d0[K] / rod[K, DIRECTOR]
+        gradient[u + 1] += W_turn[K] * h1 + W_lam[K] * d1[K] / rod[K, DIRECTOR]
         if order == 1:
             continue
         stiff = W_thetatheta[K]
         _edge_block(band, p, s, c0[K], c1[K], 0.0, stiff / (c[K] * c[K]), W_theta[K] / (c[K] * c[K]))
         _cross(band, s, g0, g1, u, h0, h1, stiff)
         _cross(band, p, -g0, -g1, u, h0, h1, stiff)
-        _square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod.director[K])
-        _twist(band, u, d0[K], d1[K], -W_theta[K] / (r[K] * r[K]))
-        _square(band, u, d0[K] / rod.director[K], d1[K] / rod.director[K], W_lamlam[K])
+        _square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod[K, DIRECTOR])
+        _twist(band, u, d0[K], d1[K], -W_turn[K] / (r[K] * r[K]))
+        _square(band, u, d0[K] / rod[K, DIRECTOR], d1[K] / rod[K, DIRECTOR], W_lamlam[K])
 
     if order == 1:
         return total
@@ -377,7 +342,7 @@ def _assemble(
         _cross(band, s + 4, b0, b1, p, a0, a1, stiff)
         _cross(band, s + 4, b0, b1, s, z0, z1, stiff)
 
-        w = rod.k7[K] / (2 * rod.director[K])
+        w = rod[K, K7] / (2 * rod[K, DIRECTOR])
         _cross(band, s + 2, d0[K], d1[K], p, -t0[K - 1], -t1[K - 1], w)
         _cross(band, s + 2, d0[K], d1[K], s, t0[K - 1] - t0[K], t1[K - 1] - t1[K], w)
         _cross(band, s + 2, d0[K], d1[K], s + 4, t0[K], t1[K], w)
@@ -391,6 +356,17 @@ def _assemble(
             _cross(band, high_next, j0, j1, at, v0, v1, w)
             _cross(band, low_next, -j0, -j1, at, v0, v1, w)
             _cross(band, 4 * J + 2, i0, i1, at, v0, v1, w)
-        w = W_lam_next[K] / (rod.director[K] * rod.director[J])
+        w = W_lam_next[K] / (rod[K, DIRECTOR] * rod[J, DIRECTOR])
         _cross(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
     return total
+
+
+def _energy(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+    """The same, as a function that compiled solvers can be handed."""
+    return _assemble(q, rod, order, gradient, band, terms)
+
+
+@functools.cache
+def _compiled_energy() -> object:
+    """Loaded only where a motion needs it: 0.2 s."""
+    return cfunc(KERNEL, cache=True)(_energy)

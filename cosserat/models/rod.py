@@ -10,24 +10,23 @@ from pydantic import GetCoreSchemaHandler, field_validator, model_validator
 from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.models.consistent import ConsistentRod, SectionState, coefficients
-from cosserat.models.couples import Coupled
 from cosserat.models.loaded_rod import LoadedRod
 from cosserat.models.planar_rod import UNKNOWNS, Geometry
-from cosserat.models.published import (
+from cosserat.models.published import PublishedRod
+from cosserat.models.section import Station, lump, mean
+from cosserat.models.section import share as share_of
+from cosserat.models.stiffness import (
     Calibration,
     EndSections,
     IntrinsicCurvature,
     PoissonCoupling,
-    PublishedRod,
     stiffnesses,
 )
-from cosserat.models.section import Station, lump, mean
-from cosserat.models.section import share as share_of
 from cosserat.parameters import Count, Parameters, Quantity
 
 Array = NDArray[np.float64]
 _INCOMPRESSIBLE = 0.49  # least Poisson's ratio that may be called so
-RodBody = PublishedRod | Coupled | ConsistentRod
+RodBody = PublishedRod | ConsistentRod
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
 
 
@@ -159,8 +158,8 @@ class Rod(Parameters):
         cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
         return self.line_density * part * mean(self.stations, lambda w, h, _: w * h, cuts[:-1], cuts[1:])
 
-    def body(self, geometry: Geometry, couples: Array | None = None) -> PublishedRod | ConsistentRod:
-        """The elastic body with the averages of Table 3.1; the consistent one carries its couples, shape (N,) [N m]."""
+    def body(self, geometry: Geometry, couples: Array | None = None) -> RodBody:
+        """The elastic body with the averages of Table 3.1 and its couples, shape (N,) [N m]."""
         vertex, edge = lump(
             self.stations,
             geometry.arc_length,
@@ -176,18 +175,17 @@ class Rod(Parameters):
                     geometry, vertex, edge, self.shear_correction, self.section, moments, self.barrier
                 )
             )
-        return PublishedRod(
-            stiffnesses(
-                geometry,
-                vertex,
-                edge,
-                self.shear_correction,
-                self.calibration,
-                self.end_sections,
-                self.poisson_coupling,
-                self.intrinsic_curvature,
-            )
+        stiff = stiffnesses(
+            geometry,
+            vertex,
+            edge,
+            self.shear_correction,
+            self.calibration,
+            self.end_sections,
+            self.poisson_coupling,
+            self.intrinsic_curvature,
         )
+        return PublishedRod.of(stiff, geometry, couples)
 
 
 class Support(Parameters):
@@ -306,11 +304,7 @@ class RodProblem(Parameters):
 
     def body(self, geometry: Geometry) -> RodBody:
         """The rod with its couples, which have a potential but are no dead load."""
-        rod = self.rod.body(geometry, self._moments())
-        if isinstance(rod, ConsistentRod) or not self.couples:
-            return rod
-        couples = tuple((self._index(item.at), item.moment) for item in self.couples)
-        return Coupled(rod, couples, geometry.D)
+        return self.rod.body(geometry, self._moments())
 
     def loaded(self, geometry: Geometry) -> LoadedRod:
         """The consistent rod with all its loads, couples and moves growing together."""

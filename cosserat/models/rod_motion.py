@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Literal
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from cosserat import analytic
 from cosserat.errors import CosseratError, DivergedError, NotConvergedError
-from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, rigid_motions
+from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, counted_angles, rigid_motions
 from cosserat.models.rod import Direction, RodBody, RodProblem, unit_vector
 from cosserat.outcome import Outcome
 from cosserat.parameters import Parameters, Quantity
@@ -20,9 +21,11 @@ from cosserat.solvers.motion import (
     State,
     System,
     advance,
+    body_at,
     kinetic_energy,
     refuse_unstable_step,
 )
+from cosserat.solvers.stepping import counted_on
 
 Array = NDArray[np.float64]
 
@@ -67,23 +70,21 @@ class RodMotion(RodProblem):
     def system(self, geometry: Geometry) -> System:
         """What moves: body, mass, loads, supports and drag."""
         held = self.held().ravel()
-        free = None if held.any() else _rigid_fields
-        drive = self.drive if self.moves else None
-        system = System(
+        at_rest = System(
             self.body(geometry),
             self.mass(geometry),
             self.loads(geometry).ravel(),
             held,
-            0.0,
-            free,
-            drive,
+            drag=0.0,
+            translations=np.empty((0, held.size))
+            if held.any()
+            else _rigid_fields(reference(geometry))[:2],
+            drive=self.drive if self.moves else None,
         )
         if not self.damping:
-            return system
-        lowest = modes(system, reference(geometry), 1).angular_frequency[0]
-        return System(
-            system.body, system.mass, system.load, held, 2 * self.damping * lowest, free, drive
-        )
+            return at_rest
+        lowest = modes(at_rest, reference(geometry), 1).angular_frequency[0]
+        return replace(at_rest, drag=2 * self.damping * lowest)
 
     def modes(self, count: int) -> Modes:
         """The lowest natural frequencies and shapes about the reference configuration."""
@@ -110,7 +111,9 @@ class RodMotion(RodProblem):
         v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
         v[self.held()] = 0.0
         place, rate = self.drive(0.0)
-        state = State(q.ravel() + place, v.ravel() + rate)
+        start = q.ravel() + place
+        upright = counted_angles(geometry.D)[0]
+        state = State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))
         refuse_unstable_step(self.system(geometry), state.q, self.integrator, name)
         return state
 
@@ -144,6 +147,7 @@ class RodMotion(RodProblem):
             np.hstack([fields["x"][-1], fields["d"][-1]]).ravel(),
             np.hstack([fields["x_rate"][-1], fields["d_rate"][-1]]).ravel(),
             float(fields["time"][-1]),
+            float(fields["first_angle"][-1]),
         )
 
 
@@ -163,6 +167,7 @@ def _frames(
     v = np.array([state.v for state in states]).reshape(q.shape)
     start = reference(geometry)
     strain = np.array([rod.energy(state.q) for state in states])
+    loaded = [body_at(system, s).energy(s.q) - system.load @ (s.q - start) for s in states]
     momenta = np.array([_rigid_fields(s.q) @ band_product(system.mass, s.v) for s in states])
     return {
         "time": times,
@@ -173,12 +178,10 @@ def _frames(
         "d": q[..., 2:],
         "x_rate": v[..., :2],
         "d_rate": v[..., 2:],
+        "first_angle": np.array([state.angle for state in states]),
         "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
         "strain_energy": strain,
-        "load_potential": np.array(
-            [system.body.energy(s.q) - system.load @ (s.q - start) for s in states]
-        )
-        - strain,
+        "load_potential": np.array(loaded) - strain,
         "momentum": momenta[:, :2],
         "angular_momentum": momenta[:, 2],
     }

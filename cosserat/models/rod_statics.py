@@ -61,7 +61,7 @@ class RodStatics(RodProblem):
         body, load = self.body(geometry), self.loads(geometry)
         at_rest = self.equilibrium(geometry, body, load, name).q
         system = System(
-            body, self.mass(geometry), load.ravel(), self.held().ravel(), drag=0.0, rigid=None
+            body, self.mass(geometry), load.ravel(), self.held().ravel(), 0.0, np.empty((0, load.size))
         )
         return modes(system, at_rest, count)
 

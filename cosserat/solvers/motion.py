@@ -1,39 +1,44 @@
 """Motion of an elastic body, M q'' = F, eq. (3.3.50): implicitly, keeping energy and momenta, or explicitly.
 
-The implicit method is the midpoint rule with a discrete gradient (Gonzalez, J. Nonlinear Sci. 6, 449, 1996): the
-elastic force is the gradient at the midpoint plus sigma z, where sigma makes its work the change of energy, exactly.
-Gonzalez takes z along the step; here z is the step less its rigid part when nothing is held, so that the added force
-has neither a resultant nor a moment and linear and angular momentum stay as they are.  Second order in the step.
+The implicit method is that of `solvers.stepping`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from cosserat.errors import DivergedError, InputError, NotConvergedError
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.banded import Band, Mask, Vector, band_product, hold, solve_positive
-from cosserat.solvers.stepping import MAX_ITERATIONS, STALL, TOLERANCE, Compiled, march
+from cosserat.solvers.stepping import MAX_ITERATIONS, TOLERANCE, counted_on, march
 
 if TYPE_CHECKING:
     from scipy.sparse import dia_array
 
-_MAX_ITERATIONS = 30
-_EPS = float(np.finfo(float).eps)
 _RK4_LIMIT = 2.8284271247461903  # largest omega h on the imaginary axis, 2 sqrt(2)
 
 
 class Body(Protocol):
-    """A body with a strain energy, as a moving body needs it."""
+    """A body with a compiled energy, of the kind that `stepping.KERNEL` tells."""
 
     @property
     def half_bandwidth(self) -> int:
         """Largest distance of two coupled unknowns."""
+
+    @property
+    def kernel(self) -> object:
+        """The compiled energy."""
+
+    @property
+    def parameters(self) -> NDArray[np.float64]:
+        """What the kernel takes besides the unknowns."""
+
+    def counted_near(self, angle: float) -> Body:
+        """The same body, the angle of its first director counted within half a turn of this one [rad]."""
 
     def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
         """Energy at q; overwrites its gradient and Hessian."""
@@ -61,8 +66,8 @@ class System:
     """What moves: the body, its mass as a symmetric band (n, w + 1), dead load (n,), what is held and the drag [1/s].
 
     The damping force is -drag M v.
+    translations : (2, n) displacements of a free body that only move it; (0, n) where something is held.
     drive : how held unknowns are moved; None where they rest.
-    rigid : fields (k, n) at q that a free body's momenta belong to, as a function of q; None where something is held.
     """
 
     body: Body
@@ -70,7 +75,7 @@ class System:
     load: Vector
     held: Mask
     drag: float
-    rigid: RigidFields | None
+    translations: NDArray[np.float64]
     drive: Drive | None = None
 
 
@@ -81,20 +86,22 @@ class Drive(Protocol):
         """Displacement and velocity at a time, each (n,), zero where nothing is prescribed."""
 
 
-class RigidFields(Protocol):
-    """Velocity fields that do not deform."""
-
-    def __call__(self, q: Vector) -> NDArray[np.float64]:
-        """The fields at q, shape (k, n)."""
-
-
 @dataclass(frozen=True)
 class State:
-    """Positions q and velocities v, each (n,), at a time."""
+    """Positions q and velocities v, each (n,), at a time.
+
+    angle : of the first director, counted through whole turns [rad]; None: within half a turn of the reference.
+    """
 
     q: Vector
     v: Vector
     time: float = 0.0
+    angle: float | None = None
+
+
+def body_at(system: System, state: State) -> Body:
+    """The body with its angles counted as in this state."""
+    return system.body if state.angle is None else system.body.counted_near(state.angle)
 
 
 def kinetic_energy(system: System, state: State) -> float:
@@ -117,50 +124,55 @@ def advance(
     if settings.method == "rk45":
         return _adaptive(system, state, duration, settings, name)
     count = max(1, round(duration / settings.step))
-    if settings.method == "implicit" and _runs_compiled(system):
+    if settings.method == "implicit":
         return _marched(system, state, duration / count, count, name), count
-    move = _Implicit(system, name).step if settings.method == "implicit" else _Rk4(system).step
+    move = _Rk4(system)
     with np.errstate(over="ignore", invalid="ignore"):
         for _ in range(count):
-            state = move(state, duration / count)
+            state = move.step(state, duration / count)
     _refuse_divergence(system, state, settings, name)
-    return state, count
+    return _counted(state), count
 
 
-def _runs_compiled(system: System) -> bool:
-    """Whether the body's energy is a compiled function, its supports rest and its momenta are of no concern."""
-    return isinstance(system.body, Compiled) and system.rigid is None and system.drive is None
+def _counted(state: State) -> State:
+    """The state with the angle of its first director, if that is counted, followed by less than half a turn."""
+    if state.angle is None:
+        return state
+    return replace(state, angle=counted_on(state.q[3], state.q[2], state.angle))
 
 
 def _marched(system: System, state: State, h: float, count: int, name: str) -> State:
-    body = system.body
-    assert isinstance(body, Compiled)
-    q, v = state.q.copy(), np.where(system.held, 0.0, state.v)
-    width = 1 + max((k for k in range(system.mass.shape[1]) if system.mass[:, k].any()), default=0)
+    held = system.held
+    q, v, parameters = state.q.copy(), state.v.copy(), body_at(system, state).parameters.copy()
+    mass_width = 1 + max(np.flatnonzero(system.mass.any(axis=0)), default=0)
+    moved = np.flatnonzero(held) if system.drive else np.empty(0, dtype=np.int64)
+    path = np.zeros((2, count + 1, moved.size))
+    if system.drive:
+        for number in range(count + 1):
+            place, rate = system.drive(state.time + number * h)
+            path[:, number] = place[moved], rate[moved]
     done = march()(
-        body.kernel,
-        body.parameters,
+        system.body.kernel,
+        parameters,
         q,
         v,
-        np.ascontiguousarray(system.mass[:, :width]),
+        np.ascontiguousarray(system.mass[:, :mass_width]),
         system.load,
-        system.held,
+        held,
+        moved,
+        *path,
+        system.translations,
         system.drag,
         h,
-        count,
-        body.half_bandwidth,
+        system.body.half_bandwidth,
     )
     if done < count:
-        raise _no_step(name, h, MAX_ITERATIONS)
-    return State(q, v, state.time + count * h)
-
-
-def _no_step(name: str, h: float, iterations: int) -> NotConvergedError:
-    return NotConvergedError(
-        f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
-        iterations=iterations,
-        tolerance=TOLERANCE,
-    )
+        raise NotConvergedError(
+            f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
+            iterations=MAX_ITERATIONS,
+            tolerance=TOLERANCE,
+        )
+    return State(q, v, state.time + count * h, float(parameters[0, -1]))
 
 
 def stable_step(system: System, q: Vector) -> float:
@@ -215,78 +227,6 @@ def _sparse(band: Band) -> dia_array:
     )
 
 
-@njit(cache=True)
-def _step_matrix(band: Band, mass: Band, factor: float) -> None:
-    """Overwrite a Hessian with half of it plus factor times the mass."""
-    for j in range(band.shape[0]):
-        for k in range(band.shape[1]):
-            band[j, k] *= 0.5
-        for k in range(mass.shape[1]):
-            band[j, k] += factor * mass[j, k]
-
-
-class _Implicit:
-    """The energy- and momentum-keeping midpoint rule, with its work arrays."""
-
-    def __init__(self, system: System, name: str) -> None:
-        n = system.held.size
-        self.system, self.name = system, name
-        self.gradient = np.empty(n)
-        self.band = np.empty((n, system.body.half_bandwidth + 1))
-
-    def step(self, state: State, h: float) -> State:
-        body, mass, held = self.system.body, self.system.mass, self.system.held
-        before = body.energy(state.q)
-        given = np.zeros_like(state.q)
-        if self.system.drive is not None:
-            given = self.system.drive(state.time + h)[0] - self.system.drive(state.time)[0]
-        change = np.where(held, given, h * state.v)
-        factor = 2 / h**2 + self.system.drag / h
-        pull = self.system.load + (2 / h) * band_product(mass, state.v)
-        size = np.inf
-        for _ in range(_MAX_ITERATIONS):
-            middle = body.assemble(state.q + change / 2, self.gradient, self.band)
-            if not np.isfinite(middle):
-                break
-            force = pull - factor * band_product(mass, change) - self.gradient
-            force -= self._correction(state.q, change, before)
-            force[held] = 0.0
-            _step_matrix(self.band, mass, factor)
-            hold(self.band, held)
-            correction = solve_positive(self.band, force)
-            if correction is None:
-                break
-            change += correction
-            size, last = float(np.abs(correction).max()), size
-            rounding = _EPS * float(np.abs(state.q).max())
-            stalled = size > last / 2 and size < STALL * rounding
-            if stalled or size <= max(TOLERANCE * float(np.abs(change).max()), rounding):
-                return self._arrived(state, change, h)
-        raise _no_step(self.name, h, _MAX_ITERATIONS)
-
-    def _arrived(self, state: State, change: Vector, h: float) -> State:
-        v = 2 / h * change - state.v
-        if self.system.drive is not None:
-            v = np.where(self.system.held, self.system.drive(state.time + h)[1], v)
-        return State(state.q + change, v, state.time + h)
-
-    def _correction(self, q: Vector, change: Vector, before: float) -> Vector:
-        """The force sigma z that makes the work of the elastic forces the change of energy."""
-        after = self.system.body.energy(q + change)
-        missing = after - before - float(self.gradient @ change)
-        along = change
-        if self.system.rigid is not None:
-            fields, _ = np.linalg.qr(self.system.rigid(q + change / 2).T)
-            along = change - fields @ (fields.T @ change)
-        size = float(along @ change)
-        # rounding a position by eps q changes an energy Pi = k u^2 / 2 by sqrt(2 k Pi) eps q
-        stiffest = float(np.abs(self.band[:, 0]).max())
-        slip = _EPS * float(np.abs(q).max()) * np.sqrt(2 * stiffest * (abs(before) + abs(after)))
-        if size == 0.0 or not abs(missing) > slip + _EPS * (abs(before) + abs(after)):
-            return np.zeros_like(change)
-        return missing / size * along
-
-
 class _Rk4:
     """The classical Runge-Kutta method with a fixed step."""
 
@@ -301,7 +241,7 @@ class _Rk4:
         k3 = self.rate(t + h / 2, y + h / 2 * k2)
         k4 = self.rate(t + h, y + h * k3)
         q, v = np.split(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), 2)
-        return State(q, v, t + h)
+        return State(q, v, t + h, state.angle)
 
 
 class _Acceleration:
@@ -345,9 +285,9 @@ def _adaptive(
     if not done.success:
         raise DivergedError(f"{name}: the explicit integrator stopped ({done.message}); {_REMEDY}")
     q, v = np.split(done.y[:, -1], 2)
-    after = State(q, v, state.time + duration)
+    after = State(q, v, state.time + duration, state.angle)
     _refuse_divergence(system, after, settings, name)
-    return after, int(done.nfev)
+    return _counted(after), int(done.nfev)
 
 
 _REMEDY = "take a shorter 'integrator.step' or the method 'implicit'"
