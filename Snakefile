@@ -15,6 +15,8 @@ os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get
 CASES = published()
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
+FORMULAS = ["cosserat/analytic.py", "cosserat/elastica.py"]
+READOUTS = [f"cosserat/table/{name}.py" for name in ("crawl_readouts", "reading", "readouts")]
 
 
 def package(*names):
@@ -58,7 +60,7 @@ rule simulate:
 rule measure:
     input:
         package("table"),
-        "cosserat/analytic.py",
+        FORMULAS,
         table="results/tolerances.csv",
         cases=expand("results/cases/{case}.nc", case=CASES),
     output:
@@ -87,8 +89,8 @@ rule check:
 rule figure:
     input:
         package("figures"),
-        "cosserat/analytic.py",
-        "cosserat/table/readouts.py",
+        FORMULAS,
+        READOUTS,
         cases=lambda wildcards: [f"results/cases/{case}.nc" for case in FIGURES[wildcards.figure].cases],
     output:
         report(

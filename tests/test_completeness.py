@@ -82,6 +82,16 @@ def test_the_solver_does_not_know_how_many_numbers_a_vertex_has():
         assert not re.search(r"\* 4\b|\b4 \*|reshape\([^)]*[24]\)", file.read_text()), file
 
 
+def test_computing_sources_are_closed_under_import():
+    """What a computing source imports computes too: its edits rerun the simulations and change the digest."""
+    computing = set(computing_sources())
+    for file in computing:
+        for module in imports_of(file):
+            stem = PACKAGE.parent / module.replace(".", "/")
+            imported = stem / "__init__.py" if stem.is_dir() else stem.with_suffix(".py")
+            assert imported in computing, f"{file.relative_to(PACKAGE)} imports {module}"
+
+
 def test_a_cached_kernel_calls_only_kernels_of_its_own_file():
     """Numba's cache of a function does not see edits of another file, so none may be called from there."""
     import importlib

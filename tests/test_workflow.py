@@ -126,6 +126,16 @@ def test_the_solver_edited_reruns_every_simulation(checkout, edited):
     assert set(KEPT) < set(cosserat.published())
 
 
+@pytest.mark.parametrize("name", ["analytic", "elastica"])
+def test_a_formula_edited_reruns_what_stands_on_it(checkout, edited, name):
+    """Models start from closed forms, rows and figures are judged by them."""
+    file = f"cosserat/{name}.py"
+    edited(file, "import annotations", "import annotations  # edited")
+    rules, outputs = planned(checkout)
+    assert rules == {"simulate", "measure", "check", "figure"}
+    assert {f"cases/{case}.nc" for case in KEPT} <= outputs
+
+
 def test_plotting_edited_reruns_no_simulation(checkout, edited):
     edited("cosserat/figures/style.py", '"font.size": 9', '"font.size": 10')
     assert planned(checkout) == ({"figure"}, {f"figures/{name}.svg" for name in DRAWN})

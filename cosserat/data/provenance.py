@@ -13,6 +13,8 @@ _COMPUTING = (
     "errors.py",
     "outcome.py",
     "parameters.py",
+    "analytic.py",
+    "elastica.py",
     "runner.py",
     "solvers",
     "models",
