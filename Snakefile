@@ -111,7 +111,10 @@ rule chapter:
     input:
         package("book", "table", "figures"),
         "results/check.txt",
+        "results/report.csv",
+        "results/tolerances.csv",
         "results/errata.toml",
+        expand("results/cases/{case}.nc", case=CASES),
         expand("results/figures/{figure}.svg", figure=FIGURES),
         measured=lambda wildcards: (
             ["results/peers.csv"]
