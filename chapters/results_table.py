@@ -11,9 +11,12 @@
 # %% [markdown]
 # # The results table
 #
-# One row for each number or curve that the thesis publishes. *Printed text* is that of the page, never corrected; where the page claims that two curves agree at some coefficients, it is those coefficients.
-# *Expected* is that number in SI units, or what the closed form gives where the page claims agreement with it. *Measured*
-# is what the stored datasets say. The claim of a row is that the measured number lies within its tolerance, or, where
+# One row for each number or curve that the thesis publishes, and some that it does not. *Printed text* is that of the
+# page, never corrected; where the page claims that two curves agree at some coefficients, it is those coefficients.
+# The kind of a row says what *expected* is: of a *printed* one that number in SI units; of an *analytic* one what a closed
+# form gives, the page's where it claims agreement with it, another exact one for what is ours alone (rows that begin
+# with C); *in words*, what the sentence says; of the *literature*, what a source of the page measured and the page does
+# not print. *Measured* is what the stored datasets say. The claim of a row is that the measured number lies within its tolerance, or, where
 # the page is wrong or admits a reading that does not fit, that it lies outside.
 
 # %% tags=["remove-input"]
@@ -30,11 +33,13 @@ lines = [
         page.amount(row["expected"], row["units"]),
         page.amount(row["measured"], row["units"]),
         row["verdict"],
-        " ".join((row["standing"], row["erratum"])),
+        " ".join((f"{row['kind']}:", row["standing"], row["erratum"])),
     ]
     for row in attempted
 ]
-page.table(lines, ("row", "quantity", "printed text", "expected", "measured", "verdict", "standing"))
+page.table(
+    lines, ("row", "quantity", "printed text", "expected", "measured", "verdict", "kind: standing")
+)
 
 # %% [markdown]
 # ## Why each tolerance is what it is

@@ -1,12 +1,16 @@
 """The judge can fail, and the rows load: what the results table claims is what the numbers say."""
 
+import ast
+import math
+import re
+
 import pytest
 from conftest import ROOT
 
 import cosserat
 from cosserat.errors import InputError, OutOfToleranceError
 from cosserat.table.errata import read_errata
-from cosserat.table.measure import check, measure
+from cosserat.table.measure import check, judge, measure
 from cosserat.table.readouts import READOUTS, midspan
 from cosserat.table.tolerances import Judged, Row, read_report, read_table, write_report
 
@@ -87,13 +91,56 @@ def test_published_texts_are_read_with_their_units():
         _ = a_row(published="about two").expected
 
 
-def test_published_numbers_are_never_typed_twice():
-    """Only `printed` rows take their number from the page; the others get it from a closed form."""
+def test_only_the_pages_own_numbers_are_of_kind_printed():
+    """Ours (C-...) and those of the page's sources come from a closed form or a source, and say so."""
     for row in ATTEMPTED:
-        if row.kind == "printed":
-            assert row.expected is not None
-        else:
-            assert row.expected is None
+        ours, cited = row.id.startswith("C-"), "reference [" in row.where
+        assert (row.kind == "literature") == cited, row.id
+        assert row.kind == "analytic" or not ours, row.id
+        assert row.kind != "printed" or row.where.startswith(
+            ("section", "eq", "after eq", "Fig", "Table")
+        )
+
+
+def test_every_row_knows_what_is_expected_from_one_side_only(solved):
+    """A printed number or the read-out's, never both and never neither."""
+    for row in ATTEMPTED:
+        reading = READOUTS[row.readout](solved[row.case])
+        assert (row.expected is None) != (reading.expected is None), row.id
+
+
+def unusual(row):
+    """The numbers that a row prints, in its own and in SI units, if they have two significant digits or more."""
+    digits = re.match(r"-?([\d.]+)", row.published)[1]
+    significant = digits.lstrip("0.").replace(".", "") if "." in digits else digits.strip("0")
+    return {abs(float(digits)), abs(row.expected)} if len(significant) > 1 else set()
+
+
+ALIKE = {
+    ("chapter2.py", 0.25),  # where the muscles of Fig. 2.5(b) begin, on a body of length one
+    ("chapter2.py", 0.75),  # and where they end
+    ("crawlers.py", 0.25),  # widths in a picture
+    ("chapter3.py", 1.35),
+    ("chapter3.py", 1.6),
+    ("crawl_readouts.py", 0.25),  # T of the push-pull gait, section 2.7
+}
+"""Literals that are not the published number that they equal."""
+
+
+def test_published_numbers_are_typed_in_the_table_alone():
+    """No number of a read-out, a figure or a chapter is one that the page prints."""
+    published = set().union(*(unusual(row) for row in ROWS if row.kind == "printed"))
+    assert {0.0386, 38.6, 0.75, 23.88, 0.59686} <= published
+    folders = ("cosserat/table", "cosserat/figures", "cosserat/book", "chapters")
+    typed = {
+        (file.name, node.value)
+        for folder in folders
+        for file in (ROOT / folder).glob("*.py")
+        for node in ast.walk(ast.parse(file.read_text()))
+        if isinstance(node, ast.Constant) and isinstance(node.value, float)
+        if any(math.isclose(node.value, number, rel_tol=1e-9) for number in published)
+    }
+    assert typed <= ALIKE
 
 
 @pytest.mark.parametrize(
@@ -123,6 +170,19 @@ def test_an_id_that_stands_twice_is_refused(tmp_path):
     lines = TABLE.read_text().splitlines()
     (tmp_path / "t.csv").write_text("\n".join([*lines, lines[1]]))
     with pytest.raises(InputError, match="the id 2.7-displacement stands more than once"):
+        read_table(tmp_path / "t.csv")
+
+
+def test_a_share_is_of_the_published_number_that_the_table_names(solved):
+    row = next(row for row in ROWS if row.id == "2.8-stride-error")
+    stride = READOUTS[row.readout](solved[row.case]).measured
+    assert judge(row, solved).measured == pytest.approx(abs(stride / 38.6e-3 - 1))
+
+
+@pytest.mark.parametrize("other", ["2.8-strid", "F3.9-tip"])
+def test_a_share_of_an_unknown_or_unprinted_number_is_refused(tmp_path, other):
+    (tmp_path / "t.csv").write_text(TABLE.read_text().replace(",2.8.4-stride\n", f",{other}\n"))
+    with pytest.raises(InputError, match=r"row '2\.8-stride-error': 'against' is '.*'; give the id"):
         read_table(tmp_path / "t.csv")
 
 

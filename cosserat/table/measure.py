@@ -36,7 +36,8 @@ def judge(row: Row, datasets: Mapping[str, xr.Dataset]) -> Judged:
         return Judged(row=row, expected=row.expected)
     reading = READOUTS[row.readout](datasets[row.case])
     expected = row.expected if reading.expected is None else reading.expected
-    return Judged.model_construct(row=row, expected=expected, measured=reading.measured)
+    measured = reading.measured if row.against is None else abs(reading.measured / row.against - 1)
+    return Judged.model_construct(row=row, expected=expected, measured=measured)
 
 
 def summary(verdicts: list[str], standings: list[str]) -> str:

@@ -19,7 +19,7 @@ from cosserat.parameters import Parameters, Quantity, to_si
 from cosserat.table.readouts import READOUTS
 
 Standing = Literal["reproduced", "erratum", "assumption", "not attempted"]
-Kind = Literal["printed", "analytic", "in words"]
+Kind = Literal["printed", "analytic", "in words", "literature"]
 
 _LOOSE = 1e-3  # an error this small a share of its tolerance shows that the tolerance hides more than it allows
 
@@ -27,8 +27,13 @@ _LOOSE = 1e-3  # an error this small a share of its tolerance shows that the tol
 class Row(Parameters):
     """One published number or curve.
 
-    published : the text exactly as printed.  kind : "printed" numbers are compared with that text; "analytic" and "in
-    words" with what the read-out expects.  claim : whether we say that the measured number lies within the tolerance.
+    published : the text exactly as printed, or what stands in its place where nothing is.
+    kind : "printed" numbers are compared with that text; "analytic" ones with a closed form, the page's or another
+    exact one; "in words" with what the sentence says; "literature" with what a source of the page measured and the page
+    does not print.  In these three the read-out knows what is expected.
+    claim : whether we say that the measured number lies within the tolerance.
+    against : the published number of another row, in its SI unit, which the table names by its id; what is measured is
+    then the distance of the read-out from that number, as a share of it.
     """
 
     id: str
@@ -46,6 +51,7 @@ class Row(Parameters):
     why: str
     standing: Standing
     erratum: str = ""
+    against: Annotated[float, Quantity("1", above=0)] | None = None
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
@@ -136,13 +142,13 @@ def read_table(path: Path) -> list[Row]:
         raise InputError(
             f"cannot read the table {path}: {error}; restore it from the repository"
         ) from None
-    rows = [
-        Row.read(
-            {key: text for key, text in line.items() if text},
-            f"{path}, row '{line.get('id') or number}'",
-        )
-        for number, line in enumerate(lines, start=2)
-    ]
+    rows = []
+    for number, line in enumerate(lines, start=2):
+        name = f"{path}, row '{line.get('id') or number}'"
+        given: dict[str, object] = {key: text for key, text in line.items() if text}
+        if "against" in given:
+            given["against"] = _published_by(line["against"], lines, name)
+        rows.append(Row.read(given, name))
     if not rows:
         raise InputError(f"the table {path} has no rows; restore it from the repository")
     ids = [row.id for row in rows]
@@ -152,6 +158,14 @@ def read_table(path: Path) -> list[Row]:
             f"{path}: the id {', '.join(twice)} stands more than once; give each row its own"
         )
     return rows
+
+
+def _published_by(wanted: str, lines: list[dict[str, str]], name: str) -> float:
+    """The published number of the line with that id, in its SI unit; `name` is the row that asks."""
+    for line in lines:
+        if line.get("id") == wanted and line.get("kind") == "printed":
+            return to_si(line["published"], line["units"], unit_required=False)
+    raise InputError(f"{name}: 'against' is '{wanted}'; give the id of a row of kind 'printed'")
 
 
 def write_report(judged: list[Judged], path: Path) -> None:
