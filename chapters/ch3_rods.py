@@ -39,7 +39,7 @@ page.source(section.lump)
 cone = cosserat.case("clamped_free").vary(
     "cone", rod={"stations": [{"at": "0 m", "height": 1.0}, {"at": "5 m", "height": 0.3, "width": 0.5}]}
 )
-uniform = cosserat.run("clamped_free").u.sel(axis="E2")[-1].item()
+uniform = page.data("clamped_free").u.sel(axis="E2")[-1].item()
 tapered = cosserat.run(cone).u.sel(axis="E2")[-1].item()
 print(
     f"The tapered beam's tip sinks by {-1e3 * tapered:.1f} mm, the uniform one's by {-1e3 * uniform:.1f} mm."

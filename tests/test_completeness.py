@@ -175,6 +175,56 @@ def test_chapters_type_no_result():
         assert not re.findall(r"\d\.\d{3,}", re.sub(r"\d\.\d+\.\d+", "", text)), file
 
 
+def called(node):
+    """The last word of what is called: `vary` of `case.vary(...)`; None of anything but a call."""
+    return (
+        getattr(node.func, "attr", getattr(node.func, "id", "")) if isinstance(node, ast.Call) else None
+    )
+
+
+def solved_unchanged(source):
+    """What the code gives to `run` that is neither a case of its own file nor varied in some key."""
+    tree = ast.parse(source)
+    values = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            values.setdefault(node.targets[0].id, []).append(node.value)
+        if isinstance(node, ast.For | ast.comprehension) and isinstance(node.target, ast.Name):
+            values.setdefault(node.target.id, []).extend(getattr(node.iter, "elts", [node.iter]))
+
+    def is_new(node):
+        if isinstance(node, ast.Name):
+            return node.id in values and all(map(is_new, values[node.id]))
+        own = called(node) in ("case", "find") and len(node.args) > 1
+        return own or (called(node) == "vary" and len(node.keywords) > 0)
+
+    runs = [node for node in ast.walk(tree) if called(node) == "run"]
+    return [ast.unparse(call) for call in runs if not (call.args and is_new(call.args[0]))]
+
+
+@pytest.mark.parametrize(
+    ("source", "unchanged"),
+    [
+        ('cosserat.run("necking")', True),
+        ('run(cosserat.case("necking"))', True),
+        ('bar = cosserat.case("necking")\ncosserat.run(bar)', True),
+        ('[cosserat.run(name) for name in ("necking", "worm")]', True),
+        ('for name in ["necking"]:\n    cosserat.run(name)', True),
+        ('cosserat.run(cosserat.case("necking").vary("mine"))', True),
+        ('cosserat.run(cosserat.case("necking").vary("mine", rod={"length": 4}))', False),
+        ('bar = cosserat.case("necking").vary("mine", rod={"length": 4})\ncosserat.run(bar)', False),
+        ('cosserat.run(cosserat.case("mine", file))', False),
+    ],
+)
+def test_a_published_case_solved_again_is_noticed(source, unchanged):
+    assert bool(solved_unchanged(source)) == unchanged
+
+
+@pytest.mark.parametrize("file", CHAPTERS, ids=lambda file: file.stem)
+def test_chapters_solve_no_published_case_again(file):
+    assert solved_unchanged(file.read_text()) == []
+
+
 def test_the_lock_names_no_host_and_hashes_everything():
     lock = (ROOT / "requirements.lock").read_text()
     assert "://" not in lock
