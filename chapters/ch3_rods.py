@@ -69,7 +69,13 @@ print(
 # {}_K\mathbf{P}_{ext} = \frac{{}_K\mathbf{M}}{\|{}_K\mathbf{d}\|} \times {}_K\hat{\mathbf{d}} ,
 # $$
 #
-# twice that of (3.3.41) for a director that reaches the surface at half the height (E3.10).
+# where the page has
+#
+# $$
+# {}_K\mathbf{P}_{ext} = \frac{{}_K\mathbf{M}}{{}_K\lambda H} \times {}_K\hat{\mathbf{d}} , \tag{3.3.41}
+# $$
+#
+# half as much for a director that reaches the surface at half the height (E3.10).
 
 # %% tags=["remove-input"]
 page.excerpt(published._assemble, "W_turn = W_theta", "total: float")

@@ -230,6 +230,14 @@ page.say(
 # \sigma_1 = \frac{\rho_0 g \ell^3}{EI} , \qquad \sigma_2 = \frac{2(1+\nu) \rho_0 g \ell}{kEA} . \tag{3.5.5}
 # $$
 
+# The closed form has directors of unit length, the rod's reach the lateral surface. The page scales by the height $H$,
+#
+# $$
+# {}^K\boldsymbol{\delta} = {}^K\mathbf{d} - {}^K\mathbf{D} = {}^K H\, \boldsymbol{\delta}({}_K\xi) , \tag{3.5.1}
+# $$
+#
+# but from a centreline half-way up the surface stands at $H/2$, which is what the figures take (E3.11).
+
 # %% tags=["remove-input"]
 page.source(analytic.clamped_free_displacement)
 
@@ -262,9 +270,14 @@ page.figure("fig_3_11", "The same two readings between two clamps, against eqs. 
 page.rows("F3.11")
 
 # %% [markdown]
-# The two figures cannot both be had. Equation (3.4.10) halves the areas of the boundary vertices, which are then
-# multiplied by half lengths: a clamped end keeps a quarter of an edge's shear stiffness. One clamp is fitted without the
-# second halving, two clamps with it.
+# The two figures cannot both be had. The page halves the areas of the boundary vertices,
+#
+# $$
+# {}_0 A = \frac{{}^0 A}{2} , \qquad {}_{N-1} A = \frac{{}^{N-2} A}{2} , \tag{3.4.10}
+# $$
+#
+# which are then multiplied by half lengths: a clamped end keeps a quarter of an edge's shear stiffness (E3.9). One
+# clamp is fitted without the second halving, two clamps with it.
 
 # %% tags=["remove-input"]
 readings = {"full": "", "halved": "_ends_halved"}
