@@ -6,14 +6,18 @@ file a dimensional value is a text with its unit ("5 m", "1 GPa"); in Python it 
 
 from __future__ import annotations
 
+import ast
 import difflib
 import functools
+import inspect
+import itertools
 import math
 import numbers
 import re
+import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Literal, Self, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
 from pydantic_core import ErrorDetails, PydanticCustomError, core_schema
@@ -48,9 +52,7 @@ def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     ------
     PydanticCustomError : not a number, not finite, or of another dimension than `unit`.
     """
-    remedy = (
-        "write a number, such as 0.3" if unit == "1" else f'write it with its unit, such as "2.5 {unit}"'
-    )
+    remedy = _how_to_write(unit)
     if isinstance(value, str):
         number = _read_text(value, unit, remedy)
     elif isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -62,6 +64,12 @@ def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     if not math.isfinite(number):
         raise PydanticCustomError("finite", f"is {value!r}; it must be a finite number")
     return number
+
+
+def _how_to_write(unit: str) -> str:
+    if unit == "1":
+        return "write a number, such as 0.3"
+    return f'write it with its unit, such as "2.5 {unit}"'
 
 
 def _read_text(text: str, unit: str, remedy: str) -> float:
@@ -171,18 +179,26 @@ class Parameters(BaseModel):
         return self.read({**dict(self), **changes}, type(self).__name__, units_required=False)
 
 
+Choice = list[type[BaseModel]]
+"""Parameter classes of which one stands at a place: one, or several that a kind chooses among."""
+
+
 def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
     """Put every fault that validation found into one sentence."""
     return f"{name}: " + "; ".join(_clause(fault, owner) for fault in error.errors(include_url=False))
 
 
 def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
-    path = ".".join(str(part) for part in fault["loc"])
+    loc = fault["loc"]
+    path = ".".join(
+        str(part) for n, part in enumerate(loc) if not _chosen(part, _choice_at(owner, loc[:n]))
+    )
     match fault["type"]:
         case "missing":
-            return f"'{path}' is missing"
+            return f"'{path}' is missing{_what_it_is(owner, loc)}"
         case "extra_forbidden":
-            return f"'{path}' is not a key{nearest(str(fault['loc'][-1]), _keys_at(owner, fault['loc'][:-1]))}"
+            keys = list(_choice_at(owner, loc[:-1])[0].model_fields)
+            return f"'{path}' is not a key{nearest(str(loc[-1]), keys)}"
         case "literal_error":
             return f"'{path}' is {fault['input']!r}; it must be {fault['ctx']['expected']}"
         case "model_type" | "model_attributes_type" | "dict_type":
@@ -195,16 +211,75 @@ def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
             return f"'{path}' {fault['msg']}" if path else fault["msg"]
 
 
-def _keys_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> list[str]:
-    """The keys that a parameter class knows at a path of nested tables and lists."""
+def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
+    """What follows a missing key: its meaning, its symbol and source, and how to write it."""
+    key = str(path[-1])
+    place = next((c for c in _choice_at(owner, path[:-1]) if key in c.model_fields), None)
+    if place is None:
+        return ""
+    field = place.model_fields[key]
+    meaning = [_words(place, key)]
+    remedy = "see the cases of cosserat/cases for examples"
+    tables = _classes_in(field.annotation)
+    for about in field.metadata:
+        if isinstance(about, Quantity | Count):
+            equation = re.fullmatch(r"\d+(\.\d+){2}", about.source)
+            source = f"eq. ({about.source})" if equation else about.source
+            letter = re.sub(r"\\(?:mathbf|bar|tilde)|[\\{}]", "", about.symbol)
+            meaning.append(" of ".join(filter(None, (letter, source))))
+            least = f"write a whole number, {about.at_least} or more" if isinstance(about, Count) else ""
+            remedy = least or _how_to_write(getattr(about, "unit", "1"))
+    if tables:
+        needed = [name for name, inner in tables[0].model_fields.items() if inner.is_required()]
+        meaning.append(_first_sentence(tables[0].__doc__))
+        tables_of = "list of tables" if get_origin(field.annotation) is tuple else "table"
+        remedy = f"write a {tables_of} with {', '.join(needed) or 'its keys'}"
+    elif get_origin(field.annotation) is Literal:
+        remedy = f"write {' or '.join(map(repr, get_args(field.annotation)))}"
+    elif field.annotation is str and not field.metadata:
+        remedy = "write a text"
+    return ", ".join(["", *filter(None, meaning)]) + f": {remedy}"
+
+
+def _words(owner: type[BaseModel], key: str) -> str:
+    """The first sentence of the text below a field in the source of its class, if there is one."""
+    for place in owner.__mro__:
+        if key not in inspect.get_annotations(place):
+            continue
+        body = ast.parse(textwrap.dedent(inspect.getsource(place))).body[0]
+        assert isinstance(body, ast.ClassDef)
+        for field, below in itertools.pairwise(body.body):
+            named = isinstance(field, ast.AnnAssign) and ast.unparse(field.target) == key
+            if named and isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
+                return _first_sentence(str(below.value.value))
+    return ""
+
+
+def _first_sentence(text: str | None) -> str:
+    first = re.split(r"[.:;](?:\s|$)", (text or "").strip())[0]
+    return first[:1].lower() + first[1:]
+
+
+def _classes_in(annotation: object) -> Choice:
+    """Parameter classes that an annotation names, however deep."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [found for part in get_args(annotation) for found in _classes_in(part)]
+
+
+def _chosen(kind: int | str, choice: Choice) -> Choice:
+    """Those of several parameter classes that are of a kind; validation puts it into the path like a key."""
+    fields = [(c, c.model_fields.get("kind")) for c in choice if len(choice) > 1]
+    return [c for c, field in fields if field is not None and field.default == kind]
+
+
+def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
+    """The parameter classes that may stand at a path of nested tables, lists and kinds."""
+    choice = [owner]
     for part in path:
-        field = owner.model_fields.get(str(part))
-        for candidate in (
-            [] if field is None else [field.annotation, *getattr(field.annotation, "__args__", ())]
-        ):
-            if isinstance(candidate, type) and issubclass(candidate, BaseModel):
-                owner = candidate
-    return list(owner.model_fields)
+        fields = [c.model_fields[str(part)] for c in choice if str(part) in c.model_fields]
+        choice = _chosen(part, choice) or (_classes_in(fields[0].annotation) if fields else choice)
+    return choice or [owner]
 
 
 def nearest(word: str, known: list[str]) -> str:

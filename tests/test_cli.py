@@ -155,11 +155,17 @@ def test_files_that_only_look_like_ours_are_refused(capsys, tmp_path, solved):
     import os
 
     cosserat.save(solved["necking"].assign_attrs(solver="{"), tmp_path / "a.nc")
+    cosserat.save(solved["necking"].assign_attrs(parameters="{}"), tmp_path / "old.nc")
+    cosserat.save(solved["necking"].drop_attrs(), tmp_path / "foreign.nc")
     os.mkfifo(tmp_path / "pipe.nc")
     (tmp_path / "empty.csv").write_text("")
     (tmp_path / "report.csv").write_text("id,verdict\na,OUTSIDE\n")
     for arguments, sentence in [
-        (("show", tmp_path / "a.nc"), "no readable attribute 'solver'"),
+        (("show", tmp_path / "a.nc"), f"{tmp_path}/a.nc has no readable attribute 'solver'"),
+        (("show", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc has no attribute 'parameters'"),
+        (("plot", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc has no attribute 'parameters'"),
+        (("show", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the stored parameters are of another"),
+        (("plot", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the stored parameters are of another"),
         (("show", tmp_path), "is a folder"),
         (("run", "necking", "-o", tmp_path / "pipe.nc"), "no ordinary file"),
         (("run", "necking", "-o", tmp_path / "a.png"), "let its name end in '.nc'"),

@@ -74,8 +74,16 @@ def case_of(dataset: xr.Dataset) -> Case:
     InputError : the Dataset carries no parameters of this version.
     """
     if "parameters" not in dataset.attrs:
-        raise InputError("this Dataset has no attribute 'parameters'; use one that cosserat wrote")
-    return parse(dataset.attrs["parameters"])
+        raise InputError(f"{_name(dataset)} has no attribute 'parameters'; use one that cosserat wrote")
+    try:
+        return parse(dataset.attrs["parameters"])
+    except InputError as error:
+        raise InputError(f"{_name(dataset)}: {error}") from None
+
+
+def _name(dataset: xr.Dataset) -> str:
+    """What to call a Dataset in a sentence: the file that it was read from, if it was."""
+    return str(dataset.encoding.get("source", "this Dataset"))
 
 
 def problem_of(dataset: xr.Dataset, kind: type[P], otherwise: str) -> P:
@@ -102,7 +110,7 @@ def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
         return dict(json.loads(dataset.attrs["solver"]))
     except (KeyError, ValueError, TypeError):
         raise InputError(
-            "this Dataset has no readable attribute 'solver'; use one that cosserat wrote"
+            f"{_name(dataset)} has no readable attribute 'solver'; use one that cosserat wrote"
         ) from None
 
 
