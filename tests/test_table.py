@@ -223,6 +223,12 @@ def test_every_row_names_a_known_case_and_entry_of_the_errata():
             assert errata[row.erratum].standing == row.standing, row.id
 
 
+def test_every_row_is_attempted_as_the_readme_says():
+    readme = " ".join((ROOT / "README.md").read_text().split())
+    assert "Every row of the results table is attempted" in readme
+    assert ATTEMPTED == ROWS
+
+
 def test_every_read_out_is_used():
     assert {row.readout for row in ATTEMPTED} == set(READOUTS)
 
