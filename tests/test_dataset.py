@@ -65,7 +65,7 @@ def test_attributes_hold_parameters_statistics_and_origin(solved):
 
 CLOCK = re.compile(
     r"\b(?:19|20)\d\d-\d\d|\b\d{1,2}:\d\d\b"  # 2026-11-22, 17:05
-    r"|\b(?:Jan|Feb|Mar|Apr|May|Jun|Jul|Aug|Sep|Oct|Nov|Dec)[a-z]*\.? \d|(?<![\d.])1[6-9]\d{8}\b"  # Nov 22, seconds of Unix
+    r"|\b(?:Jan|Feb|Mar|Apr|May|Jun|Jul|Aug|Sep|Oct|Nov|Dec)[a-z]*\.? \d|(?<![\d.])1[6-9]\d{8}\b"  # Nov 22, Unix
 )
 
 
