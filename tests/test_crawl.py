@@ -366,6 +366,48 @@ def test_progress_is_told_and_a_failing_instant_is_named():
         cosserat.run(cosserat.case("soft_robot").vary("x", loads={"advancing": 6e4}))
 
 
+@pytest.mark.parametrize(
+    ("name", "changes", "sentence"),
+    [
+        (
+            "soft_robot",
+            {"loads": {"advancing": "14 kPa"}},
+            r"case 'x' at t = 5.25 s: 'loads.advancing' = 14000 Pa and a weight of 19.9 N/m would collapse",
+        ),
+        (
+            "soft_robot",
+            {"loads": {"advancing": "14 kPa"}, "solver": "collocation"},
+            r"case 'x' at t = 5.25 s: 'loads.advancing' = 14000 Pa",
+        ),
+        (
+            "soft_robot",
+            {"loads": {"anchoring": "25 N"}},
+            r"case 'x' at t = 0 s: 'loads.anchoring' = 25 N .* \(mu_3 falls to zero\)",
+        ),
+        (
+            "worm",
+            {"loads": {"advancing": "40 kPa", "advancing_force": "none"}},
+            r"case 'x' at t = 0 s: 'loads.advancing' = 40000 Pa",
+        ),
+        (
+            "worm_masses",
+            {"worm": {"loads": {"gravity": 400, "anchoring": 0}}},
+            r"case 'x', 10 g at t = 0 s: 'loads.advancing' = 1356.6 Pa and a weight of 16 N/m would collapse",
+        ),
+    ],
+)
+def test_a_crawl_that_will_collapse_is_refused_before_its_first_solve(
+    name, changes, sentence, monkeypatch
+):
+    def never(*_):
+        raise AssertionError("solved")
+
+    for solver in ("solve", "collocate"):
+        monkeypatch.setattr(f"cosserat.models.muscle_regions.{solver}", never)
+    with pytest.raises(InputError, match=sentence):
+        cosserat.run(cosserat.case(name).vary("x", **changes))
+
+
 def test_doubling_the_mesh_moves_no_row_by_a_tenth_of_its_tolerance(solved):
     rows = [row for row in read_table(ROOT / "results/tolerances.csv") if row.id.startswith("2.")]
     names = {row.case for row in rows}

@@ -105,7 +105,10 @@ class BodyMasses(Parameters):
         InputError : the loads collapse a section.  NotConvergedError : an instant has no solution.
         OutOfReachError : the surface of a worm cannot stay on the ground.
         """
-        table = np.array([self._measure(mass, name) for mass in self.masses])
+        worms = [(self.scaled(mass), f"{name}, {1e3 * mass:g} g") for mass in self.masses]
+        for worm, called in worms:
+            worm.refuse_collapse(worm.gait.moments(worm.step), called)
+        table = np.array([_measure(worm, called) for worm, called in worms])
         duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
         fields = {
             "body_mass": np.array(self.masses),
@@ -136,10 +139,11 @@ class BodyMasses(Parameters):
             strides=1,
         )
 
-    def _measure(self, mass: float, name: str) -> tuple[float, ...]:
-        crawl = self.scaled(mass)
-        fields = crawl.solve(f"{name}, {1e3 * mass:g} g").fields
-        at = int(np.argmin(np.abs(crawl.places - SEGMENT_50)))
-        mu_1, mu_3 = fields["mu_1"][:, at], fields["mu_3"][:, at]
-        stride = float(fields["along"][-1, -1] - fields["along"][0, -1])
-        return stride, *(float(v) for v in (mu_1.min(), mu_1.max(), mu_3.min(), mu_3.max()))
+
+def _measure(crawl: Crawl, name: str) -> tuple[float, ...]:
+    """Stride [m] and extreme mu_1, mu_3 of segment 50."""
+    fields = crawl.solve(name).fields
+    at = int(np.argmin(np.abs(crawl.places - SEGMENT_50)))
+    mu_1, mu_3 = fields["mu_1"][:, at], fields["mu_3"][:, at]
+    stride = float(fields["along"][-1, -1] - fields["along"][0, -1])
+    return stride, *(float(v) for v in (mu_1.min(), mu_1.max(), mu_3.min(), mu_3.max()))

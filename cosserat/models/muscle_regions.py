@@ -120,6 +120,10 @@ class Instant:
         fastest = np.abs(np.linalg.eigvals(df)).max()
         return mu, float(1 / np.sqrt(fastest))
 
+    def refuse_collapse(self) -> None:
+        """Nothing, or what `plateaus` raises."""
+        _ = self.plateaus
+
     def _collapse(self, region: Region, number: int) -> InputError:
         muscles = (
             f"'loads.anchoring' = {self.loads.anchoring:g} N"

@@ -184,6 +184,7 @@ class Crawl(CrawlerProblem):
     def crawl(self, name: str, progress: Callable[[float, str], None] | None) -> Outcome:
         """The same, telling how far it is."""
         moments = self.gait.moments(self.step)
+        self.refuse_collapse(moments, name)
         steps: list[_Step] = []
         nodal, tilt = None, 0.0
         for stride in range(self.strides):
@@ -201,6 +202,23 @@ class Crawl(CrawlerProblem):
             if progress:
                 progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
         return Outcome(self._fields(steps), _statistics(self, [s.profile for s in steps], tilt))
+
+    def refuse_collapse(self, moments: Sequence[Moment], name: str) -> None:
+        """The homogeneous states of all moments, before anything is solved.
+
+        They depend on which loads act, not on where: each such set is looked at once, at its first moment.
+
+        Raises
+        ------
+        InputError : the loads collapse a section; names the load and that moment.
+        """
+        seen: set[frozenset[Muscle]] = set()
+        for moment in moments:
+            acting = frozenset(region.load for region in moment.regions)
+            if acting not in seen:
+                seen.add(acting)
+                when = f"{name} at t = {moment.time:.4g} s"
+                Instant(self.crawler, self.loads, moment.regions, when).refuse_collapse()
 
     def _fields(self, steps: list[_Step]) -> dict[str, Array]:
         fields = self.fields(
