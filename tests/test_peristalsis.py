@@ -281,6 +281,25 @@ def test_the_incompressible_rod_keeps_the_product_of_its_stretches(multiplier):
     np.testing.assert_allclose(profile.mu.prod(axis=2) * profile.mu_3, 1, rtol=4e-16)
 
 
+@pytest.mark.parametrize("name", ["worm", "worm_printed", "worm_at_rest", "worm_reference"])
+def test_the_delivered_stretches_keep_their_product_and_the_pressure_goes_with_them(name):
+    """In the Dataset, between the points of the mesh; the contact force that p_coelom holds is constant there too."""
+    posed = cosserat.case(name)
+    if posed.problem.kind == "crawl":
+        posed = posed.vary("x", strides=1, step="0.35 s")
+    data = cosserat.run(posed)
+    product = (data.mu_1 * data.mu_2 * data.mu_3).to_numpy()
+    np.testing.assert_allclose(product, 1, rtol=1e-15)
+    if name == "worm":
+        body, loads = posed.problem.crawler, posed.problem.loads
+        k_i, _ = body.incompressible_stiffnesses
+        passive = k_i * (2 - data.mu_1 - data.mu_2) * data.mu_1 * data.mu_2
+        force = (
+            passive - data.p_coelom * body.area
+        ).to_numpy()  # lambda_c^I mu_1 mu_2, (2.8.8), (2.8.9)
+        np.testing.assert_allclose(force, -loads.anchoring, rtol=1e-12)
+
+
 def test_the_true_volume_strays_where_sections_tilt_and_nowhere_else():
     """(d_1 x d_2) . r' = mu_1 mu_2 mu_3 cos(theta): less than one in the layers."""
     profile, _ = instant(WORM, "thesis").solve(FINE, None)

@@ -43,6 +43,7 @@ class Profile:
 
     mu, slope : (M, p + 1, 2) mu_1, mu_2 and their derivatives in z = xi / l_0.  mu_3 : (M, p + 1).
     multiplier : (M, p + 1) lambda_c of eq. (2.4.12); zero if compressible.  effort : iterations, or nodes of solve_bvp.
+    incompressible : whether mu_1 mu_2 mu_3 = 1, eq. (2.4.1).
     """
 
     mesh: Mesh
@@ -51,12 +52,19 @@ class Profile:
     mu_3: Array
     multiplier: Array
     effort: int
+    incompressible: bool
 
     def at(self, z: Array) -> tuple[Array, Array, Array, Array]:
-        """mu (K, 2), slope (K, 2), mu_3 (K,) and multiplier (K,) at given places."""
-        scalars = np.stack([self.mu_3, self.multiplier], axis=2)
+        """mu (K, 2), slope (K, 2), mu_3 (K,) and multiplier (K,) at given places.
+
+        Interpolated are the stretches and n = lambda_c mu_1 mu_2, which is constant where it is balanced; mu_3 and
+        lambda_c follow from them, so that (2.4.1) holds to rounding there too.
+        """
+        scalars = np.stack([self.mu_3, self.multiplier * self.mu.prod(axis=2)], axis=2)
         found = self.mesh.interpolate(np.concatenate([self.mu, self.slope, scalars], axis=2), z)
-        return found[:, :2], found[:, 2:4], found[:, 4], found[:, 5]
+        mu, slope, mu_3, force = found[:, :2], found[:, 2:4], found[:, 4], found[:, 5]
+        volume = mu.prod(axis=1)
+        return mu, slope, 1 / volume if self.incompressible else mu_3, force / volume
 
 
 def holds_force(body: Crawler, loads: Loads) -> bool:
@@ -186,7 +194,8 @@ class Instant:
                 solved = solve(mesh, equation, self._cold(mesh), settings, self.name)
         mu = mesh.split(solved.u)
         mu_3, multiplier = equation.along(mu)
-        profile = Profile(mesh, mu, mesh.slope(mu), mu_3, multiplier, solved.iterations)
+        slope, incompressible = mesh.slope(mu), self.groups.incompressible
+        profile = Profile(mesh, mu, slope, mu_3, multiplier, solved.iterations, incompressible)
         return profile, solved.u
 
     def collocate(self, settings: RegionSettings, tolerance: float) -> Profile:
@@ -218,7 +227,7 @@ class Instant:
         for e, values in enumerate(y):
             if values.shape[1] > 4:
                 multiplier[e] = values[:, 4]
-        return Profile(mesh, mu, slope, mu_3, multiplier, found.nodes)
+        return Profile(mesh, mu, slope, mu_3, multiplier, found.nodes, self.groups.incompressible)
 
     def _system(self, number: int) -> RegionSystem:
         region = self.regions[number]
