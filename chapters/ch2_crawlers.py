@@ -69,7 +69,8 @@ page.figure("fig_2_8", "The fronts over both cycles; one that has left the body 
 
 # %% tags=["remove-input"]
 page.figure(
-    "fig_2_9", "(a) Ends and anchor. (b) Stretches when the anchor changes: two plateaus and a layer."
+    "fig_2_9",
+    "(a) Ends and anchor. (b) Stretches when the anchor changes: two plateaus and a layer. (c) The body on the ground.",
 )
 
 # %% [markdown]

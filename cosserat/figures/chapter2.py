@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from cosserat.figures import crawlers
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas, over_one
 from cosserat.models import doublets
 from cosserat.models.earthworm import SEGMENT_50
 from cosserat.models.gait import Gait
@@ -97,9 +97,9 @@ def fig_2_8(data: Data) -> Figure:
 
 
 def fig_2_9(data: Data) -> Figure:
-    """The robot while it crawls: its ends, its anchor, and its shape at the start of every cycle."""
+    """The robot while it crawls: its ends, its anchor, and its shape on the ground at the start of every cycle."""
     run = data["soft_robot"]
-    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
+    figure, (left, right, below) = over_one(7.2, 6.6, (1.0, 1.1))
     _paths(left, run)
     for variable, colour, label in (("mu_1", COMPUTED, r"$\mu_1$"), ("mu_3", VARIANT, r"$\mu_3$")):
         middle = run.isel(time=int(np.abs(run.time.to_numpy() - 12.5).argmin()))
@@ -108,6 +108,10 @@ def fig_2_9(data: Data) -> Figure:
         xlabel=r"$\xi$ [cm]", ylabel="stretch [1]", title="(b) stretches when $\\eta$ appears, 12.5 s"
     )
     right.legend()
+    starts = list(range(0, run.sizes["time"], instants_per_stride(run)))
+    labels = [f"{float(run.time[k]):.1f} s" for k in starts]
+    crawlers.draw_snapshots(below, run, starts, labels, None)
+    below.set_title("(c) at the start of every cycle and at the end of the last")
     return figure
 
 

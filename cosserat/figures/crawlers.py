@@ -60,13 +60,20 @@ def draw_crawler(
 
 def snapshots(data: xr.Dataset, indices: list[int], labels: list[str], mark: float | None) -> Figure:
     """Instants of a crawl below each other, on one scale along the ground."""
-    problem = crawl(data)
-    radius = problem.crawler.radius
-    lane = 2e2 * radius * 1.4
     reach = 1e2 * np.array([data.along[indices].min(), data.along[indices].max()])
     width = 7.2
     scale = (width - 1.0) / (reach[1] - reach[0] + 1)
-    figure, (ax,) = canvas(width, max(2.6, scale * lane * len(indices) * 1.05 + 0.7))
+    height = scale * _lane(data) * len(indices) * 1.05 + 0.7
+    figure, (ax,) = canvas(width, max(2.6, height))
+    draw_snapshots(ax, data, indices, labels, mark)
+    return figure
+
+
+def draw_snapshots(
+    ax: Axes, data: xr.Dataset, indices: list[int], labels: list[str], mark: float | None
+) -> None:
+    """Instants of a crawl below each other, each in its lane with its label at the left, in cm."""
+    radius, lane = crawl(data).crawler.radius, _lane(data)
     for number, (index, label) in enumerate(zip(indices, labels, strict=True)):
         base = -lane * number
         draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark)
@@ -79,11 +86,16 @@ def snapshots(data: xr.Dataset, indices: list[int], labels: list[str], mark: flo
             textcoords="offset points",
             ha="right",
         )
-    ax.set(xlabel="along the ground [cm]", yticks=[], xlim=(reach[0] - 0.5, reach[1] + 0.5))
+    left, right = (1e2 * float(end) for end in (data.along[indices].min(), data.along[indices].max()))
+    ax.set(xlabel="along the ground [cm]", yticks=[], xlim=(left - 0.5, right + 0.5))
     ax.set_aspect("equal")
     ax.grid(visible=False, axis="y")
     ax.spines["left"].set_visible(False)
-    return figure
+
+
+def _lane(data: xr.Dataset) -> float:
+    """Height that a crawler takes in a row of snapshots, in cm."""
+    return 2e2 * crawl(data).crawler.radius * 1.4
 
 
 def picture(data: xr.Dataset) -> Figure:

@@ -57,6 +57,13 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
     return figure, [ax for line in axes for ax in line]
 
 
+def over_one(width: float, height: float, shares: tuple[float, float]) -> tuple[Figure, list[Axes]]:
+    """Two axes beside each other over a wide one, with these shares of the height."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = figure.subplot_mosaic([["a", "b"], ["c", "c"]], height_ratios=shares)
+    return figure, [axes[name] for name in "abc"]
+
+
 def write(figure: Figure | str, path: Path) -> None:
     """Write an SVG without a date, whole or not at all; a text is an SVG already."""
     with settings(), whole_or_absent(path) as temporary:
