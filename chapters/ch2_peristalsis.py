@@ -136,8 +136,9 @@ page.excerpt(peristaltic_rod._incompressible, "for k in range", "return f")
 # computed as its section has it, and the other way round as a variant (question E2.10). Any sequence of regions is
 # possible, also with an advancing one at an end, where the one junction it has closes the system (assumption E2.12).
 #
-# The states are plateaus joined by layers. Because $k_G / k_I = R^2/8$ in both bodies, the layers are $R/\sqrt{8}$ long
-# or shorter, thinner than the body itself: a limit of the theory, which expects sections to change slowly.
+# The states are plateaus joined by layers. Because $k_G / k_I$ in the worm and $k_G / (k_S - k_P)$ in the robot are
+# $R^2/8$, the layers are $R/\sqrt{8}$ long or shorter, under load down to half of that, and so thinner than the body
+# itself: a limit of the theory, which expects sections to change slowly (question E2.25).
 
 # %%
 body = cosserat.case("worm_at_rest").vary(

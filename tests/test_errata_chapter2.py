@@ -49,6 +49,44 @@ def test_E2_1_with_the_printed_mu3_an_unloaded_rod_is_not_at_rest_and_circular_m
     assert robot_plateau(groups, corrected)[1] > 1.4
 
 
+def printed_robot():
+    """y and mu_3 in the front half of the robot, which advances, with (2.3.10) as printed in (2.3.17)."""
+    groups = Groups.of(ROBOT.crawler, ROBOT.loads)
+    g, p = groups.stiffness, groups.p
+    laws = (lambda s: 1 - groups.force - p * (s - 2), lambda s: 1 - p * s)  # (2.3.5), (2.3.10)
+    far = [robot_plateau(groups, laws[0], advancing=False)[0], robot_plateau(groups, laws[1])[0]]
+
+    def system(number, left, right):
+        def rate(y):
+            mu_3, c = laws[number](y[0] + y[2]), number * groups.c
+            first = groups.m / mu_3 + g * y[0] + p * g * (y[2] + mu_3) + c - g - 2 * p * g
+            second = g * y[2] + p * g * (y[0] + mu_3) + c - g - 2 * p * g
+            return np.array([y[1], first, y[3], second])
+
+        def guess(z):
+            y = np.zeros((4, z.size))
+            fade = np.exp(-np.abs(z - 0.5) / 0.03)
+            y[0::2] = far[number][:, None] + (far[1 - number] - far[number])[:, None] / 2 * fade
+            return y
+
+        return RegionSystem(left, right, 4, rate, guess)
+
+    regions = [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")]
+    posed = Instant(ROBOT.crawler, ROBOT.loads, regions, "printed")
+    systems = [system(0, 0, 0.5), system(1, 0.5, 1)]
+    found = collocate(systems, posed._conditions, np.linspace(0, 1, 201), 1e-6, "printed")
+    y = found.solution(1, np.linspace(0.5, 1, 2001))
+    return y, laws[1](y[0] + y[2])
+
+
+def test_E2_1_with_the_printed_mu3_the_robot_cannot_stay_on_the_ground():
+    """R mu_1' / mu_3 passes one in the layer, where (2.5.5) has no arcsine; corrected it stays below (E2.19)."""
+    y, mu_3 = printed_robot()
+    assert mu_3[-1] == pytest.approx(0.286, abs=1e-3)  # the plateau of the test above
+    sine = np.abs(y[1]) * ROBOT.crawler.radius / ROBOT.crawler.length / mu_3
+    assert sine.max() == pytest.approx(1.91, abs=0.01)
+
+
 def test_E2_2_without_mass_and_elasticity_dy6_is_not_2_3_9():
     groups = Groups.of(ROBOT.crawler, ROBOT.loads.replace(contact="printed"))
     mu = np.array([[0.6, 0.7]])
@@ -151,20 +189,51 @@ def test_E2_7_weight_over_the_current_length_does_not_support_the_body():
     assert df[0, 0, 1] == df[0, 1, 0]
 
 
+def test_E2_7_moves_the_stretches_by_less_than_a_third_of_a_per_cent(solved):
+    """At every section and time of the crawl, with (2.4.18) corrected in both."""
+    worm, printed = solved["worm"], solved["worm_balanced"]
+    moved = {v: float(np.abs(printed[v] / worm[v] - 1).max()) for v in ("mu_1", "mu_2", "mu_3")}
+    assert moved["mu_1"] == max(moved.values()) == pytest.approx(0.0026, abs=5e-5)
+    assert 1 - strides(printed)[-1] / strides(worm)[-1] == pytest.approx(0.0056, abs=5e-5)
+
+
 def test_E2_8_the_listed_conditions_do_not_determine_the_stretches():
     """(2.3.13) and (2.3.15) are eight conditions for twelve unknowns; continuous slopes are the other four."""
-    listed = {"(2.3.13)": 4, "(2.3.15)": 4}
-    assert sum(listed.values()) == 8
-    profile, _ = Instant(
-        ROBOT.crawler,
-        ROBOT.loads,
-        [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")],
-        "test",
-    ).solve(RegionSettings(), None)
-    starts = np.flatnonzero(np.diff(profile.mesh.region)) + 1
-    assert starts.size == 2
-    for e in starts:
-        np.testing.assert_allclose(profile.slope[e, 0], profile.slope[e - 1, -1], rtol=1e-5)
+    regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
+    posed = Instant(ROBOT.crawler, ROBOT.loads, regions, "test")
+    systems = [posed._system(number) for number in range(3)]
+    unknowns = sum(system.size for system in systems)
+
+    def conditions(ends):  # (24,): y at the left, then at the right ends of the regions
+        left, right = ends.reshape(2, 3, 4)
+        return posed._conditions(list(left), list(right))
+
+    matrix = np.array([conditions(one) - conditions(np.zeros(24)) for one in np.eye(24)]).T
+    slopes = np.zeros((2, 3, 4), dtype=bool)
+    slopes[..., 1::2] = True
+    joins = (matrix != 0).sum(axis=1) == 2
+    of_slopes = (matrix[:, slopes.ravel()] != 0).any(axis=1)
+    listed = ~(joins & of_slopes)
+    assert unknowns == np.linalg.matrix_rank(matrix) == 12
+    assert listed.sum() == np.linalg.matrix_rank(matrix[listed]) == 8
+
+    def with_junctions_at(mu):
+        """The listed conditions, and in place of the others mu_1, mu_2 at the junctions at will."""
+
+        def residual(left, right):
+            free = [end[k] - mu for end in right[:-1] for k in (0, 2)]
+            return np.append(posed._conditions(left, right)[listed], free)
+
+        return collocate(systems, residual, np.linspace(0, 1, 201), 1e-6, "at will")
+
+    states = [with_junctions_at(mu) for mu in (0.7, 0.8)]
+    for state in states:
+        for number, edge in ((0, 0.3), (1, 0.7)):
+            before, after = (state.solution(n, np.array([edge]))[:, 0] for n in (number, number + 1))
+            np.testing.assert_allclose(before[::2], after[::2], atol=1e-6)
+            assert np.abs(before[1::2] - after[1::2]).max() > 0.1
+    middle = [state.solution(1, np.array([0.35]))[0, 0] for state in states]
+    assert abs(middle[0] - middle[1]) > 1e-3  # both meet what is listed, and differ
 
 
 @pytest.mark.parametrize("p", [1.0, -0.5])
@@ -261,7 +330,9 @@ def test_E2_17_when_the_worm_changes_its_anchor_decides_its_stride(solved):
     assert millimetres["worm_balanced"] == pytest.approx(40.6, abs=0.05)
     assert millimetres["worm_balanced_late"] == pytest.approx(60.7, abs=0.05)
     assert millimetres["worm_printed"] == pytest.approx(43.1, abs=0.05)
-    assert millimetres["worm_printed_late"] == pytest.approx(66.8, abs=0.06)
+    # 66.8 was found elsewhere: the same within a tenth of a millimetre, not within its own rounding
+    assert millimetres["worm_printed_late"] == pytest.approx(66.746, abs=1e-3)
+    assert 0.05 < abs(millimetres["worm_printed_late"] - 66.8) < 0.1
     slip = {}
     for name in ("worm", "worm_late"):
         head = solved[name].along[:101, -1].to_numpy()
@@ -330,6 +401,49 @@ def test_E2_24_the_turning_of_the_force_is_not_small_in_the_layers_of_the_worm()
     assert np.abs(upward[inside]).max() > 50 * body.line_density * 9.81
     total = profile.mesh.cumulative(upward)[-1, -1]  # it turns twice: only its distribution is at stake
     assert abs(total) < 1e-3 * body.line_density * 9.81 * body.length
+
+
+@pytest.mark.parametrize(("name", "share"), [("worm", 0.0054), ("soft_robot", 0.0354)])
+def test_E2_25_the_layers_are_thinner_than_the_radius(name, share):
+    """Decay lengths of the linearised states: R / sqrt(8) or shorter, from k_G / (k_S - k_P) or k_G / k_I = R^2 / 8."""
+    problem = cosserat.case(name).problem
+    body, regions = problem.crawler, [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")]
+    if name == "worm":
+        stiffness, k_g = body.incompressible_stiffnesses
+    else:
+        k_s, k_p, k_g = body.stiffnesses
+        stiffness = k_s - k_p
+    longest = body.radius / np.sqrt(8)
+    assert k_g / stiffness == pytest.approx(longest**2)
+    assert longest / body.length == pytest.approx(share, rel=0.01)
+    idle = problem.loads.replace(anchoring=0, advancing=0, gravity=0)
+    lengths = []
+    for loads in (idle, problem.loads):
+        posed = Instant(body, loads, regions, "test")
+        mu, shortest = posed.plateaus
+        _, df, _ = posed._source(mu, np.ones(2), posed.force)
+        decay = body.length / np.sqrt(np.linalg.eigvals(df)) / longest
+        assert decay.min() == pytest.approx(shortest * body.length / longest)
+        lengths.append(decay)
+    assert lengths[0].max() == pytest.approx(1)
+    assert lengths[1].max() <= 1 + 1e-9
+    least = {"worm": 0.437, "soft_robot": 0.734}  # of R / sqrt(8); in the robot loads change nothing
+    assert lengths[1].min() == pytest.approx(least[name], abs=1e-3)
+
+
+def test_E2_26_a_resting_pressure_needs_muscles_that_are_not_at_rest(solved):
+    """Weight alone gives a ninth of what Quillin measured; 11 mN of longitudinal tone would give it."""
+    case = cosserat.case("worm_at_rest")
+    weight, tone = (
+        float(data.p_coelom[100])
+        for data in (
+            solved["worm_at_rest"],
+            cosserat.run(case.vary("x", loads={"anchoring": "11 mN"})),
+        )
+    )
+    assert weight == pytest.approx(10.9, abs=0.05)
+    assert tone == pytest.approx(100, abs=1)
+    assert WORM.loads.anchoring / 11e-3 == pytest.approx(2.4, abs=0.05)  # of the load while it crawls
 
 
 def test_the_rest_pressure_has_a_closed_form(solved):
