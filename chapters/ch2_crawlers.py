@@ -118,7 +118,8 @@ page.figure("fig_2_2", "Segment 50 over three strides, by the corrected and by t
 # Segment 50 is read in the middle of the stance and in the middle of the protrusion, when it lies well inside an advancing
 # and an anchoring region. As printed, the equations give the published numbers; corrected, circular contraction gives
 # others. Corrected in (2.4.18) alone and corrected in the weight too are separate rows. It is the corrected model that
-# meets the measured ratio of longitudinal stretches.
+# meets the measured ratio of longitudinal stretches; the lateral ratio it misses by more than the page's four per cent,
+# and no round body of constant volume meets both (question E2.21).
 
 # %% tags=["remove-input"]
 page.rows("2.8-mu1", "2.8-mu3", "2.8-p-")
@@ -144,7 +145,8 @@ page.table(lines, ("segment 50", "Piola, as published", "Cauchy"))
 
 # %% [markdown]
 # At rest it is the weight alone that presses, by $\rho_0 g / (3 \pi R)$ times $\mu_1 \mu_2$, for which the page says
-# "minimal (10 Pa)".
+# "minimal (10 Pa)". Quillin measured ten times as much: a worm at rest has some tone, which neither the page nor we account
+# for (assumption E2.26).
 #
 # ## The stride: which reading gives which length
 #
