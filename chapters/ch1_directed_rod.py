@@ -56,8 +56,37 @@ page.source(chapter1.surface)
 # \kappa_{\alpha i} = \mathbf{d}'_\alpha \cdot \mathbf{d}_i - \mathbf{D}'_\alpha \cdot \mathbf{D}_i . \tag{1.2.19}
 # $$
 #
-# Put $\mathbf{r}^*$ into the energy of linear elasticity, integrate over the section about its centre, and there remains
-# a quadratic form with the stiffnesses
+# Put $\mathbf{r}^*$ into the energy of linear elasticity and integrate over the section, about any centreline and any axes,
+# with its moments $S^\alpha = \int X^\alpha dA$ and $I^{\alpha\beta} = \int X^\alpha X^\beta dA$:
+#
+# \begin{equation*}
+# \begin{aligned}
+# \rho_0 \bar{\psi} = {}& \tfrac18 (\lambda + 2\mu) A (\gamma_{11}^2 + \gamma_{22}^2 + \gamma_{33}^2)
+# + \tfrac12 \mu A \left( \tfrac14 (\gamma_{21} + \gamma_{12})^2 + \gamma_{13}^2 + \gamma_{23}^2 \right) \\
+# & + \tfrac14 \lambda A (\gamma_{11}\gamma_{22} + \gamma_{11}\gamma_{33} + \gamma_{22}\gamma_{33})
+# + \tfrac12 \mu I^{11} (\kappa_{11}^2 + \kappa_{12}^2) + \tfrac12 \mu I^{22} (\kappa_{22}^2 + \kappa_{21}^2) \\
+# & + \tfrac12 (\lambda + 2\mu) (I^{11} \kappa_{13}^2 + I^{22} \kappa_{23}^2)
+# + \mu I^{12} (\kappa_{11}\kappa_{21} + \kappa_{12}\kappa_{22}) + (\lambda + 2\mu) I^{12} \kappa_{13}\kappa_{23} \\
+# & + \tfrac12 \lambda (\gamma_{11} + \gamma_{22} + \gamma_{33}) (S^1 \kappa_{13} + S^2 \kappa_{23}) \\
+# & + \mu S^1 (\gamma_{33}\kappa_{13} + \gamma_{13}\kappa_{11} + \gamma_{23}\kappa_{12})
+# + \mu S^2 (\gamma_{33}\kappa_{23} + \gamma_{13}\kappa_{21} + \gamma_{23}\kappa_{22}) .
+# \end{aligned} \tag{1.2.93}
+# \end{equation*}
+#
+# With the centreline through the centre of the section and the directors along its principal axes, $S^\alpha$ and $I^{12}$
+# vanish, and there remains
+#
+# \begin{equation*}
+# \begin{aligned}
+# 2 \rho_0 \bar{\psi} = {}& \bar{k}_1 \gamma_{11}^2 + \bar{k}_2 \gamma_{22}^2 + \bar{k}_3 \gamma_{33}^2
+# + \tfrac14 \bar{k}_4 (\gamma_{21} + \gamma_{12})^2 + \bar{k}_5 \gamma_{13}^2 + \bar{k}_6 \gamma_{23}^2 \\
+# & + \bar{k}_7 \gamma_{11}\gamma_{22} + \bar{k}_8 \gamma_{11}\gamma_{33} + \bar{k}_9 \gamma_{22}\gamma_{33}
+# + \bar{k}_{10} \kappa_{11}^2 + \bar{k}_{11} \kappa_{22}^2 + \bar{k}_{12} \kappa_{12}^2 + \bar{k}_{13} \kappa_{21}^2 \\
+# & + \bar{k}_{14} \kappa_{13}^2 + \bar{k}_{15} \kappa_{23}^2
+# \end{aligned} \tag{1.2.94}
+# \end{equation*}
+#
+# with $I_2 = I^{11}$, $I_1 = I^{22}$ and the stiffnesses
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -71,9 +100,25 @@ page.source(chapter1.surface)
 # %% tags=["remove-input"]
 page.source(directed_rod.integrated_stiffnesses)
 
+# %% tags=["remove-input"]
+page.source(directed_rod.offset_energy)
+
 # %% [markdown]
-# A test recovers each of them by Gauss's rule over a rectangle, for random deformations. These stiffnesses are too high
-# in bending and torsion, because real sections do not stay plane; the thesis replaces five of them:
+# Tests recover all of it by Gauss's rule over a rectangle, for random deformations: (1.2.94) about the centre, (1.2.93) off
+# it and turned, where stretching and bending couple. These stiffnesses are too high in bending and torsion, because real
+# sections do not stay plane; the thesis adds a term,
+#
+# \begin{equation*}
+# \begin{aligned}
+# 2 \rho_0 \psi = {}& k_1 \gamma_{11}^2 + k_2 \gamma_{22}^2 + k_3 \gamma_{33}^2
+# + \tfrac14 k_4 (\gamma_{21} + \gamma_{12})^2 + k_5 \gamma_{13}^2 + k_6 \gamma_{23}^2 \\
+# & + k_7 \gamma_{11}\gamma_{22} + k_8 \gamma_{11}\gamma_{33} + k_9 \gamma_{22}\gamma_{33}
+# + k_{10} \kappa_{11}^2 + k_{11} \kappa_{22}^2 + k_{12} \kappa_{12}^2 + k_{13} \kappa_{21}^2 \\
+# & + k_{14} \kappa_{13}^2 + k_{15} \kappa_{23}^2 + k_{16} \kappa_{12}\kappa_{21} ,
+# \end{aligned} \tag{1.2.97}
+# \end{equation*}
+#
+# corrects shear by a factor, $k_5 = k_6 = k \mu A$, and takes from exact solutions
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -82,7 +127,8 @@ page.source(directed_rod.integrated_stiffnesses)
 # \end{aligned} \tag{1.2.98}
 # \end{equation*}
 #
-# (the sign of $\mathcal{D}$ in the first is corrected, erratum E1.1).
+# with the torsional rigidity $\mathcal{D}$, whose sign in the first is corrected (erratum E1.1); the others stay as they
+# are, $k_{11}$ with $I_1$ (erratum E1.2).
 
 # %% tags=["remove-input"]
 page.source(directed_rod.adjusted_stiffnesses)
@@ -120,9 +166,23 @@ assert abs(stored / (shear * circle.torsion_constant) - 1) < 1e-12
 page.source(directed_rod.stretch_gradients)
 
 # %% [markdown]
-# The second vanishes where directors only change their lengths, as they do in the next chapter. What does not follow from
-# this theory is also worth saying: sections that warp, or bend across themselves, are not homogeneous, and the thesis
-# reports poor agreement there.
+# and the chain rule:
+#
+# $$
+# \frac{\partial \hat{w}}{\partial \mathbf{d}_\alpha} = \frac{\partial \tilde{w}}{\partial \mu_\alpha} \mathbf{e}_\alpha
+# + \frac{\partial \tilde{w}}{\partial \mu'_\alpha} (\mathbf{I} - \mathbf{e}_\alpha \otimes \mathbf{e}_\alpha)
+# \frac{\mathbf{d}'_\alpha}{\mu_\alpha} , \quad
+# \frac{\partial \hat{w}}{\partial \mathbf{r}'} = \frac{\partial \tilde{w}}{\partial \mu_3} \mathbf{e}_3 , \quad
+# \frac{\partial \hat{w}}{\partial \mathbf{d}'_\alpha} = \frac{\partial \tilde{w}}{\partial \mu'_\alpha} \mathbf{e}_\alpha . \tag{1.3.20}
+# $$
+
+# %% tags=["remove-input"]
+page.source(directed_rod.internal_forces)
+
+# %% [markdown]
+# Tests compare both with differences of an energy. The second term of the first vanishes where directors only change their
+# lengths, as they do in the next chapter. What does not follow from this theory is also worth saying: sections that warp,
+# or bend across themselves, are not homogeneous, and the thesis reports poor agreement there.
 #
 # ## Where the page errs
 

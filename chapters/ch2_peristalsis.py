@@ -137,8 +137,8 @@ page.excerpt(peristaltic_rod._incompressible, "for k in range", "return f")
 # possible, also with an advancing one at an end, where the one junction it has closes the system (assumption E2.12).
 #
 # The states are plateaus joined by layers. Because $k_G / k_I$ in the worm and $k_G / (k_S - k_P)$ in the robot are
-# $R^2/8$, the layers are $R/\sqrt{8}$ long or shorter, under load down to half of that, and so thinner than the body
-# itself: a limit of the theory, which expects sections to change slowly (question E2.25).
+# $R^2/8$, the layers are $R/\sqrt{8}$ long or shorter, some in the loaded worm less than half of that: thinner than the
+# body itself, a limit of the theory, which expects sections to change slowly (question E2.25).
 
 # %%
 body = cosserat.case("worm_at_rest").vary(

@@ -6,11 +6,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cosserat.models.directed_rod import (
+    Offset,
     Section,
     adjusted_stiffnesses,
     integrated_stiffnesses,
+    internal_forces,
     lame,
     measures,
+    offset_energy,
     strain_energy,
     stretch_gradients,
     stretches,
@@ -25,19 +28,24 @@ def state(seed, size=0.3):
     return np.eye(3) + size * rng.uniform(-1, 1, (3, 3)), size * rng.uniform(-1, 1, (2, 3))
 
 
-def three_dimensional_energy(delta, kappa, width, height):
-    """Linear elasticity over a rectangle, width along X^1, with the strains (1.2.24), by Gauss's rule."""
-    first, shear = lame(YOUNG, POISSON)
+def rectangle(width, height, centre=(0.0, 0.0), turn=0.0):
+    """Places X (K, 2) and weights (K,) of Gauss's rule over a rectangle, width along X^1 before it is turned."""
     nodes, weights = np.polynomial.legendre.leggauss(3)
+    x = np.array([[a * width / 2, b * height / 2] for a in nodes for b in nodes])
+    c, s = np.cos(turn), np.sin(turn)
+    area = np.outer(weights, weights).ravel() * width * height / 4
+    return x @ np.array([[c, s], [-s, c]]) + centre, area
+
+
+def three_dimensional_energy(delta, kappa, places, area):
+    """Linear elasticity over a section with the strains (1.2.24)."""
+    first, shear = lame(YOUNG, POISSON)
     total = 0.0
-    for a, wa in zip(nodes, weights, strict=True):
-        for b, wb in zip(nodes, weights, strict=True):
-            x = np.array([a * width / 2, b * height / 2])
-            gradient = delta.T.copy()  # u_i,j: column j is the displacement of director j
-            gradient[:, 2] += x @ kappa
-            strain = (gradient + gradient.T) / 2
-            density = first / 2 * np.trace(strain) ** 2 + shear * (strain**2).sum()
-            total += density * wa * wb * width * height / 4
+    for x, da in zip(places, area, strict=True):
+        gradient = delta.T.copy()  # u_i,j: column j is the displacement of director j
+        gradient[:, 2] += x @ kappa
+        strain = (gradient + gradient.T) / 2
+        total += (first / 2 * np.trace(strain) ** 2 + shear * (strain**2).sum()) * da
     return total
 
 
@@ -49,7 +57,61 @@ def test_integrating_elasticity_over_the_section_gives_the_energy_1_2_94(seed):
     delta, kappa = rng.uniform(-1, 1, (3, 3)), rng.uniform(-1, 1, (2, 3))
     gamma = delta + delta.T  # (1.2.20)
     energy = strain_energy(integrated_stiffnesses(YOUNG, POISSON, section), gamma, kappa)
-    assert energy == pytest.approx(three_dimensional_energy(delta, kappa, width, height), rel=1e-12)
+    assert energy == pytest.approx(
+        three_dimensional_energy(delta, kappa, *rectangle(width, height)), rel=1e-12
+    )
+
+
+@given(st.integers(0, 10_000))
+def test_off_its_centre_and_out_of_its_axes_a_section_gives_the_energy_1_2_93(seed):
+    """S^alpha couples stretching with bending, I^12 one bending with the other; without them something is missing."""
+    rng = np.random.default_rng(seed)
+    delta, kappa = rng.uniform(-1, 1, (3, 3)), rng.uniform(-1, 1, (2, 3))
+    x, area = rectangle(0.7, 0.4, centre=rng.uniform(0.1, 0.5, 2), turn=rng.uniform(0.1, 1.4))
+    second = np.einsum("ka,kb,k->ab", x, x, area)
+    section = Section(area.sum(), second[1, 1], second[0, 0], np.nan)
+    offset = Offset(area @ x, second[0, 1])
+    assert np.abs(offset.first).min() > 0.01
+    exact = three_dimensional_energy(delta, kappa, x, area)
+    gamma = delta + delta.T
+    assert offset_energy(YOUNG, POISSON, section, offset, gamma, kappa) == pytest.approx(
+        exact, rel=1e-12
+    )
+    k = integrated_stiffnesses(YOUNG, POISSON, section)
+    assert abs(strain_energy(k, gamma, kappa) - exact) > 1e-6
+    alone = Offset(offset.first, 0.0)
+    assert abs(offset_energy(YOUNG, POISSON, section, alone, gamma, kappa) - exact) > 1e-9
+
+
+def an_energy_of_stretches(mu, slope):
+    """w of mu_i, mu_alpha' that is nothing in particular, with its derivatives by both."""
+    a, b = np.array([1.3, -0.7, 2.1]), np.array([0.9, 1.7])
+    wave = np.sin(a @ mu + b @ slope)
+    w = wave + mu.prod() * slope[0] + (slope**2).sum() * mu[2]
+    change = np.cos(a @ mu + b @ slope)
+    others = np.array([mu[1] * mu[2], mu[0] * mu[2], mu[0] * mu[1]])
+    by_mu = change * a + slope[0] * others + np.array([0, 0, (slope**2).sum()])
+    return w, by_mu, change * b + mu.prod() * np.array([1, 0]) + 2 * slope * mu[2]
+
+
+@given(st.integers(0, 10_000))
+def test_forces_are_the_gradient_of_an_energy_of_the_stretches_1_3_20(seed):
+    d, d_prime = state(seed)
+    _, by_mu, by_slope = an_energy_of_stretches(*stretches(d, d_prime))
+    n, k, m = internal_forces(d, d_prime, by_mu, by_slope)
+    h = 1e-6
+
+    def energy(x):
+        return an_energy_of_stretches(*stretches(x[:9].reshape(3, 3), x[9:].reshape(2, 3)))[0]
+
+    at = np.concatenate([d.ravel(), d_prime.ravel()])
+    found = np.array([energy(at + h * e) - energy(at - h * e) for e in np.eye(15)]) / (2 * h)
+    np.testing.assert_allclose(found, np.concatenate([k.ravel(), n, m.ravel()]), atol=1e-7)
+    along, _, across = stretch_gradients(d, d_prime)
+    assert (
+        np.abs(k - by_mu[:2, None] * along[:2]).max() > 1e-6
+    )  # directors that turn: the second term is there
+    np.testing.assert_allclose(np.cross(across, m), 0, atol=1e-12)
 
 
 @given(st.integers(0, 10_000))
@@ -123,7 +185,7 @@ def test_E1_2_k11_takes_the_moment_about_the_first_axis():
     section = Section(width * height, width * height**3 / 12, height * width**3 / 12, np.nan)
     kappa = np.zeros((2, 3))
     kappa[1, 1] = 1.0
-    exact = three_dimensional_energy(np.zeros((3, 3)), kappa, width, height)
+    exact = three_dimensional_energy(np.zeros((3, 3)), kappa, *rectangle(width, height))
     k = adjusted_stiffnesses(YOUNG, POISSON, section, 1.0)
     assert strain_energy({11: k[11]}, np.zeros((3, 3)), kappa) == pytest.approx(exact)
     assert (

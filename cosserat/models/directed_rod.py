@@ -34,6 +34,17 @@ class Section:
         return cls(np.pi * radius**2, quarter, quarter, 2 * quarter)
 
 
+@dataclass(frozen=True)
+class Offset:
+    """What a section has about axes that are not its central principal ones, eqs. (1.2.36), (1.2.37).
+
+    first : (2,) S^1, S^2 [m^3].  product : I^12 [m^4].
+    """
+
+    first: Array
+    product: float
+
+
 def lame(young: float, poisson: float) -> tuple[float, float]:
     """lambda and mu of eq. (1.2.96) [Pa]."""
     first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
@@ -101,6 +112,22 @@ def strain_energy(k: Mapping[int, float], gamma: Array, kappa: Array) -> float:
     return float(sum(value * squares[number] for number, value in k.items()) / 2)
 
 
+def offset_energy(
+    young: float, poisson: float, section: Section, offset: Offset, gamma: Array, kappa: Array
+) -> float:
+    """rho_0 psi of eq. (1.2.93): of a section about any centreline and any axes [J/m].
+
+    section : its area, and I_1 = I^22, I_2 = I^11 about those axes.
+    """
+    first, shear = lame(young, poisson)
+    own = strain_energy(integrated_stiffnesses(young, poisson, section), gamma, kappa)
+    one, two = kappa
+    turning = shear * (one[0] * two[0] + one[1] * two[1]) + (first + 2 * shear) * one[2] * two[2]
+    bent = offset.first @ kappa  # S^alpha kappa_alpha i, shape (3,)
+    stretching = first / 2 * np.trace(gamma) * bent[2] + shear * float(gamma[:, 2] @ bent)
+    return float(own + offset.product * turning + stretching)
+
+
 def stretches(d: Array, d_prime: Array) -> tuple[Array, Array]:
     """mu_i, shape (3,), of eq. (1.3.6) and mu_alpha', shape (2,), of eq. (1.3.7)."""
     mu = np.linalg.norm(d, axis=1)
@@ -117,3 +144,15 @@ def stretch_gradients(d: Array, d_prime: Array) -> tuple[Array, Array, Array]:
     along = np.einsum("ai,ai->a", e[:2], d_prime)
     turned = (d_prime - along[:, None] * e[:2]) / mu[:2, None]
     return e, turned, e[:2]
+
+
+def internal_forces(
+    d: Array, d_prime: Array, by_stretch: Array, by_slope: Array
+) -> tuple[Array, Array, Array]:
+    """n, shape (3,), k^alpha and m^alpha, shape (2, 3), of eqs. (1.3.18), (1.3.20), for an energy of the stretches.
+
+    by_stretch : (3,) its derivatives by mu_1, mu_2, mu_3.  by_slope : (2,) those by mu_1', mu_2'.
+    """
+    along, turned, across = stretch_gradients(d, d_prime)
+    intrinsic = by_stretch[:2, None] * along[:2] + by_slope[:, None] * turned
+    return by_stretch[2] * along[2], intrinsic, by_slope[:, None] * across
