@@ -123,7 +123,7 @@ page.source(directed_rod.offset_energy)
 # \begin{equation*}
 # \begin{aligned}
 # k_{12} = k_{13} &= \tfrac14 (\mu I_2 + \mu I_1 + \mathcal{D}) , \quad k_{14} = E I_2 , \quad k_{15} = E I_1 , \\
-# k_{16} &= \tfrac12 (\mu I_2 + \mu I_1 - \mathcal{D}) .
+# k_{16} &= \tfrac12 (\mu I_2 + \mu I_1 - \mathcal{D})
 # \end{aligned} \tag{1.2.98}
 # \end{equation*}
 #

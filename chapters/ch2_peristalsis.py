@@ -30,7 +30,7 @@ import numpy as np
 import cosserat
 from cosserat.book import page
 from cosserat.data.dataset import case_of, statistics_of
-from cosserat.models import doublets, muscle_regions, peristaltic_rod
+from cosserat.models import doublets, muscle_regions, nearly_incompressible, peristaltic_rod
 from cosserat.solvers import regions
 
 # %% tags=["remove-input"]
@@ -217,6 +217,41 @@ except cosserat.InputError as error:
 
 # %% tags=["remove-input"]
 page.source(muscle_regions.refuse_tilt)
+
+# %% [markdown]
+# ## Is the one material the limit of the other?
+#
+# As $\nu$ tends to $1/2$ the robot's material keeps $\mu_1 + \mu_2 + \mu_3 = 3$, which is $\mu_1 \mu_2 \mu_3 = 1$ for small
+# strains only. Two things are therefore asked: how fast the two rods approach each other under small loads, and what parts
+# them under finite ones. The body is the worm's, both rods join their regions as in section 2.4 (the contact force goes
+# on), and loads and weight are taken as a share of the worm's.
+
+# %% tags=["remove-input"]
+page.source(nearly_incompressible.apart)
+
+# %% tags=["remove-input"]
+worm = case_of(banded).problem
+
+
+def apart(poisson, share):
+    """Largest difference of the lateral stretches."""
+    return nearly_incompressible.apart(worm.crawler, worm.loads, poisson, share)
+
+
+gaps, shares = np.array([1e-2, 1e-3, 1e-4]), np.array([1, 2, 4]) / 80
+small = np.array([apart(0.5 - gap, 1e-6) for gap in gaps])
+limit = np.array([apart(0.5 - 1e-7, share) for share in shares])
+by_gap = np.polyfit(np.log(2 * gaps), np.log(small), 1)[0]
+by_load = np.polyfit(np.log(shares), np.log(limit), 1)[0]
+assert abs(by_gap - 1) < 0.01
+assert abs(by_load - 2) < 0.01
+page.say(
+    f"Under a millionth of the loads the two rods differ by {small[0] / (2 * gaps[0]) / 1e-6:.2f} $(1 - 2\\nu)$ times that "
+    f"share of the loads, with a measured order of {by_gap:.2f} in $1 - 2\\nu$. With $\\nu$ at the limit they do not meet: "
+    f"what remains grows as the power {by_load:.2f} of the load, because the sum of the stretches and their product differ by "
+    f"products of two strains. Under a twentieth of the worm's loads a stretch differs by {100 * limit[-1]:.2f} %, under "
+    f"all of them by {100 * apart(0.5 - 1e-7, 1.0):.0f} %: a nearly incompressible robot is no worm."
+)
 
 # %% [markdown]
 # ## From the ground up
