@@ -243,7 +243,7 @@ def test_an_incompressible_body_has_to_anchor_somewhere():
         ({"crawler": {"density": "1 kg/m^3"}}, "'crawler' has both a mass and a density; give one"),
         (
             {"crawler": {"material": {"kind": "compressible", "young": "10 kPa", "bulk": "1e30 Pa"}}},
-            "Poisson's ratio of 0.5; it must be",
+            "Poisson's ratio nu = 0.5; it must be",
         ),
         ({"crawler": {"material": {"kind": "rubber"}}}, "crawler.material"),
         (

@@ -359,13 +359,37 @@ def test_at_finite_loads_the_linear_volume_parts_the_two_rods():
 
 
 def test_neither_solver_returns_an_unconverged_answer():
+    """Both name the loads and the junctions, the parameters that may be out of reach, (2.3.19)."""
     posed = instant(WORM, "thesis")
-    with pytest.raises(NotConvergedError, match=r"test: no solution on the regions found"):
+    known = (
+        r"test with 'loads.anchoring' = 0.02616 N, 'loads.advancing' = 1356.6 Pa and regions that meet at 0.25 and "
+        r"0.75: "
+    )
+    with pytest.raises(NotConvergedError, match=known + "no solution on the regions found"):
         posed.solve(RegionSettings(max_iterations=1), None)
     with pytest.raises(
-        NotConvergedError, match=r"test: solve_bvp found no solution \(The maximum number of mesh nodes"
+        NotConvergedError,
+        match=known + r"solve_bvp found no solution \(The maximum number of mesh nodes",
     ):
         posed.collocate(RegionSettings(), 1e-12)
+
+
+@pytest.mark.parametrize("poisson", [-0.9999999999, -0.99995])
+def test_a_material_that_hardly_resists_a_change_of_volume_is_refused_by_its_poisson_ratio(poisson):
+    sentence = rf"has a Poisson's ratio nu = {poisson}; it must be above -0.9999: .*\(2.3.19\)"
+    with pytest.raises(InputError, match=sentence):
+        cosserat.case("soft_robot").vary("x", crawler={"material": {"poisson": poisson}})
+
+
+def test_next_to_that_both_solvers_still_agree():
+    near = ROBOT.replace(
+        crawler=ROBOT.crawler.replace(material=Compressible(young=1e4, poisson=-0.9998))
+    )
+    posed = instant(near, "thesis", anchoring=0.05, advancing=300, gravity=0.5)
+    banded, _ = posed.solve(RegionSettings(), None)
+    reference = posed.collocate(FINE, 1e-5)
+    assert np.abs(banded.at(Z)[0] - 1).max() > 0.01
+    np.testing.assert_allclose(banded.at(Z)[0], reference.at(Z)[0], atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -121,12 +121,21 @@ class Instant:
                     raise self._collapse(region, number)
         if not np.abs(step).max() < _SETTLED:
             raise NotConvergedError(
-                f"{self.name}: no homogeneous state under these loads found in {_LOCAL_STEPS} steps; take weaker loads",
+                f"{self.asked}: no homogeneous state found in {_LOCAL_STEPS} steps; take weaker loads",
                 iterations=_LOCAL_STEPS,
                 residual=float(np.abs(step).max()),
             )
         fastest = np.abs(np.linalg.eigvals(df)).max()
         return mu, float(1 / np.sqrt(fastest))
+
+    @property
+    def asked(self) -> str:
+        """The instant with the parameters that may put it out of reach, eq. (2.3.19), for a message."""
+        cuts = " and ".join(f"{region.right:.4g}" for region in self.regions[:-1]) or "no place"
+        return (
+            f"{self.name} with 'loads.anchoring' = {self.loads.anchoring:g} N, 'loads.advancing' = "
+            f"{self.loads.advancing:g} Pa and regions that meet at {cuts}"
+        )
 
     def refuse_collapse(self) -> None:
         """Nothing, or what `plateaus` raises."""
@@ -186,12 +195,12 @@ class Instant:
         mesh = self.mesh(settings)
         equation = _Equation(self, mesh)
         if before is None or before.shape[0] != mesh.nodes:
-            solved = solve(mesh, equation, self._cold(mesh), settings, self.name)
+            solved = solve(mesh, equation, self._cold(mesh), settings, self.asked)
         else:
             try:
-                solved = solve(mesh, equation, before, settings, self.name)
+                solved = solve(mesh, equation, before, settings, self.asked)
             except NotConvergedError:
-                solved = solve(mesh, equation, self._cold(mesh), settings, self.name)
+                solved = solve(mesh, equation, self._cold(mesh), settings, self.asked)
         mu = mesh.split(solved.u)
         mu_3, multiplier = equation.along(mu)
         slope, incompressible = mesh.slope(mu), self.groups.incompressible
@@ -218,7 +227,7 @@ class Instant:
                 + [np.ones(1)]
             ).round(12)
         )
-        found = collocate(systems, self._conditions, start, tolerance, self.name)
+        found = collocate(systems, self._conditions, start, tolerance, self.asked)
         y = [
             found.solution(int(r), z).T for r, z in zip(mesh.region, mesh.places, strict=True)
         ]  # (p + 1, 4 or 5) each

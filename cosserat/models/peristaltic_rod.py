@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 
 
 _INCOMPRESSIBLE = 0.5 - 1e-9  # beyond this Poisson's ratio the two Lame stiffnesses differ by rounding
+_AUXETIC = (
+    -1 + 1e-4
+)  # nearer to -1 the resistance to a change of volume, 1 + 2 p of (2.3.19), is lost in rounding
 _SLENDER = 1e6  # longest body in radii: beyond, its layers are lost in rounding
 
 
@@ -44,10 +47,16 @@ class Compressible(Parameters):
                 "moduli", f"has {', '.join(given) or 'no modulus'}; give two of young, poisson and bulk"
             )
         _, poisson = self.moduli
+        if -1 < poisson <= _AUXETIC:
+            raise PydanticCustomError(
+                "moduli",
+                f"has a Poisson's ratio nu = {poisson:.12g}; it must be above {_AUXETIC:g}: nearer to -1 the stiffness "
+                "becomes singular, eq. (2.3.19)",
+            )
         if not -1 < poisson < _INCOMPRESSIBLE:
             raise PydanticCustomError(
                 "moduli",
-                f"has a Poisson's ratio of {poisson:.12g}; it must be above -1 and below 1/2: for a material that "
+                f"has a Poisson's ratio nu = {poisson:.12g}; it must be above -1 and below 1/2: for a material that "
                 "keeps its volume take kind = 'incompressible'",
             )
         return self
