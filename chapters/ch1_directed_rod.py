@@ -61,15 +61,15 @@ page.source(chapter1.surface)
 #
 # \begin{equation*}
 # \begin{aligned}
-# \rho_0 \bar{\psi} = {}& \tfrac18 (\lambda + 2\mu) A (\gamma_{11}^2 + \gamma_{22}^2 + \gamma_{33}^2)
-# + \tfrac12 \mu A \left( \tfrac14 (\gamma_{21} + \gamma_{12})^2 + \gamma_{13}^2 + \gamma_{23}^2 \right) \\
-# & + \tfrac14 \lambda A (\gamma_{11}\gamma_{22} + \gamma_{11}\gamma_{33} + \gamma_{22}\gamma_{33})
-# + \tfrac12 \mu I^{11} (\kappa_{11}^2 + \kappa_{12}^2) + \tfrac12 \mu I^{22} (\kappa_{22}^2 + \kappa_{21}^2) \\
-# & + \tfrac12 (\lambda + 2\mu) (I^{11} \kappa_{13}^2 + I^{22} \kappa_{23}^2)
-# + \mu I^{12} (\kappa_{11}\kappa_{21} + \kappa_{12}\kappa_{22}) + (\lambda + 2\mu) I^{12} \kappa_{13}\kappa_{23} \\
+# \rho_0 \bar{\psi} = {}& \tfrac18 (\lambda + 2\mu) A (\gamma_{11}^2 + \gamma_{22}^2 + \gamma_{33}^2) \\
+# & + \tfrac12 \mu A \left( \tfrac14 (\gamma_{21} + \gamma_{12})^2 + \gamma_{13}^2 + \gamma_{23}^2 \right) \\
+# & + \tfrac14 \lambda A (\gamma_{11}\gamma_{22} + \gamma_{11}\gamma_{33} + \gamma_{22}\gamma_{33}) \\
+# & + \tfrac12 \mu I^{11} (\kappa_{11}^2 + \kappa_{12}^2) + \tfrac12 \mu I^{22} (\kappa_{22}^2 + \kappa_{21}^2) \\
+# & + \tfrac12 (\lambda + 2\mu) (I^{11} \kappa_{13}^2 + I^{22} \kappa_{23}^2) \\
+# & + \mu I^{12} (\kappa_{11}\kappa_{21} + \kappa_{12}\kappa_{22}) + (\lambda + 2\mu) I^{12} \kappa_{13}\kappa_{23} \\
 # & + \tfrac12 \lambda (\gamma_{11} + \gamma_{22} + \gamma_{33}) (S^1 \kappa_{13} + S^2 \kappa_{23}) \\
-# & + \mu S^1 (\gamma_{33}\kappa_{13} + \gamma_{13}\kappa_{11} + \gamma_{23}\kappa_{12})
-# + \mu S^2 (\gamma_{33}\kappa_{23} + \gamma_{13}\kappa_{21} + \gamma_{23}\kappa_{22}) .
+# & + \mu S^1 (\gamma_{33}\kappa_{13} + \gamma_{13}\kappa_{11} + \gamma_{23}\kappa_{12}) \\
+# & + \mu S^2 (\gamma_{33}\kappa_{23} + \gamma_{13}\kappa_{21} + \gamma_{23}\kappa_{22}) .
 # \end{aligned} \tag{1.2.93}
 # \end{equation*}
 #
@@ -78,10 +78,10 @@ page.source(chapter1.surface)
 #
 # \begin{equation*}
 # \begin{aligned}
-# 2 \rho_0 \bar{\psi} = {}& \bar{k}_1 \gamma_{11}^2 + \bar{k}_2 \gamma_{22}^2 + \bar{k}_3 \gamma_{33}^2
-# + \tfrac14 \bar{k}_4 (\gamma_{21} + \gamma_{12})^2 + \bar{k}_5 \gamma_{13}^2 + \bar{k}_6 \gamma_{23}^2 \\
-# & + \bar{k}_7 \gamma_{11}\gamma_{22} + \bar{k}_8 \gamma_{11}\gamma_{33} + \bar{k}_9 \gamma_{22}\gamma_{33}
-# + \bar{k}_{10} \kappa_{11}^2 + \bar{k}_{11} \kappa_{22}^2 + \bar{k}_{12} \kappa_{12}^2 + \bar{k}_{13} \kappa_{21}^2 \\
+# 2 \rho_0 \bar{\psi} = {}& \bar{k}_1 \gamma_{11}^2 + \bar{k}_2 \gamma_{22}^2 + \bar{k}_3 \gamma_{33}^2 \\
+# & + \tfrac14 \bar{k}_4 (\gamma_{21} + \gamma_{12})^2 + \bar{k}_5 \gamma_{13}^2 + \bar{k}_6 \gamma_{23}^2 \\
+# & + \bar{k}_7 \gamma_{11}\gamma_{22} + \bar{k}_8 \gamma_{11}\gamma_{33} + \bar{k}_9 \gamma_{22}\gamma_{33} \\
+# & + \bar{k}_{10} \kappa_{11}^2 + \bar{k}_{11} \kappa_{22}^2 + \bar{k}_{12} \kappa_{12}^2 + \bar{k}_{13} \kappa_{21}^2 \\
 # & + \bar{k}_{14} \kappa_{13}^2 + \bar{k}_{15} \kappa_{23}^2
 # \end{aligned} \tag{1.2.94}
 # \end{equation*}
@@ -90,10 +90,11 @@ page.source(chapter1.surface)
 #
 # \begin{equation*}
 # \begin{aligned}
-# \bar{k}_1 = \bar{k}_2 = \bar{k}_3 &= \tfrac14 (\lambda + 2\mu) A , \quad \bar{k}_4 = \bar{k}_5 = \bar{k}_6 = \mu A , \\
+# \bar{k}_1 = \bar{k}_2 = \bar{k}_3 &= \tfrac14 (\lambda + 2\mu) A , \\
+# \bar{k}_4 = \bar{k}_5 = \bar{k}_6 &= \mu A , \\
 # \bar{k}_7 = \bar{k}_8 = \bar{k}_9 &= \tfrac12 \lambda A , \\
-# \bar{k}_{10} = \bar{k}_{12} &= \mu I_2 , \quad \bar{k}_{11} = \bar{k}_{13} = \mu I_1 , \quad
-# \bar{k}_{14} = (\lambda + 2\mu) I_2 , \quad \bar{k}_{15} = (\lambda + 2\mu) I_1 .
+# \bar{k}_{10} = \bar{k}_{12} &= \mu I_2 , \quad \bar{k}_{11} = \bar{k}_{13} = \mu I_1 , \\
+# \bar{k}_{14} &= (\lambda + 2\mu) I_2 , \quad \bar{k}_{15} = (\lambda + 2\mu) I_1 .
 # \end{aligned} \tag{1.2.95}
 # \end{equation*}
 
@@ -110,10 +111,10 @@ page.source(directed_rod.offset_energy)
 #
 # \begin{equation*}
 # \begin{aligned}
-# 2 \rho_0 \psi = {}& k_1 \gamma_{11}^2 + k_2 \gamma_{22}^2 + k_3 \gamma_{33}^2
-# + \tfrac14 k_4 (\gamma_{21} + \gamma_{12})^2 + k_5 \gamma_{13}^2 + k_6 \gamma_{23}^2 \\
-# & + k_7 \gamma_{11}\gamma_{22} + k_8 \gamma_{11}\gamma_{33} + k_9 \gamma_{22}\gamma_{33}
-# + k_{10} \kappa_{11}^2 + k_{11} \kappa_{22}^2 + k_{12} \kappa_{12}^2 + k_{13} \kappa_{21}^2 \\
+# 2 \rho_0 \psi = {}& k_1 \gamma_{11}^2 + k_2 \gamma_{22}^2 + k_3 \gamma_{33}^2 \\
+# & + \tfrac14 k_4 (\gamma_{21} + \gamma_{12})^2 + k_5 \gamma_{13}^2 + k_6 \gamma_{23}^2 \\
+# & + k_7 \gamma_{11}\gamma_{22} + k_8 \gamma_{11}\gamma_{33} + k_9 \gamma_{22}\gamma_{33} \\
+# & + k_{10} \kappa_{11}^2 + k_{11} \kappa_{22}^2 + k_{12} \kappa_{12}^2 + k_{13} \kappa_{21}^2 \\
 # & + k_{14} \kappa_{13}^2 + k_{15} \kappa_{23}^2 + k_{16} \kappa_{12}\kappa_{21} ,
 # \end{aligned} \tag{1.2.97}
 # \end{equation*}
@@ -155,12 +156,14 @@ assert abs(stored / (shear * circle.torsion_constant) - 1) < 1e-12
 # Contact force, intrinsic and contact director forces are the gradients of the energy by $\mathbf{r}'$,
 # $\mathbf{d}_\alpha$ and $\mathbf{d}'_\alpha$. Where the energy is a function of stretches alone, they follow from
 #
-# $$
-# \frac{\partial \mu_j}{\partial \mathbf{d}_i} = \delta_i^j \mathbf{e}_j , \qquad
-# \frac{\partial \mu'_\beta}{\partial \mathbf{d}_\alpha} = \delta_\beta^\alpha
-# (\mathbf{I} - \mathbf{e}_\beta \otimes \mathbf{e}_\beta) \frac{\mathbf{d}'_\beta}{\mu_\beta} , \qquad
-# \frac{\partial \mu'_\beta}{\partial \mathbf{d}'_\alpha} = \delta_\beta^\alpha \mathbf{e}_\beta . \tag{1.3.19}
-# $$
+# \begin{equation*}
+# \begin{aligned}
+# \frac{\partial \mu_j}{\partial \mathbf{d}_i} &= \delta_i^j \mathbf{e}_j , \\
+# \frac{\partial \mu'_\beta}{\partial \mathbf{d}_\alpha} &= \delta_\beta^\alpha
+# (\mathbf{I} - \mathbf{e}_\beta \otimes \mathbf{e}_\beta) \frac{\mathbf{d}'_\beta}{\mu_\beta} , \\
+# \frac{\partial \mu'_\beta}{\partial \mathbf{d}'_\alpha} &= \delta_\beta^\alpha \mathbf{e}_\beta
+# \end{aligned} \tag{1.3.19}
+# \end{equation*}
 
 # %% tags=["remove-input"]
 page.source(directed_rod.stretch_gradients)
@@ -168,13 +171,15 @@ page.source(directed_rod.stretch_gradients)
 # %% [markdown]
 # and the chain rule:
 #
-# $$
-# \frac{\partial \hat{w}}{\partial \mathbf{d}_\alpha} = \frac{\partial \tilde{w}}{\partial \mu_\alpha} \mathbf{e}_\alpha
+# \begin{equation*}
+# \begin{aligned}
+# \frac{\partial \hat{w}}{\partial \mathbf{d}_\alpha} &= \frac{\partial \tilde{w}}{\partial \mu_\alpha} \mathbf{e}_\alpha
 # + \frac{\partial \tilde{w}}{\partial \mu'_\alpha} (\mathbf{I} - \mathbf{e}_\alpha \otimes \mathbf{e}_\alpha)
-# \frac{\mathbf{d}'_\alpha}{\mu_\alpha} , \quad
-# \frac{\partial \hat{w}}{\partial \mathbf{r}'} = \frac{\partial \tilde{w}}{\partial \mu_3} \mathbf{e}_3 , \quad
-# \frac{\partial \hat{w}}{\partial \mathbf{d}'_\alpha} = \frac{\partial \tilde{w}}{\partial \mu'_\alpha} \mathbf{e}_\alpha . \tag{1.3.20}
-# $$
+# \frac{\mathbf{d}'_\alpha}{\mu_\alpha} , \\
+# \frac{\partial \hat{w}}{\partial \mathbf{r}'} &= \frac{\partial \tilde{w}}{\partial \mu_3} \mathbf{e}_3 , \quad
+# \frac{\partial \hat{w}}{\partial \mathbf{d}'_\alpha} = \frac{\partial \tilde{w}}{\partial \mu'_\alpha} \mathbf{e}_\alpha .
+# \end{aligned} \tag{1.3.20}
+# \end{equation*}
 
 # %% tags=["remove-input"]
 page.source(directed_rod.internal_forces)
