@@ -76,6 +76,11 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "-o", "--output", type=Path, help="netCDF file to write (default: CASE.nc in this folder)"
     )
+    sub.add_argument(
+        "--keep-last",
+        action="store_true",
+        help="where a growing load cannot be followed to its end, write what was reached and still fail",
+    )
 
     sub = add(
         "show",
@@ -202,6 +207,11 @@ def _run(options: argparse.Namespace) -> None:
         dataset = run(case, result=path, progress=_report_progress)
     except (NotConvergedError, DivergedError, KeyboardInterrupt) as stopped:
         kept = Parts(path).folder
+        if isinstance(stopped, NotConvergedError) and stopped.dataset is not None and options.keep_last:
+            save(stopped.dataset, path)
+            raise NotConvergedError(
+                f"{stopped}; what was reached, {stopped.factor:.4g} of the load, is in {path}"
+            ) from None
         if not kept.is_dir():
             raise
         if isinstance(stopped, KeyboardInterrupt):

@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from cosserat.outcome import Outcome
 
 
 class CosseratError(Exception):
@@ -29,10 +35,14 @@ class NotConvergedError(CosseratError):
     residual, tolerance : the largest unbalanced force and the one that was allowed [N].
     state, factor : the last equilibrium that was found, or None, as displacements from the reference, and the share of
         the load it stands under.
+    reached : the last equilibrium or the points of the path up to there, or None, as the problem would have given them.
+    dataset : the same as a Dataset, where the case was run by `cosserat.run`.
     """
 
     state: NDArray[np.float64] | None = None
     factor: float = 0.0
+    reached: Outcome | None = None
+    dataset: xr.Dataset | None = None
 
     def __init__(
         self,

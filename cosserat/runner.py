@@ -11,7 +11,7 @@ import xarray as xr
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.dataset import to_dataset
 from cosserat.data.parts import Parts
-from cosserat.errors import InputError
+from cosserat.errors import InputError, NotConvergedError
 from cosserat.models.peristalsis import Crawl
 from cosserat.models.rod_motion import RodMotion
 from cosserat.outcome import Outcome
@@ -32,19 +32,28 @@ def run(case: Case | str, *, result: Path | None = None, progress: Progress | No
     Raises
     ------
     InputError : no case of that name, its rod is not supported, or the stored parts are of another run.
-    NotConvergedError, DivergedError, OutOfReachError : no solution; what a motion computed before stays in its parts.
+    NotConvergedError, DivergedError, OutOfReachError : no solution; what a motion computed before stays in its parts,
+        and what a growing load reached is the error's `dataset`.
     """
     known = find(case) if isinstance(case, str) else case
     if not isinstance(known, Case):
         raise InputError(f"run takes a case or the name of a published one, not {case!r}")
     name = f"case '{known.name}'"
-    if isinstance(known.problem, RodMotion):
-        outcome = _in_parts(known, known.problem, name, Parts(result) if result else None, progress)
-    elif isinstance(known.problem, Crawl):
-        outcome = known.problem.crawl(name, progress)
-    else:
-        outcome = known.problem.solve(name)
+    try:
+        outcome = _outcome_of(known, name, result, progress)
+    except NotConvergedError as error:
+        if error.reached is not None:
+            error.dataset = to_dataset(known, error.reached)
+        raise
     return to_dataset(known, outcome)
+
+
+def _outcome_of(known: Case, name: str, result: Path | None, progress: Progress | None) -> Outcome:
+    if isinstance(known.problem, RodMotion):
+        return _in_parts(known, known.problem, name, Parts(result) if result else None, progress)
+    if isinstance(known.problem, Crawl):
+        return known.problem.crawl(name, progress)
+    return known.problem.solve(name)
 
 
 def _in_parts(

@@ -20,9 +20,9 @@ CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 
 # Each room may import from the rooms before it, never from those after it.
 ROOMS = (
+    "outcome",
     "errors",
     "parameters",
-    "outcome",
     "analytic",
     "elastica",
     "solvers",

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import cosserat
 from cosserat import analytic, elastica
+from cosserat.__main__ import main
 from cosserat.errors import InputError
 from cosserat.models.calibration import beam_of
 from cosserat.models.consistent import ConsistentRod, coefficients
@@ -170,18 +171,21 @@ def test_no_shear_locking(thickness):
     assert tip == pytest.approx(elastica.transverse_tip(0.1)[0] + 0.1 * shear, rel=1e-3)
 
 
-def test_an_incompressible_section_keeps_its_area():
+@pytest.mark.parametrize("share", [0.1, 0.2, 0.3])
+def test_an_incompressible_section_keeps_its_area(share):
+    """Stretch along times stretch across is one; the force is that of the energy with lambda = 1 / a."""
     posed, _ = slender(20, radius=0.05, section="incompressible", poisson=0.4999)
-    stretched = posed.replace(
+    stiff = 2 * posed.rod.young / 3 * posed.rod.area
+    pulled = posed.replace(
         supports=({"at": "first", "hold": ["x3", "x2", "d3"]},),
-        forces=({"at": "last", "along": "E3", "force": 1e6},),
+        forces=({"at": "last", "along": "E3", "force": share * stiff},),
     )
-    data = stretched.solve("x").fields
-    product = data["mu_edge"] * (data["lam"][1:] + data["lam"][:-1]) / 2
-    sum_ = data["mu_edge"] + (data["lam"][1:] + data["lam"][:-1]) / 2
-    assert data["mu_edge"].max() - 1 > 0.05
-    np.testing.assert_allclose(sum_, 2, atol=1e-5)
-    assert np.abs(product - 1).max() < 0.02
+    data = pulled.solve("x").fields
+    wide = (data["lam"][1:] + data["lam"][:-1]) / 2
+    np.testing.assert_allclose(data["mu_edge"] * wide, 1, atol=1e-5)
+    a = data["mu_edge"][0]
+    assert abs(a - 1) > 0.04
+    assert share == pytest.approx((a - 1) - (1 / a - 1) / a**2, rel=1e-4)
 
 
 @pytest.mark.parametrize(("elements", "allowed"), [(20, 1e-3), (40, 2.5e-4), (80, 6e-5)])
@@ -294,6 +298,58 @@ def test_an_arch_snaps_through(solved):
     assert snapped == pytest.approx(middle[-1], abs=1e-6)
 
 
+def loaded_arch(at, **arc):
+    forces = [{"at": at, "along": "E2", "force": "46.875 N"}]
+    return cosserat.case("arch_path").vary("arch", forces=forces, arc=arc)
+
+
+@pytest.mark.parametrize("at", [15, 19])
+def test_a_path_does_not_depend_on_its_arcs_and_never_jumps(at):
+    """Loaded off its centre an arch runs through many limit points, some close to another path."""
+    limits = []
+    for longest in (0.5, 0.1, 0.02):
+        path = cosserat.run(loaded_arch(at, longest=longest, first=min(longest, 0.05), count=2000))
+        factor = path.load_factor.to_numpy()
+        turning = np.arctan2(*path.d.to_numpy().T).T
+        assert np.abs(np.angle(np.exp(1j * np.diff(turning, axis=0)))).max() < 0.2
+        assert factor[-1] == 1
+        inner = factor[1:-1]
+        limits.append(inner[(inner - factor[:-2]) * (factor[2:] - inner) < 0])
+    assert len(limits[-1]) >= 6
+    for coarse in limits[:-1]:
+        np.testing.assert_allclose(coarse, limits[-1], atol=5e-3)
+
+
+def test_a_branch_that_comes_back_to_its_beginning_says_so():
+    """A symmetric arch: the tilting path between its two branching points is closed."""
+    forces = [
+        {"at": 20, "along": "E2", "force": "41.1364 N"},
+        {"at": 20, "along": "-E3", "force": "22.4730 N"},
+    ]
+    tilting = cosserat.case("arch_path").vary("tilting", forces=forces)
+    with pytest.raises(
+        cosserat.NotConvergedError, match=r"comes back to 0\.23\d* of the load, where it"
+    ):
+        cosserat.run(tilting)
+    upright = cosserat.run(tilting.vary("upright", arc={"branch": "stay"}))
+    assert upright.load_factor[-1] == 1
+
+
+@pytest.mark.parametrize("slenderness", [1e-3, 2e-4, 1e-4])
+def test_columns_however_thin_leave_the_straight_path(slenderness):
+    euler = np.pi**2 / 4 * 1e9 * slenderness**4 / 12
+    thin = cosserat.case("column_path").vary(
+        "thin",
+        rod={"height": slenderness, "width": slenderness},
+        forces=[{"at": "last", "along": "-E3", "force": 2 * euler}],
+    )
+    path = cosserat.run(thin)
+    tip = path.x.isel(vertex=-1).to_numpy()
+    assert path.load_factor[-1] == 1
+    assert path.load_factor.to_numpy()[np.abs(tip[:, 1]) < 1e-3].max() == pytest.approx(0.5, abs=1e-3)
+    assert abs(tip[-1, 1]) == pytest.approx(elastica.column_tip(np.pi**2 / 2)[0], abs=4e-3)
+
+
 def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last_state():
     """A bar pushed by twice EA: without a barrier its edges would have to vanish half-way."""
     posed, _ = slender(20, radius=0.05)
@@ -308,8 +364,27 @@ def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last
         pushed.solve("x")
     assert caught.value.factor == pytest.approx(0.5, abs=1e-2)
     assert caught.value.state.reshape(-1, 4)[-1, 0] == pytest.approx(-2 * caught.value.factor)
+    reached = caught.value.reached
+    assert reached.statistics["load_factor_reached"] == caught.value.factor
+    assert reached.fields["applied_force"][-1, 0] == pytest.approx(-2 * stiff * caught.value.factor)
+    assert np.abs(reached.fields["applied_force"] + reached.fields["support_force"]).sum(0)[1] < 1e-3
     kept = pushed.replace(rod=pushed.rod.replace(barrier=True)).solve("x").fields
     assert kept["mu_edge"].min() > 0.1
+
+
+def test_a_path_that_is_given_up_keeps_its_points_on_request(tmp_path, capsys):
+    (tmp_path / "my.toml").write_text(
+        '[far]\nlike = "arch_path"\narc.limit = 1.1\nforces = [{ at = 15, along = "E2", force = "46.875 N" }]\n'
+    )
+    command = ["run", "far", "--file", str(tmp_path / "my.toml"), "-o", str(tmp_path / "far.nc")]
+    assert main(command) == 1
+    assert "beyond 'arc.limit' = 1.1; raise it" in capsys.readouterr().err
+    assert not (tmp_path / "far.nc").exists()
+    assert main([*command, "--keep-last"]) == 1
+    assert "what was reached, -1.0" in capsys.readouterr().err
+    path = cosserat.load(tmp_path / "far.nc")
+    assert path.sizes["point"] > 50
+    assert path.load_factor.min() > -1.1
 
 
 def test_prescribed_motion_of_a_support():
@@ -339,6 +414,39 @@ def test_the_period_of_the_exact_timoshenko_beam(solved):
     assert period(data.time.to_numpy(), tip) == pytest.approx(exact, rel=1e-3)
     energy = (data.kinetic_energy + data.strain_energy).to_numpy()
     assert np.abs(energy / energy[0] - 1).max() < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("section", "poisson", "amplitude"),
+    [("plane strain", 0.49, 0.1), ("plane strain", 0.4999, 0.1), ("incompressible", 0.4999, 0.01)],
+)
+def test_sections_that_hardly_change_their_volume_vibrate(section, poisson, amplitude):
+    """With the pressure at the midpoint of a step these found no solution at any sensible step."""
+    case = cosserat.case("vibration_consistent").vary(
+        "x", rod={"section": section, "poisson": poisson}, start={"amplitude": amplitude}
+    )
+    data = cosserat.run(case)
+    energy = (data.kinetic_energy + data.strain_energy).to_numpy()
+    assert np.abs(energy / energy[0] - 1).max() < 1e-7
+    tip = data.x.sel(axis="E2").isel(vertex=-1).to_numpy()
+    lowest = 2 * np.pi / case.problem.modes(1).angular_frequency[0]
+    assert period(data.time.to_numpy(), tip) == pytest.approx(lowest, rel=5e-3)
+
+
+@pytest.mark.parametrize("section", ["plane strain", "incompressible"])
+def test_an_incompressible_rod_spins_freely(section):
+    case = cosserat.case("vibration_consistent").vary(
+        "x",
+        rod={"section": section, "poisson": 0.4999},
+        supports=[],
+        start={"shape": "reference", "amplitude": 0.0, "spin": 20.0},
+    )
+    data = cosserat.run(case)
+    energy = (data.kinetic_energy + data.strain_energy).to_numpy()
+    assert np.abs(energy / energy[0] - 1).max() < 1e-8
+    turning = data.angular_momentum.to_numpy()
+    assert np.abs(turning / turning[0] - 1).max() < 1e-10
+    assert data.first_angle[-1] - data.first_angle[0] == pytest.approx(20 * 0.2, rel=2e-2)
 
 
 def test_a_tumbling_stretching_rod_keeps_energy_and_momenta():

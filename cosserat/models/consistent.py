@@ -11,7 +11,8 @@ and each vertex has the stretch lambda = |d| / |D| of its section.  The energy i
        + sum over vertices L 2 mu A (lambda - 1)^2 / 2
 
 less the measures of the reference.  The volumetric part sits on the edges, where it cannot lock; Lambda is Lame's
-first constant in plane strain, and E nu / (1 - nu^2) where the section is free to contract in E1.
+first constant in plane strain, and E nu / (1 - nu^2) where the section is free to contract in E1.  In an incompressible
+section Lambda is a penalty, on a times the mean of lambda less 1: the area in the plane itself, not its linear part.
 
 Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, and t = (sin b, -cos b),
     h a = e . t,   h g = e . m,   d(h a)/db = h g,   d(h g)/db = -h a.
@@ -50,7 +51,19 @@ TERMS = (
 PENALTY = 1e5
 """Lambda over 2 mu of an incompressible section."""
 
-_COLUMNS = 20
+_CAP = 0.05
+"""Pressure over 2 mu A up to which the Hessian counts its geometric stiffness in a step of motion.
+
+On the way to an answer a change of s leaves a pressure of Lambda s^2, which the next iteration takes away again.
+"""
+
+_STIFF = 5.0
+"""Lambda over 2 mu from which on the pressure in motion is a mean: Poisson's ratio 0.45 in plane strain."""
+
+(EDGE, AXIAL, SLIDE, TURN, K_AXIAL, K_VOLUME, K_SHEAR, K_BENDING, K_JUMP) = range(9)
+(DIRECTOR, VORONOI, K_SECTION, COUPLE, BARRIER, ANGLE) = range(9, 15)
+(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, SHIFT, START) = range(15, 22)
+"""Columns of what the kernel reads; `coefficients` says what they hold."""
 
 
 def coefficients(
@@ -62,37 +75,39 @@ def coefficients(
     couples: Array,
     barrier: bool,
 ) -> Array:
-    """What the kernel needs, shape (N, 20): row K has edge K (the last row none), vertex K and its couple.
+    """What the kernel needs, shape (N, 22): row K has edge K (the last row none), vertex K and its couple.
 
-    Columns: length, axial measure, shear measure and turning of the edge in the reference; 2 mu A, Lambda A, k mu A,
-    EI, mu I of the edge; |D|, L and 2 mu A of the vertex; couple [N m]; one for the barriers of Fig. 3.7, else zero;
-    angle of the director in the reference, counted on from vertex to vertex; four numbers that are zero, or what
-    `ConsistentRod.displaced` puts there; and, in row 0, the angle within half a turn of which that of the first
+    Of the edge: length; axial measure, shear measure and turning in the reference; 2 mu A, Lambda A, k mu A, EI, mu I.
+    Of the vertex: |D|, L, 2 mu A, the couple [N m], one for the barriers of Fig. 3.7, and the angle of the director in
+    the reference, counted on from vertex to vertex.  Then four numbers that are zero, or what `ConsistentRod.displaced`
+    puts there; one where the product of the stretches is the volume, not their sum; a number added to the change of
+    volume, zero but in a step of motion; and, in row 0, the angle within half a turn of which that of the first
     director is counted.
     """
     n = geometry.X.shape[0]
-    rod = np.zeros((n, _COLUMNS))
+    rod = np.zeros((n, START + 1))
     e, alpha = np.diff(geometry.X, axis=0), counted_angles(geometry.D)
     turn = np.diff(alpha)
     b = alpha[:-1] + turn / 2
-    rod[:-1, 0] = geometry.edge_length
-    rod[:-1, 1] = e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b)
-    rod[:-1, 2] = e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b)
-    rod[:-1, 3] = turn
+    rod[:-1, EDGE] = geometry.edge_length
+    rod[:-1, AXIAL] = e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b)
+    rod[:-1, SLIDE] = e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b)
+    rod[:-1, TURN] = turn
     shear, first, plane = _moduli(edge, section)
-    rod[:-1, 4] = 2 * shear * edge.area
-    rod[:-1, 5] = first * edge.area
-    rod[:-1, 6] = shear_correction * shear * edge.area
-    rod[:-1, 7] = plane * edge.second_moment
-    rod[:-1, 8] = shear * edge.second_moment
+    rod[:-1, K_AXIAL] = 2 * shear * edge.area
+    rod[:-1, K_VOLUME] = first * edge.area
+    rod[:-1, K_SHEAR] = shear_correction * shear * edge.area
+    rod[:-1, K_BENDING] = plane * edge.second_moment
+    rod[:-1, K_JUMP] = shear * edge.second_moment
     shear, _, _ = _moduli(vertex, section)
-    rod[:, 9] = geometry.director_length
-    rod[:, 10] = geometry.voronoi_length
-    rod[:, 11] = 2 * shear * vertex.area
-    rod[:, 12] = couples
-    rod[:, 13] = float(barrier)
-    rod[:, 14] = alpha
-    rod[0, 19] = alpha[0]
+    rod[:, DIRECTOR] = geometry.director_length
+    rod[:, VORONOI] = geometry.voronoi_length
+    rod[:, K_SECTION] = 2 * shear * vertex.area
+    rod[:, COUPLE] = couples
+    rod[:, BARRIER] = float(barrier)
+    rod[:, ANGLE] = alpha
+    rod[:, PRODUCT] = float(section == "incompressible")
+    rod[0, START] = alpha[0]
     return rod
 
 
@@ -102,6 +117,21 @@ def edge_shear(x: Array, d: Array) -> Array:
     m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
     angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
     return angle
+
+
+def keeping_volume(geometry: Geometry, x: Array, d: Array, section: SectionState) -> Array:
+    """Directors of the same directions, (N, 2) [m], so long that each edge keeps its volume; the first is not scaled.
+
+    A volume that hardly changes would otherwise set off vibrations of its own at the start of a motion.
+    """
+    unit = d / np.linalg.norm(d, axis=1)[:, None]
+    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
+    axial = (e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0]) / np.linalg.norm(m, axis=1) / geometry.edge_length
+    wide = np.ones(axial.size + 1)
+    for K, a in enumerate(axial):
+        wide[K + 1] = 2 * (1 / a if section == "incompressible" else 2 - a) - wide[K]
+    directors: Array = (geometry.director_length * wide)[:, None] * unit
+    return directors
 
 
 def _moduli(part: Lumped, section: SectionState) -> tuple[Array, Array, Array]:
@@ -139,10 +169,16 @@ class ConsistentRod:
         """What that kernel takes besides the unknowns."""
         return self.rod
 
+    @property
+    def averaged(self) -> int:
+        """In motion, whether the pressure is the mean of those at both ends of a step: where volume is stiff."""
+        stiff = bool((self.rod[:, K_VOLUME] > _STIFF * self.rod[:, K_AXIAL]).any())
+        return SHIFT if stiff else -1
+
     def counted_near(self, angle: float) -> ConsistentRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
         rod = self.rod.copy()
-        rod[0, 19] = angle
+        rod[0, START] = angle
         return ConsistentRod(rod)
 
     def displaced(self, geometry: Geometry) -> ConsistentRod:
@@ -151,8 +187,8 @@ class ConsistentRod:
         Forces then feel the rounding of displacements instead of positions, which on fine meshes is far less.
         """
         rod = self.rod.copy()
-        rod[:-1, 15:17] = np.diff(geometry.X, axis=0)
-        rod[:, 17:19] = geometry.D
+        rod[:-1, EDGE_3 : EDGE_2 + 1] = np.diff(geometry.X, axis=0)
+        rod[:, DIRECTOR_3 : DIRECTOR_2 + 1] = geometry.D
         return ConsistentRod(rod)
 
     def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
@@ -208,6 +244,14 @@ def _curve(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
 
 
 @njit(cache=True)
+def _pair(band: Band, p: int, u: Array, v: Array, w: float) -> None:
+    """Add w (u v + v u) to the block of eight unknowns from p on."""
+    for j in range(8):
+        for i in range(j, 8):
+            band[p + j, i - j] += w * (u[i] * v[j] + u[j] * v[i])
+
+
+@njit(cache=True)
 def _turn(band: Band, p: int, n0: float, n1: float, across: float, twist: float) -> None:
     """Add across n' n' - twist (n n' + n' n), n' = (-n1, n0), to the block of a director from unknown p on."""
     band[p, 0] += across * n1 * n1 + 2 * twist * n0 * n1
@@ -217,35 +261,37 @@ def _turn(band: Band, p: int, n0: float, n1: float, across: float, twist: float)
 
 @njit(cache=True, error_model="numpy")
 def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
-    """The energy and its parts; with order 1 also the gradient, with order 2 the Hessian too."""
+    """The energy and its parts; with order 1 also the gradient, with 2 the Hessian too; with 3 changes of volume."""
     gradient[:] = 0.0
     band[:, :] = 0.0
     terms[:] = 0.0
-    barrier = rod[0, 13]
+    barrier = rod[0, BARRIER]
     angle = n0 = n1 = r_a = (
         0.0  # of the vertex before: angle, counted on from vertex to vertex, direction and length
     )
-    v, w, c = np.zeros((6, 8)), np.zeros(6), np.zeros(8)
+    v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
+    product = rod[0, PRODUCT] != 0.0
     for K in range(rod.shape[0]):
         p = 4 * K
-        p0, p1 = q[p + 2] + rod[K, 17], q[p + 3] + rod[K, 18]
+        p0, p1 = q[p + 2] + rod[K, DIRECTOR_3], q[p + 3] + rod[K, DIRECTOR_2]
         r_b = np.sqrt(p0 * p0 + p1 * p1)
         if not r_b > 0.0:
             return np.inf
         p0, p1 = p0 / r_b, p1 / r_b
-        D = rod[K, 9]
-        W_rb, W_rr, W_turn = 0.0, 0.0, -rod[K, 12]
+        D = rod[K, DIRECTOR]
+        W_rb, W_rr, W_turn = 0.0, 0.0, -rod[K, COUPLE]
+        uncounted_r, uncounted_turn = 0.0, 0.0
         value, first, second = _well(r_b / D, barrier)
-        terms[1] += rod[K, 11] / 2 * rod[K, 10] * value
-        W_rb += rod[K, 11] / 2 * rod[K, 10] * first / D
-        W_rr = rod[K, 11] / 2 * rod[K, 10] * second / D**2
+        terms[1] += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * value
+        W_rb += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * first / D
+        W_rr = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * second / D**2
         if K == 0:
             angle = np.arctan2(p1, p0)
-            angle -= 2 * np.pi * np.round((angle - rod[0, 19]) / (2 * np.pi))
+            angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))
         else:
             J = K - 1
-            E, D_a = rod[J, 0], rod[J, 9]
-            e0, e1 = q[p] - q[p - 4] + rod[J, 15], q[p + 1] - q[p - 3] + rod[J, 16]
+            E, D_a = rod[J, EDGE], rod[J, DIRECTOR]
+            e0, e1 = q[p] - q[p - 4] + rod[J, EDGE_3], q[p + 1] - q[p - 3] + rod[J, EDGE_2]
             T = np.arctan2(n0 * p1 - n1 * p0, n0 * p0 + n1 * p1)
             angle += T
             s0, s1 = n0 + p0, n1 + p1  # along m
@@ -256,21 +302,32 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
             A, G = e0 * m1 - e1 * m0, e0 * m0 + e1 * m1
             if not A > 0.0:
                 return np.inf
-            strain, slide = (A - rod[J, 1]) / E, (G - rod[J, 2]) / E
+            strain, slide = (A - rod[J, AXIAL]) / E, (G - rod[J, SLIDE]) / E
             value, first, w_axial = _well(1 + strain, barrier)
-            volume = strain + (r_a / D_a + r_b / D) / 2 - 1
-            bent, bent_first, bent_second = _bow(T - rod[J, 3], barrier)
+            wide = (r_a / D_a + r_b / D) / 2
+            # the change of volume and its derivatives by the axial and the cross-section stretch
+            volume, by_axial, by_wide = strain + wide - 1, 1.0, 1.0
+            if product:
+                volume, by_axial, by_wide = (1 + strain) * wide - 1, wide, 1 + strain
+            if order == 3:
+                gradient[J] = volume
+                n0, n1, r_a = p0, p1, r_b
+                continue
+            volume += rod[J, SHIFT]
+            bent, bent_first, bent_second = _bow(T - rod[J, TURN], barrier)
             jump = r_b / D - r_a / D_a
-            terms[0] += rod[J, 4] / 2 * E * value
-            terms[4] += rod[J, 5] / 2 * E * volume * volume
-            terms[3] += rod[J, 6] / 2 * E * slide * slide
-            terms[2] += rod[J, 7] / (2 * E) * bent
-            terms[5] += rod[J, 8] / (2 * E) * jump * jump
+            terms[0] += rod[J, K_AXIAL] / 2 * E * value
+            terms[4] += rod[J, K_VOLUME] / 2 * E * volume * volume
+            terms[3] += rod[J, K_SHEAR] / 2 * E * slide * slide
+            terms[2] += rod[J, K_BENDING] / (2 * E) * bent
+            terms[5] += rod[J, K_JUMP] / (2 * E) * jump * jump
             if order > 0:
-                W_A, W_G = rod[J, 4] / 2 * first + rod[J, 5] * volume, rod[J, 6] * slide
-                W_T = rod[J, 7] / (2 * E) * bent_first
-                W_ra = (rod[J, 5] * E / 2 * volume - rod[J, 8] / E * jump) / D_a
-                W_rb += (rod[J, 5] * E / 2 * volume + rod[J, 8] / E * jump) / D
+                pressure = rod[J, K_VOLUME] * volume
+                W_A, W_G = rod[J, K_AXIAL] / 2 * first + pressure * by_axial, rod[J, K_SHEAR] * slide
+                W_T = rod[J, K_BENDING] / (2 * E) * bent_first
+                W_wide = pressure * E / 2 * by_wide
+                W_ra = (W_wide - rod[J, K_JUMP] / E * jump) / D_a
+                W_rb += (W_wide + rod[J, K_JUMP] / E * jump) / D
                 W_b = W_A * G - W_G * A
                 f0, f1 = W_A * m1 + W_G * m0, -W_A * m0 + W_G * m1
                 turn_a = (W_b / 2 - W_T) / r_a
@@ -282,6 +339,15 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                 gradient[p] += f0
                 gradient[p + 1] += f1
             if order > 1:
+                if rod[J, SHIFT] != 0.0:
+                    most = _CAP * rod[J, K_AXIAL]
+                    excess = pressure - min(max(pressure, -most), most)
+                    pressure -= excess
+                    W_A -= excess * by_axial
+                    W_ra -= excess * E / 2 * by_wide / D_a
+                    turn_a -= excess * by_axial * G / 2 / r_a
+                    uncounted_r = excess * E / 2 * by_wide / D
+                    uncounted_turn = excess * by_axial * G / 2
                 # gradients by (x, d) of both vertices: A, G, T, volume E, jump, b
                 a0, a1, b0, b1 = -n1 / r_a, n0 / r_a, -p1 / r_b, p0 / r_b
                 v[0, 0], v[0, 1], v[0, 4], v[0, 5] = -m1, m0, m1, -m0
@@ -292,29 +358,30 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                 for i in range(8):
                     if i % 4 > 1:
                         v[0, i], v[1, i] = G * v[5, i], -A * v[5, i]
-                        v[3, i] = v[0, i] + E / 2 * (v[4, i] if i > 3 else -v[4, i])
-                    else:
-                        v[3, i] = v[0, i]
+                        widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
+                    v[3, i] = by_axial * v[0, i] + by_wide * E * widening[i]
                 w[0], w[1], w[2] = (
-                    rod[J, 4] / 2 * w_axial / E,
-                    rod[J, 6] / E,
-                    rod[J, 7] / (2 * E) * bent_second,
+                    rod[J, K_AXIAL] / 2 * w_axial / E,
+                    rod[J, K_SHEAR] / E,
+                    rod[J, K_BENDING] / (2 * E) * bent_second,
                 )
-                w[3], w[4], w[5] = rod[J, 5] / E, rod[J, 8] / E, -W_A * A - W_G * G
+                w[3], w[4], w[5] = rod[J, K_VOLUME] / E, rod[J, K_JUMP] / E, -W_A * A - W_G * G
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
                 c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
                 _curve(band, p - 4, v, w, c)
+                if product:
+                    _pair(band, p - 4, v[0], widening, pressure)
                 _turn(band, p - 2, n0, n1, W_ra / r_a, turn_a / r_a)
-        if rod[K, 12] != 0.0:
-            terms[6] -= rod[K, 12] * (angle - rod[K, 14])
-        if order > 0:
+        if rod[K, COUPLE] != 0.0:
+            terms[6] -= rod[K, COUPLE] * (angle - rod[K, ANGLE])
+        if order in {1, 2}:
             gradient[p + 2] += W_rb * p0 - W_turn / r_b * p1
             gradient[p + 3] += W_rb * p1 + W_turn / r_b * p0
-        if order > 1:
+        if order == 2:
             band[p + 2, 0] += W_rr * p0 * p0
             band[p + 2, 1] += W_rr * p0 * p1
             band[p + 3, 0] += W_rr * p1 * p1
-            _turn(band, p + 2, p0, p1, W_rb / r_b, W_turn / r_b**2)
+            _turn(band, p + 2, p0, p1, (W_rb - uncounted_r) / r_b, (W_turn - uncounted_turn) / r_b**2)
         n0, n1, r_a = p0, p1, r_b
     total: float = terms.sum()
     return total

@@ -1,4 +1,4 @@
-"""The consistent rod under loads that grow together, as the solvers of `solvers.path` see it."""
+"""The consistent rod under loads that grow together, as the solvers of `solvers.climb` and `solvers.path` see it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.models.consistent import ConsistentRod
+from cosserat.models.consistent import COUPLE, DIRECTOR, DIRECTOR_2, DIRECTOR_3, EDGE, ConsistentRod
 from cosserat.solvers.banded import Band, Mask, Vector, band_product
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class LoadedRod:
     @property
     def grain(self) -> Vector:
         """Edges and directors: stretches are rounded as shares of them."""
-        edge, director = self.body.rod[:, 0], self.body.rod[:, 9]
+        edge, director = self.body.rod[:, EDGE], self.body.rod[:, DIRECTOR]
         edge = np.append(edge[:-1], edge[-2])
         return np.column_stack([edge, edge, director, director]).ravel()
 
@@ -45,7 +45,7 @@ class LoadedRod:
         if not self.moments.any():
             return self.body
         rod = self.body.rod.copy()
-        rod[:, 12] = factor * self.moments
+        rod[:, COUPLE] = factor * self.moments
         return ConsistentRod(rod)
 
     def place(self, q: Vector, factor: float) -> Vector:
@@ -56,7 +56,7 @@ class LoadedRod:
         """Dead load, shape (4 N,) [N]; unsigned, a couple counts as the force of its director."""
         if signed:
             return factor * self.dead
-        force = np.abs(self.moments) / self.body.rod[:, 9]
+        force = np.abs(self.moments) / self.body.rod[:, DIRECTOR]
         size: Vector = np.abs(factor) * np.maximum(np.abs(self.dead), np.repeat(force, 4))
         return size
 
@@ -67,7 +67,7 @@ class LoadedRod:
         return energy
 
     def _directors(self, q: Vector) -> Array:
-        d: Array = self.body.rod[:, 17:19] + q.reshape(-1, 4)[:, 2:]
+        d: Array = self.body.rod[:, DIRECTOR_3 : DIRECTOR_2 + 1] + q.reshape(-1, 4)[:, 2:]
         return d
 
     def rate(self, q: Vector, factor: float, band: Band) -> Vector:

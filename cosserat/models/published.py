@@ -92,6 +92,11 @@ class PublishedRod:
         rod[0, START] = self.angles[0] if self.start is None else self.start
         return rod
 
+    @property
+    def averaged(self) -> int:
+        """None of its measures is so stiff that motions have to take means of it."""
+        return -1
+
     def counted_near(self, angle: float) -> PublishedRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
         return replace(self, start=angle)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from cosserat import analytic
 from cosserat.errors import CosseratError, DivergedError, NotConvergedError
+from cosserat.models.consistent import keeping_volume
 from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, counted_angles, rigid_motions
 from cosserat.models.rod import Direction, RodBody, RodProblem, unit_vector
 from cosserat.outcome import Outcome
@@ -105,6 +106,8 @@ class RodMotion(RodProblem):
             turn = np.arctan(self.start.amplitude * slope)
             X[:, 1] += self.start.amplitude * shape
             D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
+            if self.body(geometry).averaged >= 0:
+                D = keeping_volume(geometry, X, D, self.rod.section)
         q = np.where(self.held(), np.hstack([geometry.X, geometry.D]), np.hstack([X, D]))
         v = np.zeros_like(q)
         v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)

@@ -9,12 +9,15 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
+from cosserat.errors import NotConvergedError
+from cosserat.models.planar_rod import Geometry
 from cosserat.models.rod import RodProblem
 from cosserat.models.rod_statics import refuse_rigid_motion
 from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.solvers.climb import Climb, Point
 from cosserat.solvers.newton import NewtonSettings
-from cosserat.solvers.path import Arc, Climb, Point, follow
+from cosserat.solvers.path import Arc, follow
 
 Array = NDArray[np.float64]
 
@@ -24,7 +27,7 @@ class ArcSettings(Parameters):
 
     first: Annotated[float, Quantity("1", above=0)] = 0.05
     longest: Annotated[float, Quantity("1", above=0)] = 0.3
-    count: Annotated[int, Count(at_least=1, at_most=100_000)] = 200
+    count: Annotated[int, Count(at_least=1, at_most=100_000)] = 500
     """Most arcs."""
     limit: Annotated[float, Quantity("1", above=1)] = 3.0
     """Share of the load, either way, beyond which the path is given up."""
@@ -71,22 +74,32 @@ class RodPath(RodProblem):
             limit=self.arc.limit,
             switch=self.arc.branch == "leave",
         )
-        points: list[Point] = list(follow(climb, np.zeros(start.size), arc))
-        q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
-        fields = {
-            "load_factor": np.array([point.factor for point in points]),
-            "stable": np.array([float(point.stable) for point in points]),
-            "xi": geometry.arc_length,
-            "x_ref": geometry.X,
-            "d_ref": geometry.D,
-            "x": q[..., :2],
-            "d": q[..., 2:],
-            "potential": np.array([point.energy for point in points]),
-        }
-        statistics = {
-            "points": len(points),
-            "iterations": climb.iterations,
-            "load_factor_reached": points[-1].factor,
-            "unstable_points": sum(not point.stable for point in points),
-        }
-        return Outcome(fields, statistics, along="point")
+        points: list[Point] = []
+        try:
+            points.extend(follow(climb, np.zeros(start.size), arc))
+        except NotConvergedError as error:
+            if points:
+                error.reached = _outcome(geometry, start, points, climb.iterations)
+            raise
+        return _outcome(geometry, start, points, climb.iterations)
+
+
+def _outcome(geometry: Geometry, start: Array, points: list[Point], iterations: int) -> Outcome:
+    q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
+    fields = {
+        "load_factor": np.array([point.factor for point in points]),
+        "stable": np.array([float(point.stable) for point in points]),
+        "xi": geometry.arc_length,
+        "x_ref": geometry.X,
+        "d_ref": geometry.D,
+        "x": q[..., :2],
+        "d": q[..., 2:],
+        "potential": np.array([point.energy for point in points]),
+    }
+    statistics = {
+        "points": len(points),
+        "iterations": iterations,
+        "load_factor_reached": points[-1].factor,
+        "unstable_points": sum(not point.stable for point in points),
+    }
+    return Outcome(fields, statistics, along="point")

@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.errors import UnsupportedRodError
+from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.models.consistent import ConsistentRod, edge_shear
 from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
 from cosserat.models.rod import RodBody, RodProblem
 from cosserat.outcome import Outcome
+from cosserat.solvers.climb import Climb, Point
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.motion import System
 from cosserat.solvers.newton import Equilibrium, NewtonSettings, equilibrium
-from cosserat.solvers.path import Climb, Point
 
 Array = NDArray[np.float64]
 _MOTIONS = ("translation along E3", "translation along E2", "rotation")
@@ -73,7 +73,16 @@ class RodStatics(RodProblem):
         start = reference.ravel() + self.drive(0.0)[0]
         if self.rod.calibration is None:
             climb = Climb(self.loaded(geometry), self.newton, name)
-            return _as_equilibrium(climb, climb.to(np.zeros(reference.size), 1.0), reference.ravel())
+            try:
+                return _as_equilibrium(climb, climb.to(np.zeros(reference.size), 1.0), reference.ravel())
+            except NotConvergedError as error:
+                if climb.last is not None:
+                    last, part = _as_equilibrium(climb, climb.last, reference.ravel()), climb.last.factor
+                    error.reached = Outcome(
+                        _fields(geometry, body, last, part * load),
+                        _statistics(last) | {"load_factor_reached": part},
+                    )
+                raise
         return equilibrium(body, start, load.ravel(), held.ravel(), self.newton, name)
 
 

@@ -26,8 +26,8 @@ from cosserat.models.calibration import beam_of
 from cosserat.models.rod import PointForce
 from cosserat.models.rod_motion import RodMotion
 from cosserat.models.rod_statics import RodStatics
+from cosserat.solvers.climb import Climb
 from cosserat.solvers.motion import IntegratorSettings, advance
-from cosserat.solvers.path import Climb
 from cosserat.table.readouts import period
 
 RUNS = 5

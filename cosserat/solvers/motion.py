@@ -37,6 +37,10 @@ class Body(Protocol):
     def parameters(self) -> NDArray[np.float64]:
         """What the kernel takes besides the unknowns."""
 
+    @property
+    def averaged(self) -> int:
+        """Column of the parameters that shifts the measures of order 3, or -1 where there are none."""
+
     def counted_near(self, angle: float) -> Body:
         """The same body, the angle of its first director counted within half a turn of this one [rad]."""
 
@@ -165,6 +169,7 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
         system.drag,
         h,
         system.body.half_bandwidth,
+        system.body.averaged,
     )
     if done < count:
         raise NotConvergedError(

@@ -1,217 +1,25 @@
-"""Equilibria of a slender elastic body under a growing load, and the path they lie on.
+"""The path of equilibria of a slender elastic body whose load grows, past limit points and branches.
 
-Slender bodies turn far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
-creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how
-much of a step that is.  Where a load is too much for one go it is halved; where the equilibrium found is unstable the
-body is pushed along its softest motion and comes to rest elsewhere.  Paths that turn back are followed by
-pseudo-arclength (Keller 1977; Crisfield 1991, chapter 9).  Nothing here knows what the unknowns mean.
+By pseudo-arclength (Keller 1977; Crisfield 1991, chapter 9).  An arc is taken anew, half as long, where its end lies
+off the tangent, or where the path turns, more than a share of it: so no other path that comes near is taken for this.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
-from cosserat.errors import NotConvergedError
-from cosserat.solvers.banded import (
-    Band,
-    Mask,
-    Vector,
-    absolute_product,
-    hold,
-    negative_eigenvalues,
-    solve_positive,
-)
-from cosserat.solvers.indefinite import shifted, softest, solve_any
-from cosserat.solvers.newton import NewtonSettings
+from cosserat.solvers.banded import Vector, hold, negative_eigenvalues
+from cosserat.solvers.climb import SMALLEST, Climb, Loaded, Point, stalled
+from cosserat.solvers.indefinite import solve_any
 
-_EPS = float(np.finfo(float).eps)
-_SMALLEST = 2.0**-12  # share of the load below which halving gives up
-_BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answer worthless
-_ROUGH = 16.0  # multiple of the estimate below which a residual that no longer falls is rounding
 _CLOSE = 0.02  # share of the first arc to which a crossing of paths is closed in on
-_PUSH = 0.05  # share of its reach by which an unstable body is pushed
+_STRAY = 0.2  # share of an arc by which a point may lie off the tangent
+_BEND = 0.9  # least cosine of the angle by which a path may turn within an arc
+_AWAY = 10.0  # multiple of the first arc from which on a branch can come back to its beginning
 _EASY, _HARD = 4, 8  # corrector iterations below which the arc grows and above which it shrinks
-
-
-class Loaded(Protocol):
-    """A body under a load that grows with a factor."""
-
-    @property
-    def half_bandwidth(self) -> int:
-        """Largest distance of two coupled unknowns."""
-
-    @property
-    def held(self) -> Mask:
-        """Which unknowns keep their value, or the one that the factor gives them, shape (n,)."""
-
-    @property
-    def grain(self) -> Vector:
-        """Sizes (n,) that are rounded where the energy is computed, however small the unknowns are."""
-
-    def place(self, q: Vector, factor: float) -> Vector:
-        """q with its held unknowns where the factor puts them."""
-
-    def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
-        """Elastic energy at q; overwrites the gradient of the potential, loads included, and the Hessian."""
-
-    def load(self, factor: float, *, signed: bool = False) -> Vector:
-        """Dead load, shape (n,), and unsigned also what couples amount to: the scale of what counts as balanced."""
-
-    def rate(self, q: Vector, factor: float, band: Band) -> Vector:
-        """Change of that gradient with the factor, shape (n,); `band` is the Hessian at q."""
-
-    def reach(self, q: Vector, step: Vector) -> float:
-        """Largest share of a step that turns no part by more than is safe."""
-
-
-@dataclass(frozen=True)
-class Point:
-    """One equilibrium.
-
-    factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance, rounding : as
-    in `newton.Equilibrium` [N].  negative : how many eigenvalues of the Hessian are negative.
-    """
-
-    q: Vector
-    factor: float
-    energy: float
-    reaction: Vector
-    iterations: int
-    residual: float
-    tolerance: float
-    rounding: float
-    negative: int
-
-    @property
-    def stable(self) -> bool:
-        """Whether the potential has a minimum there."""
-        return self.negative == 0
-
-
-class Climb:
-    """Equilibria at given factors, from the reference on."""
-
-    def __init__(self, body: Loaded, settings: NewtonSettings, name: str) -> None:
-        n = body.held.size
-        self.body, self.settings, self.name = body, settings, name
-        self.gradient, self.band = np.empty(n), np.empty((n, body.half_bandwidth + 1))
-        self.iterations = self.halvings = self.pushes = 0
-        self.remedy = (
-            "the path may turn back there: follow it with kind = 'rod path', or check supports and loads"
-        )
-
-    def to(self, start: Vector, factor: float) -> Point:
-        """A stable equilibrium at the factor, by as few increments as it takes.
-
-        Raises
-        ------
-        NotConvergedError : with the factor that was reached, and the last equilibrium as `state`.
-        """
-        last: Point | None = None
-        q, done, increment = start, 0.0, factor / self.settings.load_steps
-        with np.errstate(over="ignore", invalid="ignore"):
-            while done != factor:
-                goal = factor if abs(factor - done) <= 1.001 * abs(increment) else done + increment
-                point = self.at(q, goal)
-                if point is not None and not point.stable:
-                    point = self._pushed(point)
-                if point is None:
-                    self.halvings += 1
-                    increment /= 2
-                    if abs(increment) < _SMALLEST * abs(factor):
-                        raise self._failure(done, goal, last)
-                    continue
-                last, q, done = point, point.q, goal
-        if last is None:  # no load at all
-            last = self.at(start, factor)
-            if last is None:
-                raise self._failure(0.0, factor, None)
-        return last
-
-    def at(self, q: Vector, factor: float, *, downhill: bool = False) -> Point | None:
-        """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.
-
-        downhill : where the Hessian is not positive, take the step of a shifted one, which lowers the potential.
-        """
-        body, held = self.body, self.body.held
-        q = body.place(q, factor)
-        load = float(np.abs(body.load(factor)).max())
-        largest, last = 0.0, np.inf
-        for _ in range(self.settings.max_iterations + 1):
-            energy = body.assemble(q, factor, self.gradient, self.band)
-            if not np.isfinite(energy):
-                return None
-            unbalanced = np.where(held, 0.0, -self.gradient)
-            residual = float(np.abs(unbalanced).max())
-            largest = max(largest, residual)
-            rounding = self.rounding(q)
-            scale = max(load, float(np.abs(self.gradient[held]).max(initial=0.0)), largest * (load == 0))
-            tolerance = max(self.settings.tolerance * scale, rounding)
-            if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
-                raise NotConvergedError(
-                    f"{self.name}: rounding the unknowns makes forces up to {rounding:.2g} N, too much beside the "
-                    "loads; use fewer vertices, or loads that strain the body less",
-                    iterations=self.iterations,
-                    residual=residual,
-                    tolerance=tolerance,
-                )
-            hold(self.band, held)
-            step = solve_positive(self.band, unbalanced)
-            if residual <= tolerance or _stalled(residual, last, rounding):
-                reaction = np.where(held, self.gradient, 0.0)
-                return Point(
-                    q,
-                    factor,
-                    energy,
-                    reaction,
-                    self.iterations,
-                    residual,
-                    tolerance,
-                    rounding,
-                    0 if step is not None else negative_eigenvalues(self.band),
-                )
-            last = residual
-            if step is None:
-                step = shifted(self.band, unbalanced) if downhill else solve_any(self.band, unbalanced)
-            if step is None or not np.isfinite(step).all():
-                return None
-            q = q + min(1.0, body.reach(q, step)) * step
-            self.iterations += 1
-        return None
-
-    def rounding(self, q: Vector) -> float:
-        """Largest force that rounding can cause, by the Hessian assembled last [N]."""
-        size = np.maximum(np.abs(q), self.body.grain)
-        return _EPS * float(absolute_product(self.band, size).max())
-
-    def softest_motion(self, point: Point) -> Vector:
-        """The softest motion at a point, one reach long, to the side that the loads push to."""
-        self.body.assemble(point.q, point.factor, self.gradient, self.band)
-        hold(self.band, self.body.held)
-        motion = softest(self.band, self.body.held)
-        if float(self.body.load(point.factor, signed=True) @ motion) < 0:
-            motion = -motion
-        return self.body.reach(point.q, motion) * motion
-
-    def _pushed(self, point: Point) -> Point | None:
-        """From an unstable equilibrium, along its softest motion, to another one."""
-        self.pushes += 1
-        motion = self.softest_motion(point)
-        found = self.at(point.q + _PUSH * motion, point.factor, downhill=True)
-        return found if found is not None and found.stable else None
-
-    def _failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
-        error = NotConvergedError(
-            f"{self.name}: no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); {self.remedy}",
-            iterations=self.iterations,
-        )
-        error.state = None if last is None else last.q  # as the body counts its unknowns
-        error.factor = done
-        return error
 
 
 @dataclass(frozen=True)
@@ -239,38 +47,50 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
 
     Raises
     ------
-    NotConvergedError : no further point, or the factor goes beyond the limit; the last point is its `state`.
+    NotConvergedError : no further point, or the factor goes beyond the limit, or a branch comes back to its beginning;
+        the last point is its `state`.
     """
     climb.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
     point = climb.at(start, 0.0)
     if point is None:
-        raise climb._failure(0.0, 0.0, None)
+        raise climb.failure(0.0, 0.0, None)
     yield point
-    body, switch = climb.body, arc.switch
+    body, switch, origin, went_away = climb.body, arc.switch, None, False
     direction = _tangent(climb, point, None)
     ds = arc.first
     for _ in range(arc.count):
         before = climb.iterations
-        found, ds = _next(climb, point, direction, ds, arc)
+        found, ahead, ds = _next(climb, point, direction, ds, arc)
         effort = climb.iterations - before
-        ahead = _tangent(climb, found, direction)
         if switch and found.negative != point.negative and ahead[1] * direction[1] > 0:
             near, found = _crossing(climb, point, direction, ds, arc)
             if near is not point:
                 yield near
             branch = _branch(climb, found, arc)
             if branch is None:
-                raise climb._failure(found.factor, found.factor, point)
+                raise climb.failure(found.factor, found.factor, point)
             away = branch.q - found.q
-            size = np.hypot(_norm(body, branch.q, away), branch.factor - found.factor)
+            size = _apart(body, branch, found)
             ahead = _tangent(climb, branch, (away / size, (branch.factor - found.factor) / size))
-            found, switch, ds = branch, False, arc.first
+            origin, found, switch, ds = found, branch, False, arc.first
         if point.factor != 0.0 and (found.factor - arc.until) * (point.factor - arc.until) <= 0:
             last = climb.at(found.q, arc.until)
             yield found if last is None else last
             return
         if abs(found.factor) > arc.limit:
-            raise climb._failure(point.factor, found.factor, point)
+            raise climb.stopped(
+                f"the path goes to {found.factor:.4g} of the load, beyond 'arc.limit' = {arc.limit:g}; raise it",
+                point,
+            )
+        if origin is not None:
+            distance = _apart(body, origin, found)
+            went_away = went_away or distance > _AWAY * arc.first
+            if went_away and distance < ds:
+                raise climb.stopped(
+                    f"the path comes back to {origin.factor:.4g} of the load, where it branched off; set "
+                    "arc.branch = 'stay', or add a small load that breaks the symmetry",
+                    point,
+                )
         yield found
         point, direction = found, ahead
         ds = min(arc.longest, 2 * ds) if effort <= _EASY else ds / 2 if effort > _HARD else ds
@@ -278,14 +98,24 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
 
 def _next(
     climb: Climb, point: Point, direction: tuple[Vector, float], ds: float, arc: Arc
-) -> tuple[Point, float]:
-    """The next point along a direction, and the arc that led to it."""
-    while ds > _SMALLEST * arc.first:
-        found = _corrected(climb, point, *direction, ds)
+) -> tuple[Point, tuple[Vector, float], float]:
+    """The next point along a direction, the direction there, and the arc that led to it."""
+    while ds > SMALLEST * arc.first:
+        found = _corrected(climb, point, *direction, ds, _STRAY * ds)
         if found is not None:
-            return found, ds
+            ahead = _tangent(climb, found, direction)
+            if _cosine(direction, ahead) > _BEND:
+                return found, ahead, ds
         ds /= 2
-    raise climb._failure(point.factor, point.factor + direction[1] * ds, point)
+    raise climb.failure(point.factor, point.factor + direction[1] * ds, point)
+
+
+def _cosine(one: tuple[Vector, float], other: tuple[Vector, float]) -> float:
+    """Of the angle between two tangents."""
+    weight = _weight(one[0])
+    product = float(one[0] @ other[0]) + weight * one[1] * other[1]
+    sizes = (float(t @ t) + weight * slope**2 for t, slope in (one, other))
+    return product / float(np.sqrt(np.prod(list(sizes))))
 
 
 def _crossing(
@@ -296,7 +126,7 @@ def _crossing(
     before, after = point, None
     while after is None or high - low > _CLOSE * arc.first:
         middle = high if after is None else (low + high) / 2
-        found = _corrected(climb, point, *direction, middle)
+        found = _corrected(climb, point, *direction, middle, _STRAY * ds)
         if found is None:
             break
         if found.negative == point.negative:
@@ -304,7 +134,7 @@ def _crossing(
         else:
             high, after = middle, found
     if after is None:
-        raise climb._failure(point.factor, point.factor, point)
+        raise climb.failure(point.factor, point.factor, point)
     return before, after
 
 
@@ -312,6 +142,11 @@ def _norm(body: Loaded, q: Vector, step: Vector) -> float:
     """Length of a step in reaches of the body."""
     reach = body.reach(q, step)
     return 1 / reach if np.isfinite(reach) else 0.0
+
+
+def _apart(body: Loaded, one: Point, other: Point) -> float:
+    """Distance of two points in reaches of the body and factors of the load."""
+    return float(np.hypot(_norm(body, one.q, other.q - one.q), other.factor - one.factor))
 
 
 def _tangent(climb: Climb, point: Point, before: tuple[Vector, float] | None) -> tuple[Vector, float]:
@@ -335,8 +170,10 @@ def _weight(tangent: Vector) -> float:
     return float(tangent @ tangent) or 1.0
 
 
-def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: float) -> Point | None:
-    """The equilibrium on the plane across the tangent at an arc of ds, with its factor."""
+def _corrected(
+    climb: Climb, point: Point, tangent: Vector, slope: float, ds: float, stray: float
+) -> Point | None:
+    """The equilibrium with its factor on the plane across the tangent at an arc of ds; None beyond `stray` of there."""
     body, held = climb.body, climb.body.held
     q, factor = point.q + ds * tangent, point.factor + ds * slope
     weight, last = _weight(tangent), np.inf
@@ -353,7 +190,12 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
         tolerance = max(climb.settings.tolerance * scale, rounding)
         rate = body.rate(q, factor, climb.band)
         hold(climb.band, held)
-        if residual <= tolerance or _stalled(residual, last, rounding):
+        if residual <= tolerance or stalled(residual, last, rounding):
+            strayed = np.hypot(
+                _norm(body, q, q - point.q - ds * tangent), factor - point.factor - ds * slope
+            )
+            if strayed > stray:
+                return None  # an equilibrium, but one of another path
             negative = negative_eigenvalues(climb.band)
             reaction = np.where(held, climb.gradient, 0.0)
             return Point(
@@ -378,14 +220,9 @@ def _corrected(climb: Climb, point: Point, tangent: Vector, slope: float, ds: fl
 def _branch(climb: Climb, point: Point, arc: Arc) -> Point | None:
     """A point on the path that leaves this one along its softest motion, to the side that the loads push to."""
     body, motion, ds = climb.body, climb.softest_motion(point), arc.first
-    while ds > _SMALLEST * arc.first:
-        found = _corrected(climb, point, motion, 0.0, ds)
-        if found is not None and _norm(body, point.q, found.q - point.q) > ds / 2:
+    while ds > SMALLEST * arc.first:
+        found = _corrected(climb, point, motion, 0.0, ds, arc.first)
+        if found is not None and _norm(body, point.q, found.q - point.q) > ds / 4:
             return found
         ds /= 2
     return None
-
-
-def _stalled(residual: float, last: float, rounding: float) -> bool:
-    """Whether what is left no longer falls and is of the size of rounding, whose bound is an estimate."""
-    return residual > last / 2 and residual <= _ROUGH * rounding

@@ -5,6 +5,9 @@ The elastic force is the gradient at the midpoint plus sigma z, where sigma make
 when nothing is held, so that the added force has neither a resultant nor a moment and linear and angular momentum stay
 as they are.  Second order in the step.
 
+Where some measure is very stiff (a volume that hardly changes), its stress is taken at the mean of its values at both
+ends (Simo & Tarnow, ZAMP 43, 757, 1992): at the midpoint itself a mere rotation by t would strain it by t^2 / 8.
+
 Each step is solved by Newton's method; its matrix is kept from one step to the next for as long as the corrections
 shrink fast, which they do where little changes in a step.
 """
@@ -34,6 +37,9 @@ KERNEL = types.float64(
 
 The unknowns are plane vectors, two numbers each.  The second is a direction whose angle may count through whole turns:
 the last of the first row of parameters is the angle within half a turn of which it is counted.
+
+Order 3 writes measures of strain into gradient, those that are so stiff that their stress in a step is taken at the
+mean of its ends instead of its middle; parameters have a column that is added to them, one row for each.
 """
 
 TOLERANCE = 1e-11  # of the last correction, as a share of the step
@@ -163,7 +169,7 @@ def _sigma(
 
 
 def _march(  # type: ignore[no-untyped-def]
-    kernel, rod, q, v, mass, load, held, moved, places, rates, translations, drag, h, width
+    kernel, rod, q, v, mass, load, held, moved, places, rates, translations, drag, h, width, averaged
 ):
     """Take steps of h, overwriting q, v and the angle in rod; returns how many, fewer where one found no solution.
 
@@ -175,6 +181,7 @@ def _march(  # type: ignore[no-untyped-def]
     factor, change, middle, force = np.empty((n, width + 1)), np.empty(n), np.empty(n), np.empty(n)
     product, pull, z, spin = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
     earlier, earliest = np.zeros(n), np.zeros(n)  # changes of the last two steps
+    shifted, old, new, now = rod.copy(), np.zeros(n), np.zeros(n), np.zeros(n)
     inertia = 2 / h**2 + drag / h
     stiffest, fresh, judged = 0.0, False, False
     before = kernel(q, rod, 0, nothing, none, terms)
@@ -186,19 +193,26 @@ def _march(  # type: ignore[no-untyped-def]
             change[i] = 0.0 if held[i] else guess
         for i in range(moved.size):
             change[moved[i]] = places[done + 1, i] - places[done, i]
+        if averaged >= 0:
+            kernel(q, rod, 3, old, none, terms)
         arrived, near, after = False, False, before
         relative = np.inf  # last correction as a share of the step
         for _ in range(MAX_ITERATIONS):
+            if averaged >= 0:
+                kernel(q + change, rod, 3, new, none, terms)
+                kernel(q + change / 2, rod, 3, now, none, terms)
+                for k in range(rod.shape[0]):
+                    shifted[k, averaged] = (old[k] + new[k]) / 2 - now[k]
             for i in range(n):
                 middle[i] = q[i] + change[i] / 2
             if not fresh:
-                if not np.isfinite(kernel(middle, rod, 2, gradient, factor, terms)):
+                if not np.isfinite(kernel(middle, shifted, 2, gradient, factor, terms)):
                     return done
                 stiffest = _step_matrix(factor, mass, inertia, held)
                 if not _cholesky(factor):
                     return done
                 fresh, judged = True, False
-            elif not np.isfinite(kernel(middle, rod, 1, gradient, none, terms)):
+            elif not np.isfinite(kernel(middle, shifted, 1, gradient, none, terms)):
                 return done
             reach = np.abs(q).max()
             sigma = 0.0
@@ -236,7 +250,7 @@ def _march(  # type: ignore[no-untyped-def]
             q[i] += change[i]
             v[i] = 2 / h * change[i] - v[i]
             earliest[i], earlier[i] = earlier[i], change[i]
-        rod[0, -1] = counted_on(q[3], q[2], rod[0, -1])
+        rod[0, -1] = shifted[0, -1] = counted_on(q[3], q[2], rod[0, -1])
         for i in range(moved.size):
             v[moved[i]] = rates[done + 1, i]
         before = kernel(q, rod, 0, nothing, none, terms)
@@ -263,6 +277,7 @@ def march() -> Callable[..., int]:
         matrix,
         types.float64,
         types.float64,
+        types.int64,
         types.int64,
     )
     compiled: Callable[..., int] = njit(signature, cache=True)(_march)

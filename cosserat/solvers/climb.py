@@ -1,0 +1,223 @@
+"""Equilibria of a slender elastic body at given loads.
+
+Slender bodies turn far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
+creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how
+much of a step that is.  Where a load is too much for one go it is halved; where the equilibrium found is unstable the
+body is pushed along its softest motion and comes to rest elsewhere.  Nothing here knows what the unknowns mean.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from cosserat.errors import NotConvergedError
+from cosserat.solvers.banded import (
+    Band,
+    Mask,
+    Vector,
+    absolute_product,
+    hold,
+    negative_eigenvalues,
+    solve_positive,
+)
+from cosserat.solvers.indefinite import shifted, softest, solve_any
+from cosserat.solvers.newton import NewtonSettings
+
+_EPS = float(np.finfo(float).eps)
+SMALLEST = 2.0**-12  # share of the load below which halving gives up
+_BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answer worthless
+_ROUGH = 16.0  # multiple of the estimate below which a residual that no longer falls is rounding
+_PUSH = 0.05  # share of its reach by which an unstable body is pushed
+
+
+class Loaded(Protocol):
+    """A body under a load that grows with a factor."""
+
+    @property
+    def half_bandwidth(self) -> int:
+        """Largest distance of two coupled unknowns."""
+
+    @property
+    def held(self) -> Mask:
+        """Which unknowns keep their value, or the one that the factor gives them, shape (n,)."""
+
+    @property
+    def grain(self) -> Vector:
+        """Sizes (n,) that are rounded where the energy is computed, however small the unknowns are."""
+
+    def place(self, q: Vector, factor: float) -> Vector:
+        """q with its held unknowns where the factor puts them."""
+
+    def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
+        """Elastic energy at q; overwrites the gradient of the potential, loads included, and the Hessian."""
+
+    def load(self, factor: float, *, signed: bool = False) -> Vector:
+        """Dead load, shape (n,), and unsigned also what couples amount to: the scale of what counts as balanced."""
+
+    def rate(self, q: Vector, factor: float, band: Band) -> Vector:
+        """Change of that gradient with the factor, shape (n,); `band` is the Hessian at q."""
+
+    def reach(self, q: Vector, step: Vector) -> float:
+        """Largest share of a step that turns no part by more than is safe."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """One equilibrium.
+
+    factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance, rounding : as
+    in `newton.Equilibrium` [N].  negative : how many eigenvalues of the Hessian are negative.
+    """
+
+    q: Vector
+    factor: float
+    energy: float
+    reaction: Vector
+    iterations: int
+    residual: float
+    tolerance: float
+    rounding: float
+    negative: int
+
+    @property
+    def stable(self) -> bool:
+        """Whether the potential has a minimum there."""
+        return self.negative == 0
+
+
+class Climb:
+    """Equilibria at given factors, from the reference on."""
+
+    def __init__(self, body: Loaded, settings: NewtonSettings, name: str) -> None:
+        n = body.held.size
+        self.body, self.settings, self.name = body, settings, name
+        self.gradient, self.band = np.empty(n), np.empty((n, body.half_bandwidth + 1))
+        self.iterations = self.halvings = self.pushes = 0
+        self.last: Point | None = None  # the equilibrium that `to` found last
+        self.remedy = (
+            "the path may turn back there: follow it with kind = 'rod path', or check supports and loads"
+        )
+
+    def to(self, start: Vector, factor: float) -> Point:
+        """A stable equilibrium at the factor, by as few increments as it takes.
+
+        Raises
+        ------
+        NotConvergedError : with the factor that was reached, and the last equilibrium as `state`.
+        """
+        last: Point | None = None
+        q, done, increment = start, 0.0, factor / self.settings.load_steps
+        with np.errstate(over="ignore", invalid="ignore"):
+            while done != factor:
+                goal = factor if abs(factor - done) <= 1.001 * abs(increment) else done + increment
+                point = self.at(q, goal)
+                if point is not None and not point.stable:
+                    point = self._pushed(point)
+                if point is None:
+                    self.halvings += 1
+                    increment /= 2
+                    if abs(increment) < SMALLEST * abs(factor):
+                        raise self.failure(done, goal, last)
+                    continue
+                last = self.last = point
+                q, done = point.q, goal
+        if last is None:  # no load at all
+            last = self.at(start, factor)
+            if last is None:
+                raise self.failure(0.0, factor, None)
+        return last
+
+    def at(self, q: Vector, factor: float, *, downhill: bool = False) -> Point | None:
+        """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.
+
+        downhill : where the Hessian is not positive, take the step of a shifted one, which lowers the potential.
+        """
+        body, held = self.body, self.body.held
+        q = body.place(q, factor)
+        load = float(np.abs(body.load(factor)).max())
+        largest, last = 0.0, np.inf
+        for iteration in range(self.settings.max_iterations + 1):
+            energy = body.assemble(q, factor, self.gradient, self.band)
+            if not np.isfinite(energy):
+                return None
+            unbalanced = np.where(held, 0.0, -self.gradient)
+            residual = float(np.abs(unbalanced).max())
+            largest = max(largest, residual)
+            rounding = self.rounding(q)
+            scale = max(load, float(np.abs(self.gradient[held]).max(initial=0.0)), largest * (load == 0))
+            tolerance = max(self.settings.tolerance * scale, rounding)
+            if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
+                if iteration > 0:
+                    return None  # a step went astray, to where everything is stiff
+                raise NotConvergedError(
+                    f"{self.name}: rounding the unknowns makes forces up to {rounding:.2g} N, too much beside the "
+                    "loads; use fewer vertices, or loads that strain the body less",
+                    iterations=self.iterations,
+                    residual=residual,
+                    tolerance=tolerance,
+                )
+            hold(self.band, held)
+            step = solve_positive(self.band, unbalanced)
+            if residual <= tolerance or stalled(residual, last, rounding):
+                reaction = np.where(held, self.gradient, 0.0)
+                return Point(
+                    q,
+                    factor,
+                    energy,
+                    reaction,
+                    self.iterations,
+                    residual,
+                    tolerance,
+                    rounding,
+                    0 if step is not None else negative_eigenvalues(self.band),
+                )
+            last = residual
+            if step is None:
+                step = shifted(self.band, unbalanced) if downhill else solve_any(self.band, unbalanced)
+            if step is None or not np.isfinite(step).all():
+                return None
+            q = q + min(1.0, body.reach(q, step)) * step
+            self.iterations += 1
+        return None
+
+    def rounding(self, q: Vector) -> float:
+        """Largest force that rounding can cause, by the Hessian assembled last [N]."""
+        size = np.maximum(np.abs(q), self.body.grain)
+        return _EPS * float(absolute_product(self.band, size).max())
+
+    def softest_motion(self, point: Point) -> Vector:
+        """The softest motion at a point, one reach long, to the side that the loads push to."""
+        self.body.assemble(point.q, point.factor, self.gradient, self.band)
+        hold(self.band, self.body.held)
+        motion = softest(self.band, self.body.held)
+        if float(self.body.load(point.factor, signed=True) @ motion) < 0:
+            motion = -motion
+        return self.body.reach(point.q, motion) * motion
+
+    def _pushed(self, point: Point) -> Point | None:
+        """From an unstable equilibrium, along its softest motion, to another one."""
+        self.pushes += 1
+        motion = self.softest_motion(point)
+        found = self.at(point.q + _PUSH * motion, point.factor, downhill=True)
+        return found if found is not None and found.stable else None
+
+    def failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
+        """An error that says how far the load came and what was tried next."""
+        return self.stopped(
+            f"no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); {self.remedy}", last
+        )
+
+    def stopped(self, reason: str, last: Point | None) -> NotConvergedError:
+        """An error that holds the last equilibrium, its unknowns as the body counts them."""
+        error = NotConvergedError(f"{self.name}: {reason}", iterations=self.iterations)
+        error.state = None if last is None else last.q
+        error.factor = 0.0 if last is None else last.factor
+        return error
+
+
+def stalled(residual: float, last: float, rounding: float) -> bool:
+    """Whether what is left no longer falls and is of the size of rounding, whose bound is an estimate."""
+    return residual > last / 2 and residual <= _ROUGH * rounding
