@@ -34,7 +34,13 @@ def transverse_tip(force: float) -> tuple[float, float]:
 
 
 def shearable_tip(force: float, axial: float, shear: float) -> tuple[float, float]:
-    """The same of Reissner's rod with axial stiffness EA and shear stiffness kGA, by shooting."""
+    """The same of Reissner's rod with axial stiffness EA and shear stiffness kGA."""
+    x, y, _ = shearable_shape(force, axial, shear, np.array([1.0]))[-1]
+    return float(y), float(1 - x)
+
+
+def shearable_shape(force: float, axial: float, shear: float, s: Array) -> Array:
+    """That rod by shooting: x, y and the angle of its sections at the arc lengths s, shape (len(s), 3)."""
     from scipy.integrate import solve_ivp
     from scipy.optimize import brentq
 
@@ -51,13 +57,14 @@ def shearable_tip(force: float, axial: float, shear: float) -> tuple[float, floa
             ]
         )
 
-    def shoot(bend: float) -> Array:
-        done = solve_ivp(rates, (0, 1), [0, 0, 0, bend], method="DOP853", rtol=1e-12, atol=1e-13)
-        return np.asarray(done.y[:, -1])
+    def shoot(bend: float, at: Array) -> Array:
+        start = [0, 0, 0, bend]
+        done = solve_ivp(rates, (0, 1), start, method="DOP853", t_eval=at, rtol=1e-12, atol=1e-13)
+        return np.asarray(done.y.T)
 
-    bend = float(brentq(lambda b: shoot(b)[3], 0.0, 1.2 * force, xtol=1e-13))
-    end = shoot(bend)
-    return float(end[1]), float(1 - end[0])
+    end = np.array([1.0])
+    bend = float(brentq(lambda b: shoot(b, end)[-1, 3], 0.0, 1.2 * force, xtol=1e-13))
+    return shoot(bend, s)[:, :3]
 
 
 def column_load(sideways_angle: float) -> float:

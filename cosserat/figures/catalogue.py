@@ -52,7 +52,11 @@ FIGURES: dict[str, Entry] = {
     "fig_3_8": Entry(
         "Fig. 3.8: equilibria of the four static problems",
         "chapter3",
-        ("hanging_bar", "clamped_free", "clamped_clamped", "necking"),
+        tuple(
+            name + rod
+            for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
+            for rod in ("", "_consistent")
+        ),
     ),
     "fig_3_9": Entry(
         "Fig. 3.9: bar hanging under its own weight",
@@ -85,6 +89,7 @@ FIGURES: dict[str, Entry] = {
         "Large deflections", "consistent", ("elastica", "roll_up", "column_path", "arch_path")
     ),
     "fig_paths": Entry("Paths of equilibria", "consistent", ("column_path", "arch_path")),
+    "fig_tumbling": Entry("A tumbling rod", "consistent", ("tumbling",)),
     "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
     "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),
 }

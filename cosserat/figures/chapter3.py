@@ -23,7 +23,7 @@ _FINE = 401  # points of a closed form's curve
 
 
 def fig_3_8(data: Data) -> Figure:
-    """The four equilibria, displacements magnified."""
+    """The four equilibria, displacements magnified, and the centreline of the consistent rod."""
     figure, axes = canvas(7.2, 3.7, 2, 2)
     panels = [
         ("hanging_bar", "(a) hanging bar", 5_000),
@@ -33,6 +33,9 @@ def fig_3_8(data: Data) -> Figure:
     ]
     for ax, (name, title, magnified) in zip(axes, panels, strict=True):
         draw_body(ax, data[name], magnified)
+        other = data[f"{name}_consistent"]
+        place = (other.x_ref + magnified * other.u).to_numpy()
+        plain_points(ax, place[:, 0], place[:, 1])
         ax.set_title(f"{title}, displacements × {magnified}")
         ax.set_aspect("equal")
         ax.set(

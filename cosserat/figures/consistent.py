@@ -20,7 +20,7 @@ Data = Mapping[str, xr.Dataset]
 
 def fig_convergence(data: Data) -> Figure:
     """Errors over the number of edges, and the published rod beside them."""
-    figure, (left, right) = canvas(7.2, 3.8, 1, 2)
+    figure, (left, right) = canvas(7.2, 4.4, 1, 2)
     run = data["convergence"]
     edges = run.vertices.to_numpy() - 1
     for k, name in enumerate(run.measure.to_numpy()):
@@ -31,11 +31,11 @@ def fig_convergence(data: Data) -> Figure:
     left.loglog(
         published.vertices - 1, off, color=VARIANT, marker="s", label="clamped-free tip, published rod"
     )
-    left.set_ylim(bottom=1e-7)  # room for the legend
+    left.set_ylim(bottom=1e-8)  # room for the legend
     for ax, title in ((left, "(a) statics"), (right, "(b) vibration")):
         ax.loglog(edges, 3 * edges**-2.0, color=EXACT, linestyle="--", label="second order")
         ax.set(xlabel="edges [1]", ylabel="relative error [1]", title=title)
-        ax.legend(fontsize=6.5, loc="lower left")
+        ax.legend(fontsize=5.5, loc="lower left")
     return figure
 
 
@@ -94,6 +94,36 @@ def _path(ax: Axes, across: Array, load: Array, run: xr.Dataset) -> None:
             across[~stable], load[~stable], "o", markerfacecolor="none", color=VARIANT, label="unstable"
         )
     ax.legend()
+
+
+def fig_tumbling(data: Data) -> Figure:
+    """A thrown rod: its outline at equal times, and how far energy and momenta stray from where they began."""
+    figure, (left, right) = canvas(7.2, 3.2, 1, 2)
+    flight = data["tumbling"]
+    x, d = flight.x.to_numpy(), flight.d.to_numpy()
+    for k in range(0, x.shape[0], 10):
+        outline = np.vstack([x[k] + d[k], (x[k] - d[k])[::-1], (x[k] + d[k])[:1]])
+        left.plot(*outline.T, color=COMPUTED if k == 0 else BODY, linewidth=0.9)
+        left.plot(*x[k].T, color=INK, linewidth=0.5)
+    left.set_aspect("equal", adjustable="datalim")
+    left.set(
+        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title="(a) every 25 ms"
+    )
+    energy = (flight.kinetic_energy + flight.strain_energy).to_numpy()[:, None]
+    kept = (
+        ("energy", energy, COMPUTED),
+        ("momentum", flight.momentum.to_numpy(), VARIANT),
+        ("angular momentum", flight.angular_momentum.to_numpy()[:, None], INK),
+    )
+    for label, values, colour in kept:
+        strayed = np.linalg.norm(values - values[0], axis=1) / np.linalg.norm(values[0])
+        right.semilogy(flight.time[1:], np.maximum(strayed[1:], 1e-17), color=colour, label=label)
+    right.set(
+        xlabel="time [s]", ylabel="relative change [1]", title="(b) what is kept", ylim=(1e-17, 1e-6)
+    )
+    right.axhline(1e-8, color=EXACT, linestyle="--", linewidth=0.8)
+    right.legend()
+    return figure
 
 
 def picture(data: xr.Dataset) -> Figure:
