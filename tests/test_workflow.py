@@ -24,6 +24,9 @@ KEPT = (
     "clamped_clamped",
     "necking",
     "necking_printed",
+    "hanging_bar_consistent",
+    "clamped_free_consistent",
+    "clamped_clamped_consistent",
     "necking_consistent",
 )
 TARGETS = ("results/check.txt", *(f"results/figures/{name}.svg" for name in DRAWN))
