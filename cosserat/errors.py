@@ -62,6 +62,10 @@ class OutOfReachError(CosseratError):
     """A state exists but the theory cannot place it in space."""
 
 
+class UnstableError(CosseratError):
+    """Small motions about a configuration grow, so that it has no vibrations."""
+
+
 class DivergedError(CosseratError):
     """A motion grew without bound; what was computed before is kept."""
 

@@ -16,7 +16,7 @@ from cosserat.models.rod import Direction, RodBody, RodProblem, unit_vector
 from cosserat.outcome import Outcome
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.banded import band_product
-from cosserat.solvers.modes import Modes, modes
+from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
 from cosserat.solvers.motion import (
     IntegratorSettings,
     State,
@@ -55,13 +55,21 @@ class RodMotion(RodProblem):
     every: Annotated[float, Quantity("s", above=0)]
     """Time between two frames."""
     damping: Annotated[float, Quantity("1", r"\zeta", "section 3.5", at_least=0)] = 0.0
-    """Share of the critical damping of the lowest mode.  ASSUME a force -2 zeta omega_1 M v: the page names none."""
+    """Share of the critical damping of the lowest mode that deforms the rod.
+
+    ASSUME a force -2 zeta omega_1 M v: the page names none.
+    """
     integrator: IntegratorSettings
 
     @property
     def frames(self) -> int:
         """Number of frames after the first."""
         return max(1, round(self.duration / self.every))
+
+    @property
+    def between_frames(self) -> float:
+        """Time from one frame to the next [s]."""
+        return self.duration / self.frames
 
     @property
     def parts(self) -> int:
@@ -84,13 +92,18 @@ class RodMotion(RodProblem):
         )
         if not self.damping:
             return at_rest
-        lowest = modes(at_rest, reference(geometry), 1).angular_frequency[0]
+        lowest = first_elastic_frequency(at_rest, reference(geometry))
         return replace(at_rest, drag=2 * self.damping * lowest)
 
-    def modes(self, count: int) -> Modes:
-        """The lowest natural frequencies and shapes about the reference configuration."""
+    def modes(self, count: int, name: str = "the rod") -> Modes:
+        """The lowest natural frequencies and shapes about the reference configuration.
+
+        Raises
+        ------
+        UnstableError : small motions about it grow.
+        """
         geometry = self.rod.geometry()
-        return modes(self.system(geometry), reference(geometry), count)
+        return modes(self.system(geometry), reference(geometry), count, name)
 
     def begin(self, name: str) -> State:
         """The state at time zero.
@@ -117,7 +130,7 @@ class RodMotion(RodProblem):
         start = q.ravel() + place
         upright = counted_angles(geometry.D)[0]
         state = State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))
-        refuse_unstable_step(self.system(geometry), state.q, self.integrator, name)
+        refuse_unstable_step(self.system(geometry), state.q, self.between_frames, self.integrator, name)
         return state
 
     def part(self, number: int, state: State, name: str) -> tuple[Outcome, State, CosseratError | None]:
@@ -132,14 +145,14 @@ class RodMotion(RodProblem):
         begin = first + 1 - len(states)
         for _ in range(first, min(first + FRAMES_PER_PART, self.frames)):
             try:
-                state, done = advance(system, state, self.duration / self.frames, self.integrator, name)
+                state, done = advance(system, state, self.between_frames, self.integrator, name)
             except (NotConvergedError, DivergedError) as error:
                 stopped = error
                 break
             states.append(state)
             steps += done
         numbers = begin + np.arange(len(states), dtype=np.float64)
-        times = numbers * (self.duration / self.frames)
+        times = numbers * self.between_frames
         rod = self.rod.body(geometry)
         fields = _frames(geometry, system, rod, states, times) if states else {}
         return Outcome(fields, {"steps": steps}), state, stopped

@@ -56,6 +56,7 @@ class RodStatics(RodProblem):
         Raises
         ------
         UnsupportedRodError, NotConvergedError : there is no equilibrium to move about.
+        UnstableError : there is one, but small motions about it grow.
         """
         geometry = self.rod.geometry()
         body, load = self.body(geometry), self.loads(geometry)
@@ -63,7 +64,7 @@ class RodStatics(RodProblem):
         system = System(
             body, self.mass(geometry), load.ravel(), self.held().ravel(), 0.0, np.empty((0, load.size))
         )
-        return modes(system, at_rest, count)
+        return modes(system, at_rest, count, name)
 
     def equilibrium(self, geometry: Geometry, body: RodBody, load: Array, name: str) -> Equilibrium:
         """The equilibrium of this problem's body under given loads, shape (N, 4)."""
