@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat import analytic
+from cosserat.figures.rod import draw_loads, draw_outline, draw_supports, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, CONSISTENT, EXACT, INK, VARIANT, canvas
 from cosserat.models.calibration import beam_of
 from cosserat.table.readouts import problem_of
@@ -17,6 +18,7 @@ from cosserat.table.readouts import problem_of
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
+_SHAPES = 7  # frames of a motion in one picture
 _WIDTH, _HEIGHT, _MARGIN = 640, 200, 12  # of an animation, in pixels
 
 
@@ -63,16 +65,24 @@ def anim_relaxation(data: Data) -> str:
 
 
 def picture(data: xr.Dataset) -> Figure:
-    """Some shapes, the path of the last vertex, and energies over time: what `cosserat plot` shows of a motion."""
+    """What `cosserat plot` shows of a motion: the body in some frames, the path of the last vertex, energies over time."""
     figure, (left, right) = canvas(7.2, 3.4, 1, 2)
-    x = data.x.to_numpy()
-    for shape in x[:: max(1, x.shape[0] // 12)]:
-        left.plot(*shape.T, color=BODY)
+    problem = problem_of(data)
+    X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
+    magnified = magnification(data.x.to_numpy() - X, problem.rod.length)
+    x, d = X + magnified * (data.x.to_numpy() - X), D + magnified * (data.d.to_numpy() - D)
+    last = x.shape[0] - 1
+    for number in np.unique(np.linspace(0, last, _SHAPES).round().astype(int))[:-1]:
+        draw_outline(left, x[number], d[number], problem, facecolor="none", edgecolor=EXACT, alpha=0.6)
+    draw_outline(left, x[-1], d[-1], problem, facecolor=BODY, edgecolor=COMPUTED, label="last frame")
+    draw_supports(left, problem, x[-1], D)
+    draw_loads(left, problem, x[-1], d[-1])
     left.plot(*x[:, -1].T, color=VARIANT, linewidth=0.8, label="last vertex")
-    left.plot(*x[-1].T, color=COMPUTED, label="last frame")
     left.set_aspect("equal", adjustable="datalim")
     left.set(
-        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=data.attrs["title"]
+        xlabel=r"along $\mathbf{E}_3$ [m]",
+        ylabel=r"along $\mathbf{E}_2$ [m]",
+        title=f"{data.attrs['title']}, displacements × {magnified:g}",
     )
     right.plot(data.time, data.kinetic_energy, color=COMPUTED, label="kinetic")
     right.plot(data.time, data.strain_energy, color=VARIANT, label="strain")
@@ -86,8 +96,8 @@ def _animation(data: xr.Dataset, *, magnified: float, seconds: float, frames: in
     chosen = np.unique(np.linspace(0, data.sizes["time"] - 1, frames).round().astype(int))
     x = data.x_ref.to_numpy() + magnified * (data.x.to_numpy()[chosen] - data.x_ref.to_numpy())
     d = data.d_ref.to_numpy() + magnified * (data.d.to_numpy()[chosen] - data.d_ref.to_numpy())
-    outline = np.concatenate([x + d, (x - d)[:, ::-1]], axis=1)
-    low, high = outline.min(axis=(0, 1)), outline.max(axis=(0, 1))
+    surfaces = outline(x, d, problem_of(data))
+    low, high = surfaces.min(axis=(0, 1)), surfaces.max(axis=(0, 1))
     scale = min((_WIDTH - 2 * _MARGIN) / (high - low)[0], (_HEIGHT - 2 * _MARGIN) / (high - low)[1])
 
     def path(points: Array, *, closed: bool) -> str:
@@ -106,7 +116,7 @@ def _animation(data: xr.Dataset, *, magnified: float, seconds: float, frames: in
     height = int(scale * (high - low)[1]) + 2 * _MARGIN
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {height}" width="{_WIDTH}">'
-        + moving(outline, closed=True, look=f'fill="{BODY}" stroke="{COMPUTED}"')
+        + moving(surfaces, closed=True, look=f'fill="{BODY}" stroke="{COMPUTED}"')
         + moving(x, closed=False, look=f'fill="none" stroke="{INK}" stroke-dasharray="5 4"')
         + f'<path d="{support}" stroke="{INK}" stroke-width="5"/></svg>\n'
     )

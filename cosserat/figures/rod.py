@@ -11,11 +11,13 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.models.rod import RodProblem, unit_vector
 from cosserat.table.readouts import problem_of
 
 Array = NDArray[np.float64]
 
 _SHOWN = 0.1  # largest displacement in a picture, as a share of the rod's length
+_ARROW = 0.14  # length of an arrow, as a share of the rod's length
 
 
 def picture(data: xr.Dataset) -> Figure:
@@ -26,9 +28,7 @@ def picture(data: xr.Dataset) -> Figure:
     axes[0].remove()
     axes[1].remove()
     top = figure.add_subplot(grid[0, :])
-    largest = float(np.abs(data.u).max())
-    length = problem_of(data).rod.length
-    magnified = max(1.0, float(f"{_SHOWN * length / largest:.0e}")) if largest > 0 else 1.0
+    magnified = magnification(data.u.to_numpy(), problem_of(data).rod.length)
     draw_body(top, data, magnified)
     top.set_aspect("equal", adjustable="datalim")
     top.set_title(f"{data.attrs['title']}, displacements × {magnified:g}")
@@ -45,43 +45,111 @@ def picture(data: xr.Dataset) -> Figure:
     return figure
 
 
+def magnification(displacement: Array, length: float) -> float:
+    """How much larger than they are displacements are drawn, so that small ones are seen: one digit, at least 1."""
+    largest = float(np.abs(displacement).max())
+    return max(1.0, float(f"{_SHOWN * length / largest:.0e}")) if largest > 0 else 1.0
+
+
 def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
     """The rod as the body it stands for, with its supports and loads; the directors reach the upper surface."""
     problem = problem_of(data)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
     x, d = X + magnified * data.u.to_numpy(), D + magnified * data.delta.to_numpy()
-    below = _below(data)
-    _draw_outline(ax, X, D, below, facecolor="none", edgecolor=EXACT, linestyle=":")
-    _draw_outline(ax, x, d, below, facecolor=BODY, edgecolor=COMPUTED)
+    draw_outline(ax, X, D, problem, facecolor="none", edgecolor=EXACT, linestyle=":")
+    draw_outline(ax, x, d, problem, facecolor=BODY, edgecolor=COMPUTED)
     ax.quiver(
         *x.T, *d.T, angles="xy", scale_units="xy", scale=1, color=COMPUTED, width=0.003, headwidth=5
     )
     ax.plot(*x.T, color=INK, linestyle="--", linewidth=0.9)
+    draw_supports(ax, problem, x, D)
+    draw_loads(ax, problem, x, d)
+
+
+def outline(x: Array, d: Array, problem: RodProblem) -> Array:
+    """Both lateral surfaces and both ends as one closed curve, shape (..., 2 N, 2), of x and d of shape (..., N, 2)."""
+    share = problem.rod.centreline
+    return np.concatenate([x + d, (x - share / (1 - share) * d)[..., ::-1, :]], axis=-2)
+
+
+def draw_outline(ax: Axes, x: Array, d: Array, problem: RodProblem, **colours: Any) -> None:
+    """The body between its lateral surfaces."""
+    ax.fill(*outline(x, d, problem).T, linewidth=0.9, **colours)
+
+
+def draw_supports(ax: Axes, problem: RodProblem, x: Array, D: Array) -> None:
+    """A bar across each held section, thick where the section cannot stretch either."""
     for support in problem.supports:
-        index = {"first": 0, "last": -1}[support.at] if isinstance(support.at, str) else support.at
+        index = problem.index(support.at)
         section = np.column_stack([x[index] - 1.7 * D[index], x[index] + 1.7 * D[index]])
-        whole = {"d3", "d2"} <= set(support.hold)  # else the section may still stretch
+        whole = {"d3", "d2"} <= set(support.hold)
         ax.plot(*section, color=INK, linewidth=3.0 if whole else 1.2, solid_capstyle="butt", zorder=4)
-    if problem.gravity is not None:
-        along = np.array([1.0, 0.0]) if problem.gravity.along == "E3" else np.array([0.0, -1.0])
-        _draw_arrow(ax, np.array([2.5, 1.15]), along, "$g$")
-    for force, foot in zip(problem.forces, (x[0], x[-1]), strict=False):
-        _draw_arrow(ax, foot, np.array([1.0 if force.along == "E3" else -1.0, 0.0]), "$n$")
 
 
-def _below(data: xr.Dataset) -> float:
-    """How far the lower surface is from the centreline, in directors."""
-    share = problem_of(data).rod.centreline
-    return share / (1 - share)
+def draw_loads(ax: Axes, problem: RodProblem, x: Array, d: Array) -> None:
+    """Gravity beside the rod, forces and couples at their vertices, line loads as rows of arrows."""
+    size = _ARROW * problem.rod.length
+    top = float(outline(x, d, problem)[:, 1].max())
+    if problem.gravity is not None and problem.gravity.g:
+        along = np.sign(problem.gravity.g) * unit_vector(problem.gravity.along)
+        beside = np.array([(x[0, 0] + x[-1, 0]) / 2, top + 0.8 * size])
+        _draw_arrow(ax, beside - along * size / 2, along * size, "$g$")
+    for force in problem.forces:
+        if force.force:
+            along = np.sign(force.force) * unit_vector(force.along)
+            _draw_arrow(ax, _foot(x, problem.index(force.at), along, size), along * size, "$n$")
+    for line in problem.line_loads:
+        end = problem.rod.length if line.end is None else line.end
+        along = np.sign(line.density) * unit_vector(line.along)
+        _draw_row(ax, x, d, np.linspace(line.start, end, 9) / problem.rod.length, along * size / 2)
+    for couple in problem.couples:
+        if couple.moment:
+            _draw_turn(ax, x[problem.index(couple.at)], size / 2, couple.moment > 0)
 
 
-def _draw_outline(ax: Axes, x: Array, d: Array, below: float, **colours: Any) -> None:
-    ax.fill(*np.vstack([x + d, (x - below * d)[::-1]]).T, linewidth=0.9, **colours)
+def _foot(x: Array, index: int, along: Array, size: float) -> Array:
+    """Where the arrow of a force begins: at its vertex, or outside an end that it presses."""
+    outward = {0: x[0] - x[1], x.shape[0] - 1: x[-1] - x[-2]}.get(index, np.zeros(2))
+    pressed = outward @ along < -0.5 * np.linalg.norm(outward)
+    foot: Array = x[index] - along * size if pressed else x[index]
+    return foot
 
 
-def _draw_arrow(ax: Axes, foot: Array, along: Array, label: str) -> None:
-    arrow = {"arrowstyle": "-|>", "color": VARIANT, "linewidth": 1.4}
-    ax.annotate("", tuple(foot + 0.7 * along), tuple(foot), arrowprops=arrow)
-    ax.annotate(
-        label, tuple(foot + 0.5 * along), xytext=(4, 4), textcoords="offset points", color=VARIANT
-    )
+def _draw_row(ax: Axes, x: Array, d: Array, places: Array, arrow: Array) -> None:
+    """Arrows that end on the body, at shares of its length, and the line from which they come."""
+    at = np.linspace(0, 1, x.shape[0])
+    centre, reach = (np.column_stack([np.interp(places, at, v[:, k]) for k in (0, 1)]) for v in (x, d))
+    across = np.abs(reach @ arrow)[:, None] / (arrow @ arrow)
+    feet = centre - (1 + across) * arrow
+    for foot in feet:
+        _draw_arrow(ax, foot, arrow)
+    ax.plot(*feet.T, color=VARIANT, linewidth=0.9)
+
+
+def _draw_turn(ax: Axes, centre: Array, radius: float, counterclockwise: bool) -> None:
+    """Most of a circle with an arrowhead: a couple, positive from E3 towards E2."""
+    angles = np.linspace(-2.2, 2.2, 40) * (1 if counterclockwise else -1)
+    circle = centre + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    ax.plot(*circle.T, color=VARIANT, linewidth=1.4)
+    _draw_arrow(ax, circle[-2], circle[-1] - circle[-2])
+    _label(ax, centre + np.array([radius, 0.0]), "$M$")
+
+
+def _draw_arrow(ax: Axes, foot: Array, arrow: Array, label: str = "") -> None:
+    style = {
+        "arrowstyle": "-|>",
+        "color": VARIANT,
+        "linewidth": 1.4,
+        "shrinkA": 0,
+        "shrinkB": 0,
+        "mutation_scale": 11,
+    }
+    ax.annotate("", tuple(foot + arrow), tuple(foot), arrowprops=style, zorder=5)
+    ax.update_datalim([foot, foot + arrow])  # an annotation makes no room for itself
+    ax.autoscale_view()
+    if label:
+        _label(ax, foot + 0.7 * arrow, label)
+
+
+def _label(ax: Axes, place: Array, text: str) -> None:
+    ax.annotate(text, tuple(place), xytext=(4, 4), textcoords="offset points", color=VARIANT)

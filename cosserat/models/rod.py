@@ -269,14 +269,14 @@ class RodProblem(Parameters):
                     f"'line_loads' has one from {line.start:g} m to {end:g} m, but the rod goes from 0 to "
                     f"{self.rod.length:g} m; let it begin before it ends, on the rod",
                 )
-        moved = [(self._index(move.at), move.unknown) for move in self.moves]
+        moved = [(self.index(move.at), move.unknown) for move in self.moves]
         if len(set(moved)) < len(moved):
             raise PydanticCustomError(
                 "twice", "'moves' moves the same number of a vertex twice; put both together"
             )
         held = self.held()
         for move in self.moves:
-            if not held[self._index(move.at), UNKNOWNS.index(move.unknown)]:
+            if not held[self.index(move.at), UNKNOWNS.index(move.unknown)]:
                 raise PydanticCustomError(
                     "support",
                     f"'moves' moves {move.unknown} of vertex {move.at}, which no support holds; "
@@ -299,7 +299,7 @@ class RodProblem(Parameters):
             covered = _overlap(geometry, line.start, self.rod.length if line.end is None else line.end)
             load[:, :2] += line.density * covered[:, None] * unit_vector(line.along)
         for item in self.forces:
-            load[self._index(item.at), :2] += item.force * unit_vector(item.along)
+            load[self.index(item.at), :2] += item.force * unit_vector(item.along)
         return load
 
     def body(self, geometry: Geometry) -> RodBody:
@@ -318,7 +318,7 @@ class RodProblem(Parameters):
         """Couple at each vertex, shape (N,) [N m]."""
         moments = np.zeros(self.rod.vertices)
         for item in self.couples:
-            moments[self._index(item.at)] += item.moment
+            moments[self.index(item.at)] += item.moment
         return moments
 
     def mass(self, geometry: Geometry) -> Array:
@@ -353,7 +353,7 @@ class RodProblem(Parameters):
         """Prescribed displacement and velocity of the held numbers at a time, each of shape (4 N,)."""
         place, rate = np.zeros((2, self.rod.vertices, len(UNKNOWNS)))
         for move in self.moves:
-            at = self._index(move.at), UNKNOWNS.index(move.unknown)
+            at = self.index(move.at), UNKNOWNS.index(move.unknown)
             omega = 2 * np.pi * move.frequency
             place[at] = move.by * (np.sin(omega * time) if omega else 1.0)
             rate[at] = move.by * omega * np.cos(omega * time)
@@ -364,10 +364,11 @@ class RodProblem(Parameters):
         held = np.zeros((self.rod.vertices, len(UNKNOWNS)), dtype=np.bool_)
         for support in self.supports:
             for unknown in support.hold:
-                held[self._index(support.at), UNKNOWNS.index(unknown)] = True
+                held[self.index(support.at), UNKNOWNS.index(unknown)] = True
         return held
 
-    def _index(self, at: Vertex) -> int:
+    def index(self, at: Vertex) -> int:
+        """The index of a vertex that a load or a support names."""
         return {"first": 0, "last": self.rod.vertices - 1}[at] if isinstance(at, str) else at
 
 
