@@ -13,6 +13,7 @@ from cosserat.data.dataset import to_dataset
 from cosserat.data.parts import Parts
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.models.peristalsis import Crawl
+from cosserat.models.rod_course import Course, resumed
 from cosserat.models.rod_motion import RodMotion
 from cosserat.outcome import Outcome
 
@@ -59,16 +60,16 @@ def _outcome_of(known: Case, name: str, result: Path | None, progress: Progress 
 def _in_parts(
     case: Case, problem: RodMotion, name: str, store: Parts | None, progress: Progress | None
 ) -> Outcome:
-    state = problem.begin(name)
+    course, state = Course.of(problem, name), problem.begin()
     done: list[Outcome] = []
-    for number in range(problem.parts):
+    for number in range(course.parts):
         stored = store.load(number) if store else None
         if store and stored is not None:
             store.refuse_others(stored, to_dataset(case, Outcome({}, {})))
             outcome = _outcome(stored)
-            state = problem.resume(dict(outcome.fields))
+            state = resumed(dict(outcome.fields))
         else:
-            outcome, state, stopped = problem.part(number, state, name)
+            outcome, state, stopped = course.part(number, state)
             if store and outcome.fields:
                 store.save(number, to_dataset(case, outcome), whole=stopped is None)
             if stopped:
@@ -76,10 +77,10 @@ def _in_parts(
         done.append(outcome)
         if progress:
             progress(
-                (number + 1) / problem.parts,
+                (number + 1) / course.parts,
                 f"{outcome.fields['time'][-1]:.4g} of {problem.duration:g} s",
             )
-    return _joined(done)
+    return _joined(done, course.legs)
 
 
 def _outcome(stored: xr.Dataset) -> Outcome:
@@ -90,13 +91,13 @@ def _outcome(stored: xr.Dataset) -> Outcome:
     return Outcome(fields, statistics_of(stored))
 
 
-def _joined(parts: list[Outcome]) -> Outcome:
-    """One outcome: what has a time is joined along it, statistics are summed."""
+def _joined(parts: list[Outcome], legs: int) -> Outcome:
+    """One outcome: what has a time is joined along it, every `legs`-th of which is a frame; statistics are summed."""
     from cosserat.data.variables import VARIABLES
 
     fields = {}
     for name, first in parts[0].fields.items():
         timed = first.ndim > len(VARIABLES[name].dims) or "time" in VARIABLES[name].dims
-        fields[name] = np.concatenate([part.fields[name] for part in parts]) if timed else first
+        fields[name] = np.concatenate([part.fields[name] for part in parts])[::legs] if timed else first
     statistics = {key: sum(part.statistics[key] for part in parts) for key in parts[0].statistics}
     return Outcome(fields, statistics)

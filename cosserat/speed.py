@@ -17,7 +17,7 @@ def integrator() -> Iterator[str]:
     for vertices, steps in ((20, 800), (200, 200), (2000, 20)):
         problem = find("vibration_c4_20").vary("speed", rod={"vertices": vertices}).problem
         assert isinstance(problem, RodMotion)
-        system, state = problem.system(problem.rod.geometry()), problem.begin("speed")
+        system, state = problem.system(problem.rod.geometry()), problem.begin()
         advance(system, state, settings.step, settings, "speed")
         best = float("inf")
         for _again in range(3):

@@ -6,8 +6,9 @@ import pytest
 import cosserat
 from cosserat import analytic
 from cosserat.errors import DivergedError, InputError, UnstableError
-from cosserat.models import rod_motion
+from cosserat.models import rod_course, rod_motion
 from cosserat.models.planar_rod import rigid_motions
+from cosserat.models.rod_course import Course
 from cosserat.solvers import banded, motion
 from cosserat.table import readouts
 
@@ -22,7 +23,7 @@ def vibrating(name="beam", **changes):
 def parts_of(case):
     problem = case.problem
     geometry = problem.rod.geometry()
-    return problem, problem.system(geometry), problem.begin(case.name)
+    return problem, problem.system(geometry), problem.begin()
 
 
 def free_flight(**changes):
@@ -420,7 +421,7 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
     def stop(share, words):
         raise StopError
 
-    for expected in range(1, case.problem.parts):
+    for expected in range(1, Course.of(case.problem, "beam").parts):
         with pytest.raises(StopError):
             cosserat.run(
                 case,
@@ -430,6 +431,53 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
         assert len(list((tmp_path / "cut.nc.parts").iterdir())) == expected
     cosserat.save(cosserat.run(case, result=tmp_path / "cut.nc"), tmp_path / "cut.nc")
     assert (tmp_path / "cut.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
+
+
+def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
+    """Parts end between two frames where one alone takes longer than a part may; cut there, nothing changes."""
+    shaken = {"at": "first", "unknown": "x2", "by": "1 mm", "frequency": 37.0}
+    case = BEAM.vary("beam", duration=0.03, every=0.0101, moves=[shaken], start={"amplitude": 0.0})
+    steps, vertices = 80, 20  # a frame is 10 ms, one step 0.125 ms
+    monkeypatch.setattr(rod_course, "WORK_PER_PART", steps * vertices / 6.5)
+    course = Course.of(case.problem, "beam")
+    assert (course.legs, course.stops_per_part, course.parts) == (7, 1, 21)
+    whole = cosserat.run(case)
+    np.testing.assert_allclose(whole.time, [0.0, 0.01, 0.02, 0.03], rtol=1e-15)
+    cosserat.save(whole, tmp_path / "whole.nc")
+    told = []
+
+    def stop(share, words):
+        told.append(words)
+        if len(told) in (3, 4, 12):
+            raise KeyboardInterrupt
+
+    for _ in range(3):
+        with pytest.raises(KeyboardInterrupt):
+            cosserat.run(case, result=tmp_path / "cut.nc", progress=stop)
+    cosserat.save(
+        cosserat.run(case, result=tmp_path / "cut.nc", progress=lambda *_: None), tmp_path / "cut.nc"
+    )
+    assert (tmp_path / "cut.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
+    assert len(list((tmp_path / "cut.nc.parts").iterdir())) == 21
+    assert told[2].startswith("0.004286 of 0.03 s")
+
+
+@pytest.mark.usefixtures("untraced")
+@pytest.mark.parametrize(
+    ("method", "vertices", "step"),
+    [("implicit", 20, 1e-4), ("implicit", 400, 1e-4), ("rk4", 20, 1e-5), ("rk45", 20, 1.0)],
+)
+def test_parts_take_a_second_or_two(method, vertices, step):
+    """Of a run of 20 s with a frame every 5 s; other work on the machine may make them longer."""
+    import time
+
+    integrator = {"method": method, "step": step, "tolerance": 1e-8}
+    case = BEAM.vary("long", rod={"vertices": vertices}, duration=20, every=5, integrator=integrator)
+    course, state = Course.of(case.problem, "long"), case.problem.begin()
+    _, state, _ = course.part(0, state)
+    start = time.process_time()
+    course.part(1, state)
+    assert 0.1 < time.process_time() - start < 5
 
 
 def _once(stop, part):

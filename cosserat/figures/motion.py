@@ -65,7 +65,7 @@ def anim_relaxation(data: Data) -> str:
 
 
 def picture(data: xr.Dataset) -> Figure:
-    """What `cosserat plot` shows of a motion: the body in some frames, the path of the last vertex, energies over time."""
+    """What `cosserat plot` shows of a motion: the body in some frames, the path of the last vertex, energies."""
     figure, (left, right) = canvas(7.2, 3.4, 1, 2)
     problem = problem_of(data)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()

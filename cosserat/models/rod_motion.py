@@ -9,29 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat import analytic
-from cosserat.errors import CosseratError, DivergedError, NotConvergedError
 from cosserat.models.consistent import keeping_volume
 from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, counted_angles, rigid_motions
-from cosserat.models.rod import Direction, RodBody, RodProblem, unit_vector
-from cosserat.outcome import Outcome
+from cosserat.models.rod import Direction, RodProblem, unit_vector
 from cosserat.parameters import Parameters, Quantity
-from cosserat.solvers.banded import band_product
 from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
 from cosserat.solvers.motion import (
     IntegratorSettings,
     State,
     System,
-    advance,
-    body_at,
-    kinetic_energy,
-    refuse_unstable_step,
 )
 from cosserat.solvers.stepping import counted_on
 
 Array = NDArray[np.float64]
-
-FRAMES_PER_PART = 50
-"""Frames computed between two stored parts of a long run."""
 
 
 class Start(Parameters):
@@ -71,11 +61,6 @@ class RodMotion(RodProblem):
         """Time from one frame to the next [s]."""
         return self.duration / self.frames
 
-    @property
-    def parts(self) -> int:
-        """Number of parts in which a run is stored."""
-        return -(-self.frames // FRAMES_PER_PART)
-
     def system(self, geometry: Geometry) -> System:
         """What moves: body, mass, loads, supports and drag."""
         held = self.held().ravel()
@@ -87,7 +72,7 @@ class RodMotion(RodProblem):
             drag=0.0,
             translations=np.empty((0, held.size))
             if held.any()
-            else _rigid_fields(reference(geometry))[:2],
+            else rigid_fields(reference(geometry))[:2],
             drive=self.drive if self.moves else None,
         )
         if not self.damping:
@@ -105,13 +90,8 @@ class RodMotion(RodProblem):
         geometry = self.rod.geometry()
         return modes(self.system(geometry), reference(geometry), count, name)
 
-    def begin(self, name: str) -> State:
-        """The state at time zero.
-
-        Raises
-        ------
-        InputError : the integrator's fixed step is beyond its stability limit there.
-        """
+    def begin(self) -> State:
+        """The state at time zero."""
         geometry = self.rod.geometry()
         X, D, xi = geometry.X.copy(), geometry.D.copy(), geometry.arc_length
         if self.start.shape == "first beam mode":
@@ -129,42 +109,7 @@ class RodMotion(RodProblem):
         place, rate = self.drive(0.0)
         start = q.ravel() + place
         upright = counted_angles(geometry.D)[0]
-        state = State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))
-        refuse_unstable_step(self.system(geometry), state.q, self.between_frames, self.integrator, name)
-        return state
-
-    def part(self, number: int, state: State, name: str) -> tuple[Outcome, State, CosseratError | None]:
-        """Frames of one part, from the state in which the part before it ended; the first part has the start too.
-
-        Where the integrator cannot go on, the frames before that and its error come back.
-        """
-        geometry = self.rod.geometry()
-        system = self.system(geometry)
-        first = number * FRAMES_PER_PART
-        states, steps, stopped = ([state] if number == 0 else []), 0, None
-        begin = first + 1 - len(states)
-        for _ in range(first, min(first + FRAMES_PER_PART, self.frames)):
-            try:
-                state, done = advance(system, state, self.between_frames, self.integrator, name)
-            except (NotConvergedError, DivergedError) as error:
-                stopped = error
-                break
-            states.append(state)
-            steps += done
-        numbers = begin + np.arange(len(states), dtype=np.float64)
-        times = numbers * self.between_frames
-        rod = self.rod.body(geometry)
-        fields = _frames(geometry, system, rod, states, times) if states else {}
-        return Outcome(fields, {"steps": steps}), state, stopped
-
-    def resume(self, fields: dict[str, Array]) -> State:
-        """The state in which a stored part ended, from its fields."""
-        return State(
-            np.hstack([fields["x"][-1], fields["d"][-1]]).ravel(),
-            np.hstack([fields["x_rate"][-1], fields["d_rate"][-1]]).ravel(),
-            float(fields["time"][-1]),
-            float(fields["first_angle"][-1]),
-        )
+        return State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))
 
 
 def reference(geometry: Geometry) -> Array:
@@ -172,32 +117,6 @@ def reference(geometry: Geometry) -> Array:
     return np.hstack([geometry.X, geometry.D]).ravel()
 
 
-def _rigid_fields(q: Array) -> Array:
+def rigid_fields(q: Array) -> Array:
+    """The rigid motions at q, shape (4 N,): two translations and the rotation about the origin, shape (3, 4 N)."""
     return rigid_motions(q.reshape(-1, len(UNKNOWNS))).reshape(3, -1)
-
-
-def _frames(
-    geometry: Geometry, system: System, rod: RodBody, states: list[State], times: Array
-) -> dict[str, Array]:
-    q = np.array([state.q for state in states]).reshape(len(states), -1, len(UNKNOWNS))
-    v = np.array([state.v for state in states]).reshape(q.shape)
-    start = reference(geometry)
-    strain = np.array([rod.energy(state.q) for state in states])
-    loaded = [body_at(system, s).energy(s.q) - system.load @ (s.q - start) for s in states]
-    momenta = np.array([_rigid_fields(s.q) @ band_product(system.mass, s.v) for s in states])
-    return {
-        "time": times,
-        "xi": geometry.arc_length,
-        "x_ref": geometry.X,
-        "d_ref": geometry.D,
-        "x": q[..., :2],
-        "d": q[..., 2:],
-        "x_rate": v[..., :2],
-        "d_rate": v[..., 2:],
-        "first_angle": np.array([state.angle for state in states]),
-        "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
-        "strain_energy": strain,
-        "load_potential": np.array(loaded) - strain,
-        "momentum": momenta[:, :2],
-        "angular_momentum": momenta[:, 2],
-    }

@@ -161,7 +161,7 @@ def _solve(problem: Problem, posed: RodStatics | RodMotion) -> tuple[dict[str, A
         u = found.q.reshape(-1, 4)[:, 1]
         return {"profile": u.tolist(), "tip": float(u[-1])}, taken
     small = posed.replace(start=posed.start.replace(amplitude=problem.load))
-    system, state = small.system(small.rod.geometry()), small.begin(problem.name)
+    system, state = small.system(small.rod.geometry()), small.begin()
     settings = IntegratorSettings(step=problem.duration / problem.steps)
     start = time.perf_counter()
     advance(system, state, problem.duration, settings, problem.name)

@@ -1,0 +1,141 @@
+"""The course of a motion: in parts that take a second or two each, so that a long run can be cut and goes on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.errors import CosseratError, DivergedError, NotConvergedError
+from cosserat.models.planar_rod import UNKNOWNS, Geometry
+from cosserat.models.rod import RodBody
+from cosserat.models.rod_motion import RodMotion, reference, rigid_fields
+from cosserat.outcome import Outcome
+from cosserat.solvers.banded import band_product
+from cosserat.solvers.motion import (
+    State,
+    System,
+    advance,
+    body_at,
+    kinetic_energy,
+    refuse_unstable_step,
+    stable_step,
+    step_count,
+)
+
+Array = NDArray[np.float64]
+
+FRAMES_PER_PART = 50
+"""Most frames in one stored part of a run."""
+WORK_PER_PART = 5e5
+"""Most vertices times implicit steps in one part: a second, at some two microseconds each (`cosserat speed`)."""
+
+_COST = {"implicit": (0.0, 1.0), "rk4": (30.0, 0.5), "rk45": (300.0, 2.0)}
+"""A step costs as an implicit one of a + b N vertices; of "rk45", one that is as long as is stable."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """A motion on its way through stops at equal times, of which every `legs`-th is a frame.
+
+    geometry, system : of the problem, made once.  stops_per_part : stops from one stored part to the next.
+    """
+
+    problem: RodMotion
+    name: str
+    geometry: Geometry
+    system: System
+    legs: int
+    stops_per_part: int
+
+    @classmethod
+    def of(cls, problem: RodMotion, name: str) -> Course:
+        """Lay a motion out; `name` is what errors call the case.
+
+        Raises
+        ------
+        InputError : the integrator's fixed step is beyond its stability limit at the start.
+        """
+        geometry = problem.rod.geometry()
+        system = problem.system(geometry)
+        work = _work_of_a_frame(problem, system, geometry)
+        legs = max(1, math.ceil(work / WORK_PER_PART))
+        stops = 1 if legs > 1 else max(1, min(FRAMES_PER_PART, int(WORK_PER_PART / work)))
+        leg = problem.between_frames / legs
+        refuse_unstable_step(system, problem.begin().q, leg, problem.integrator, name)
+        return cls(problem, name, geometry, system, legs, stops)
+
+    @property
+    def parts(self) -> int:
+        """Number of parts in which the run is stored."""
+        return -(-self.problem.frames * self.legs // self.stops_per_part)
+
+    def part(self, number: int, state: State) -> tuple[Outcome, State, CosseratError | None]:
+        """States at the stops of one part, from that in which the part before it ended; the first has the start too.
+
+        Where the integrator cannot go on, the states before that and its error come back.
+        """
+        first = number * self.stops_per_part
+        last = min(first + self.stops_per_part, self.problem.frames * self.legs)
+        states, steps, stopped = ([state] if number == 0 else []), 0, None
+        leg = self.problem.between_frames / self.legs
+        for stop in range(first + 1, last + 1):
+            try:
+                state, done = advance(self.system, state, leg, self.problem.integrator, self.name)
+            except (NotConvergedError, DivergedError) as error:
+                stopped = error
+                break
+            # the time that is stored: a run that goes on from it must not differ by rounding
+            state = replace(state, time=stop / self.legs * self.problem.between_frames)
+            states.append(state)
+            steps += done
+        rod = self.problem.rod.body(self.geometry)
+        fields = _fields(self.geometry, self.system, rod, states) if states else {}
+        return Outcome(fields, {"steps": steps}), state, stopped
+
+
+def resumed(fields: dict[str, Array]) -> State:
+    """The state in which a stored part ended, from its fields."""
+    return State(
+        np.hstack([fields["x"][-1], fields["d"][-1]]).ravel(),
+        np.hstack([fields["x_rate"][-1], fields["d_rate"][-1]]).ravel(),
+        float(fields["time"][-1]),
+        float(fields["first_angle"][-1]),
+    )
+
+
+def _work_of_a_frame(problem: RodMotion, system: System, geometry: Geometry) -> float:
+    """Vertices times implicit steps that cost as much as going from one frame to the next."""
+    settings = problem.integrator
+    if settings.method == "rk45":
+        stable = stable_step(system, reference(geometry))
+        settings = settings.replace(step=min(settings.step, stable))
+    alone, each = _COST[settings.method]
+    return step_count(problem.between_frames, settings) * (alone + each * problem.rod.vertices)
+
+
+def _fields(geometry: Geometry, system: System, rod: RodBody, states: list[State]) -> dict[str, Array]:
+    q = np.array([state.q for state in states]).reshape(len(states), -1, len(UNKNOWNS))
+    v = np.array([state.v for state in states]).reshape(q.shape)
+    start = reference(geometry)
+    strain = np.array([rod.energy(state.q) for state in states])
+    loaded = [body_at(system, s).energy(s.q) - system.load @ (s.q - start) for s in states]
+    momenta = np.array([rigid_fields(s.q) @ band_product(system.mass, s.v) for s in states])
+    return {
+        "time": np.array([state.time for state in states]),
+        "xi": geometry.arc_length,
+        "x_ref": geometry.X,
+        "d_ref": geometry.D,
+        "x": q[..., :2],
+        "d": q[..., 2:],
+        "x_rate": v[..., :2],
+        "d_rate": v[..., 2:],
+        "first_angle": np.array([state.angle for state in states]),
+        "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
+        "strain_energy": strain,
+        "load_potential": np.array(loaded) - strain,
+        "momentum": momenta[:, :2],
+        "angular_momentum": momenta[:, 2],
+    }
