@@ -13,12 +13,15 @@ from cosserat import analytic
 from cosserat.figures.rod import draw_loads, draw_outline, draw_supports, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, CONSISTENT, EXACT, INK, VARIANT, canvas
 from cosserat.models.calibration import beam_of
+from cosserat.models.planar_rod import UNKNOWNS
+from cosserat.models.rod_motion import RodMotion
 from cosserat.table.readouts import problem_of
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
 _SHAPES = 7  # frames of a motion in one picture
+_SHOWN_MODE = 0.06  # largest number of a mode shape in a picture, as a share of the rod's length
 _WIDTH, _HEIGHT, _MARGIN = 640, 200, 12  # of an animation, in pixels
 
 
@@ -48,6 +51,33 @@ def fig_3_13(data: Data) -> Figure:
     left.set(xlabel="time [s]", ylabel="kinetic energy [J]", title="(a) kinetic energy, period halved")
     right.set(xlabel="time [s]", ylabel="tip displacement [mm]", title="(b) displacement")
     figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return figure
+
+
+def fig_modes(data: Data) -> Figure:
+    """The four lowest modes of the beam with high shear stiffness, either way."""
+    figure, axes = canvas(7.2, 3.6, 2, 2)
+    problem = problem_of(data["vibration_c4_20"])
+    assert isinstance(problem, RodMotion)
+    found = problem.modes(len(axes))
+    geometry = problem.rod.geometry()
+    for ax, frequency, shape, letter in zip(
+        axes, found.angular_frequency, found.shape, "abcd", strict=True
+    ):
+        field = _SHOWN_MODE * problem.rod.length * shape / np.abs(shape).max()
+        x, d = np.split(field.reshape(-1, len(UNKNOWNS)), 2, axis=1)
+        for sign, colours in (
+            (-1, {"facecolor": "none", "edgecolor": EXACT, "linestyle": ":"}),
+            (1, {"facecolor": BODY, "edgecolor": COMPUTED}),
+        ):
+            draw_outline(ax, geometry.X + sign * x, geometry.D + sign * d, problem, **colours)
+        draw_supports(ax, problem, geometry.X, geometry.D)
+        ax.set_aspect("equal", adjustable="datalim")
+        ax.set(
+            xlabel=r"along $\mathbf{E}_3$ [m]",
+            ylabel=r"along $\mathbf{E}_2$ [m]",
+            title=f"({letter}) {frequency:,.0f} rad/s",
+        )
     return figure
 
 

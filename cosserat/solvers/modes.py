@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from cosserat.errors import UnstableError
-from cosserat.solvers.banded import Vector
+from cosserat.solvers.banded import Band, Vector, band_product
 from cosserat.solvers.motion import System, free_matrices
 
 _ROUNDING = 16 * float(np.finfo(float).eps)  # of a squared frequency, as a share of the largest one
@@ -24,6 +24,12 @@ class Modes:
 
     angular_frequency: Vector
     shape: NDArray[np.float64]
+
+    def coordinates(self, mass: Band, fields: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Shares of the modes in displacements or velocities: shape . M field, (t, n) -> (t, k)."""
+        weighted = np.array([band_product(mass, field) for field in fields])
+        shares: NDArray[np.float64] = weighted @ self.shape.T
+        return shares
 
 
 def modes(system: System, q: Vector, count: int, name: str) -> Modes:
