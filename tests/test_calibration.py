@@ -41,6 +41,41 @@ def test_displacements_see_c4_and_c5_through_one_number_alone(fitted):
     assert np.abs(profile(2.01 / 3, 3.0, 1281) - fine).max() < 5e-3 * np.abs(fine).max()
 
 
+def test_stored_directions_say_which_coefficients_move_together(fitted):
+    """Necking does not see c2, c6 and c7 grow together; the beams do not see c4 grow as c5 falls."""
+    for name, coefficients in ASSIGNED.items():
+        directions = fitted[f"{name}_directions"].to_numpy()
+        count = len(coefficients)
+        assert directions.shape == (5, count, count)
+        for one in directions:
+            np.testing.assert_allclose(one @ one.T, np.eye(count), atol=1e-12)
+    open_one = fitted.necking_directions.isel(section_direction=2)
+    assert (open_one.sel(section_coefficient=["c2", "c7"]) > 0.5).all()
+    assert (open_one.sel(section_coefficient="c6") > 0.2).all()
+    assert (fitted.necking_singular_values[:, 2] < 1e-5 * fitted.necking_singular_values[:, 1]).all()
+    # where the layer is resolved: the far strain and the decay keep k7 / B and k6 / B, B = 2 k2 - k7^2 / 2 k1
+    finest = open_one[-1]
+    both = [float(finest.sel(section_coefficient=c)) for c in ("c6", "c7")]
+    assert both[0] == pytest.approx(both[1], rel=2e-3)
+    hinge = fitted.clamped_free_directions.isel(beam_direction=2)
+    assert (hinge.sel(beam_coefficient="c4") * hinge.sel(beam_coefficient="c5") < 0).all()
+    assert (abs(hinge.sel(beam_coefficient="c3")) < 1e-2).all()
+
+
+def test_a_step_along_a_direction_moves_the_misfit_as_its_sensitivity_says(fitted):
+    """And along the open one it does not move, of which forward differences would see their rounding."""
+    misfit = cosserat.case("calibration").problem.misfit("necking", 20, "trial")
+    best = np.log(fitted.necking_coefficients[0].to_numpy())
+    sizes, directions = (
+        fitted[f"necking_{name}"][0].to_numpy() for name in ("singular_values", "directions")
+    )
+    moved = [
+        np.linalg.norm(misfit(best + 5e-3 * d) - misfit(best - 5e-3 * d)) / 1e-2 for d in directions
+    ]
+    np.testing.assert_allclose(moved[:2], sizes[:2], rtol=1e-3)
+    assert moved[2] < 1e-4 * moved[1]
+
+
 def test_fits_reproduce_their_problems(fitted):
     for name in ASSIGNED:
         assert (fitted[f"{name}_misfit"] < 5e-4).all(), name

@@ -185,6 +185,14 @@ for _problem, _dim in (
             "3.4.13",
             1e30,
         ),
+        f"{_problem}_directions": Variable(
+            ("mesh", _directions, f"{_dim}_coefficient"),
+            "1",
+            f"directions in log c of these sensitivities of the {_name}",
+            "",
+            "3.4.13",
+            1e30,
+        ),
         f"{_problem}_published": Variable(
             ("mesh",), "1", f"{_name} over its formula at the published coefficients", "", "3.4.13", 1e-8
         ),

@@ -27,6 +27,10 @@ _REACH = float(
     np.log(30.0)
 )  # a fit may leave the published coefficients by this factor: some are hardly determined
 
+_STEP = 1e-3  # of the logarithms, over which a slope is taken
+
+Misfit = Callable[[Array], Array]
+
 ASSIGNED = {
     "hanging_bar": ("c1",),
     "clamped_free": ("c3", "c4", "c5"),
@@ -58,9 +62,12 @@ class CalibrationProcedure(Parameters):
         for problem, results in fits.items():
             fields[f"{problem}_coefficients"] = np.exp([result.x for result in results])
             fields[f"{problem}_misfit"] = np.array([np.sqrt(2 * result.cost) for result in results])
-            fields[f"{problem}_singular_values"] = np.array(
-                [np.linalg.svd(result.jac, compute_uv=False) for result in results]
-            )
+            found = [
+                sensitivities(self.misfit(problem, n, name), result.x)
+                for n, result in zip(self.meshes, results, strict=True)
+            ]
+            fields[f"{problem}_singular_values"] = np.array([size for size, _ in found])
+            fields[f"{problem}_directions"] = np.array([direction for _, direction in found])
             fields[f"{problem}_published"] = np.array(
                 [self._at_published(problem, n, name) for n in self.meshes]
             )
@@ -71,8 +78,16 @@ class CalibrationProcedure(Parameters):
         """Least squares over the coefficients of one problem at one mesh, from the published ones."""
         from scipy.optimize import least_squares
 
+        rod = getattr(self, problem).rod
+        start = np.log([getattr(rod.calibration, c) for c in ASSIGNED[problem]])
+        misfit = self.misfit(problem, vertices, name)
+        return least_squares(
+            misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
+        )
+
+    def misfit(self, problem: str, vertices: int, name: str) -> Misfit:
+        """Differences of one problem from its closed form at one mesh, by the logarithms of its coefficients."""
         posed, coefficients = getattr(self, problem), ASSIGNED[problem]
-        start = np.log([getattr(posed.rod.calibration, c) for c in coefficients])
 
         def misfit(logarithms: Array) -> Array:
             values = dict(zip(coefficients, np.exp(logarithms), strict=True))
@@ -81,15 +96,26 @@ class CalibrationProcedure(Parameters):
             share: Array = difference / (np.abs(exact).max() * np.sqrt(exact.size))
             return share
 
-        return least_squares(
-            misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
-        )
+        return misfit
 
     def _at_published(self, problem: str, vertices: int, name: str) -> float:
         """Computed over exact at the tip or at mid-span, with the published coefficients."""
         computed, exact = _curves(problem, _at(getattr(self, problem), vertices, {}), name)
         place = -1 if problem in ("hanging_bar", "clamped_free") else (exact.size - 1) // 2
         return float(computed[place] / exact[place])
+
+
+def sensitivities(misfit: Misfit, logarithms: Array) -> tuple[Array, Array]:
+    """How far a misfit moves along orthogonal directions in log c, (k,), most first; the directions, (k, k), as rows.
+
+    By central differences over a thousandth, in which the rounding of a solve does not show.  The largest entry of
+    each direction is positive.
+    """
+    steps = _STEP * np.eye(logarithms.size)
+    slopes = [(misfit(logarithms + step) - misfit(logarithms - step)) / (2 * _STEP) for step in steps]
+    _, size, directions = np.linalg.svd(np.column_stack(slopes), full_matrices=False)
+    largest = np.take_along_axis(directions, np.abs(directions).argmax(axis=1)[:, None], axis=1)
+    return size, directions * np.sign(largest)
 
 
 def _at(posed: RodStatics, vertices: int, values: dict[str, float]) -> RodStatics:
