@@ -101,7 +101,7 @@ page.table(lines, ("vertices", *(name.replace("_", " ") for name in calibration.
 # %% [markdown]
 # The coefficients that fit, and what is left, as the root mean square over the vertices and a share of the largest
 # ordinate. Along an open direction a fit stays near where it began, which is the published set; so of $c_4$ and $c_5$ one
-# alone means something.
+# alone means something, and two of the three of necking.
 
 # %% tags=["remove-input"]
 lines = [

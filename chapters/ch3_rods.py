@@ -28,9 +28,9 @@ from cosserat.models import published, rod, section
 # {}_K A = \frac{1}{{}_K L} \int A\, d\xi , \tag{3.4.8}
 # $$
 #
-# and likewise for edges and for $I$, $E$ and $G$ (Table 3.1). Width, height and modulus are given at stations along the
-# rod, as shares of their nominal values, and are linear between them; two stations at one place make a step. The mass
-# goes with the area.
+# and likewise for edges and for $I$, $E$, $G$ and $\nu$ (Table 3.1). Width, height, modulus, Poisson's ratio and density are
+# given at stations along the rod, as shares of their nominal values, and are linear between them; two stations at one
+# place make a step, so that a rod may be of several materials. The line density goes with density times area.
 
 # %% tags=["remove-input"]
 page.source(section.lump)
@@ -43,6 +43,17 @@ uniform = page.data("clamped_free").u.sel(axis="E2")[-1].item()
 tapered = cosserat.run(cone).u.sel(axis="E2")[-1].item()
 print(
     f"The tapered beam's tip sinks by {-1e3 * tapered:.1f} mm, the uniform one's by {-1e3 * uniform:.1f} mm."
+)
+
+# %%
+glued = [
+    {"at": "2 m"},
+    {"at": "2 m", "young": 0.25, "poisson": 1.5, "density": 3.0},
+]
+bar = cosserat.case("hanging_bar").vary("two_materials", rod={"stations": glued})
+print(
+    f"A bar of two materials hangs with its tip {1e3 * cosserat.run(bar).u.sel(axis='E3')[-1].item():.3f} mm down, "
+    f"the uniform one {1e3 * cosserat.run('hanging_bar').u.sel(axis='E3')[-1].item():.3f} mm."
 )
 
 # %% [markdown]

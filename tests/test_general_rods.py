@@ -47,6 +47,65 @@ def test_a_stepped_bar_is_a_row_of_springs():
     assert found == pytest.approx(exact, rel=1e-4)
 
 
+TWO = [
+    {"at": 0.0, "density": 1.0},
+    {"at": 2.0, "density": 1.0},
+    {"at": 2.0, "young": 0.25, "poisson": 1.5, "density": 3.0},
+    {"at": 5.0, "young": 0.25, "poisson": 1.5, "density": 3.0},
+]
+"""Two materials glued together at 2 m."""
+
+
+@pytest.mark.parametrize("name", ["hanging_bar", "hanging_bar_consistent"])
+def test_a_hanging_bar_of_two_materials_has_the_tip_and_the_mass_of_two_bars(name):
+    """u = g rho1 a (a / 2 + b r) / E1 A + g rho2 b^2 / 2 E2 A, with b = 3 m below a = 2 m and r = rho2 / rho1."""
+    bar = cosserat.case(name).vary("two", rod={"stations": TWO, "vertices": 51})
+    rod, g = bar.problem.rod, 9.81
+    mass = rod.line_density * (2 + 3 * 3)
+    geometry = rod.geometry()
+    assert rod.part_masses(geometry).sum() == pytest.approx(mass, rel=1e-12)
+    still = np.zeros((51, 4))
+    still[:, 0] = 1.0
+    whole = still.ravel() @ banded.band_product(bar.problem.mass(geometry), still.ravel())
+    assert whole == pytest.approx(mass, rel=1e-12)
+    data = cosserat.run(bar)
+    assert data.support_force.sel(unknown="x3")[0].item() == pytest.approx(-mass * g, rel=1e-6)
+    stiff = rod.young * rod.area
+    exact = g * rod.line_density * (2 * (2 / 2 + 3 * 3) / stiff + 3 * 3**2 / 2 / (0.25 * stiff))
+    assert tip(bar)[0] == pytest.approx(exact, rel=1e-3)
+
+
+def test_a_pulled_bar_of_two_materials_narrows_as_each_of_them():
+    """Far from the joint and the ends each part narrows by its own nu n / E A."""
+    pulled = cosserat.case("necking_consistent").vary(
+        "two", rod={"stations": TWO, "vertices": 101, "height": 0.1, "width": 0.1}
+    )
+    rod = pulled.problem.rod
+    data = cosserat.run(pulled)
+    strain = pulled.problem.forces[-1].force / (rod.young * rod.area)
+    narrowed = data.lam.to_numpy() - 1
+    assert narrowed[20] == pytest.approx(-rod.poisson * strain, rel=1e-3)
+    assert narrowed[70] == pytest.approx(-1.5 * rod.poisson * strain / 0.25, rel=1e-3)
+
+
+def test_shear_modulus_and_poissons_ratio_are_averaged_each_by_itself():
+    """Table 3.1: the mean of G is not G of the mean of E and nu."""
+    problem = cosserat.case("necking").vary("two", rod={"stations": TWO, "vertices": 6}).problem
+    rod, geometry = problem.rod, problem.rod.geometry()
+    stiff = rod.body(geometry).stiffness  # the part round vertex 2 is half of either material
+    shear = (1 / (2 * 1.3) + 0.25 / (2 * 1.45)) / 2 * rod.young
+    assert stiff.k4[2] == pytest.approx(
+        rod.calibration.c4 * rod.shear_correction * shear * rod.area, rel=1e-12
+    )
+
+
+def test_materials_that_cannot_be_are_refused():
+    with pytest.raises(cosserat.InputError, match="take Poisson's ratio from 0.3 to 0.6; keep it above"):
+        cosserat.case("necking").vary("bad", rod={"stations": [{"at": 0}, {"at": 5, "poisson": 2}]})
+    with pytest.raises(cosserat.InputError, match="above 0"):
+        BAR.vary("bad", rod={"stations": [{"at": 0, "density": 0}]})
+
+
 def test_averages_of_a_tapered_section_are_its_integrals():
     """Eqs. (3.4.8)-(3.4.9) for A and I, against quadrature; the mass is that of the tapered body."""
     stations = [{"at": 0.5, "height": 1.0, "width": 1.0}, {"at": 3.0, "height": 0.5, "width": 2.0}]

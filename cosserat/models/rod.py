@@ -13,7 +13,7 @@ from cosserat.models.consistent import ConsistentRod, SectionState, coefficients
 from cosserat.models.loaded_rod import LoadedRod
 from cosserat.models.planar_rod import UNKNOWNS, Geometry
 from cosserat.models.published import PublishedRod
-from cosserat.models.section import Station, lump, mean
+from cosserat.models.section import Station, lump, mass_share, mean
 from cosserat.models.section import share as share_of
 from cosserat.models.stiffness import (
     Calibration,
@@ -74,7 +74,7 @@ class Rod(Parameters):
     line_density: Annotated[float, Quantity("kg/m", r"\rho_0", "section 3.5", above=0)]
     shear_correction: Annotated[float, Quantity("1", "k", "3.4.13", above=0)]
     stations: tuple[Station, ...] = ()
-    """How width, height and modulus vary along the rod; the mass goes with the area."""
+    """How width, height, modulus, Poisson's ratio and density vary along the rod."""
     centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
     """Height of the centreline above the lower surface, as a share of the section's; directors reach the upper one."""
     curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")] = 0.0
@@ -108,10 +108,17 @@ class Rod(Parameters):
                 "section",
                 "has 'section' or 'barrier', which only energy = 'consistent' knows; leave them out",
             )
-        if self.section == "incompressible" and self.poisson < _INCOMPRESSIBLE:
+        ratios = [self.poisson * station.poisson for station in self.stations] or [self.poisson]
+        if not -1 < min(ratios) <= max(ratios) < 0.5:
+            raise PydanticCustomError(
+                "range",
+                f"'stations' take Poisson's ratio from {min(ratios):g} to {max(ratios):g}; "
+                "keep it above -1 and below 0.5",
+            )
+        if self.section == "incompressible" and min(ratios) < _INCOMPRESSIBLE:
             raise PydanticCustomError(
                 "section",
-                f"has section = 'incompressible' and 'poisson' = {self.poisson:g}; it must be {_INCOMPRESSIBLE} "
+                f"has section = 'incompressible' and 'poisson' = {min(ratios):g}; it must be {_INCOMPRESSIBLE} "
                 "or more",
             )
         places = [station.at for station in self.stations]
@@ -156,7 +163,7 @@ class Rod(Parameters):
         """Mass of the part round each vertex, shape (N,) [kg]."""
         arc, part = geometry.arc_length, geometry.voronoi_length
         cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
-        return self.line_density * part * mean(self.stations, lambda w, h, _: w * h, cuts[:-1], cuts[1:])
+        return self.line_density * part * mean(self.stations, mass_share, cuts[:-1], cuts[1:])
 
     def body(self, geometry: Geometry, couples: Array | None = None) -> RodBody:
         """The elastic body with the averages of Table 3.1 and its couples, shape (N,) [N m]."""
@@ -338,15 +345,15 @@ class RodProblem(Parameters):
 
     def _mean_mass(self, geometry: Geometry) -> Array:
         arc = geometry.arc_length
-        area = mean(self.rod.stations, lambda w, h, _: w * h, arc[:-1], arc[1:])
-        edge = self.rod.line_density * geometry.edge_length * area
+        share = mean(self.rod.stations, mass_share, arc[:-1], arc[1:])
+        edge = self.rod.line_density * geometry.edge_length * share
         own = np.zeros(arc.size)
         own[:-1] += 5 / 12 * edge
         own[1:] += 5 / 12 * edge
         band = np.zeros((arc.size, len(UNKNOWNS), 5))
-        for columns, share in ((slice(0, 2), 1.0), (slice(2, 4), self.rod.second_inertia)):
-            band[:, columns, 0] = share * own[:, None]
-            band[:-1, columns, 4] = share * edge[:, None] / 12
+        for columns, inertia in ((slice(0, 2), 1.0), (slice(2, 4), self.rod.second_inertia)):
+            band[:, columns, 0] = inertia * own[:, None]
+            band[:-1, columns, 4] = inertia * edge[:, None] / 12
         return band.reshape(-1, 5)
 
     def drive(self, time: float) -> tuple[Array, Array]:
