@@ -276,7 +276,10 @@ def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
 def test_speed_is_measured(capsys):
     code, out, _ = call(capsys, "speed")
     assert code == 0
-    assert [line.split()[0] for line in out.splitlines()] == ["20", "200", "2000", "a", "a", "ratio:"]
+    first = [line.split()[0] for line in out.splitlines()]
+    assert first == ["Implicit", "20", "200", "2000", "One", "a", "a", "ratio:"]
+    assert out.count("by wall clock, kernels compiled") == 2
+    assert out.count("fastest of 3 runs") == 2
     assert out.count("steps/s") == 3
     assert (
         float(out.split()[-1]) > 20
