@@ -17,8 +17,8 @@ _RUNS = 3
 def integrator() -> Iterator[str]:
     """How it is measured, then steps a second on the vibrating beam of Fig. 3.13."""
     yield (
-        f"Implicit steps of {1e3 * _STEP:g} ms from the start of case 'vibration_c4_20' (Fig. 3.13), by wall clock, kernels compiled "
-        f"and one step done before, nothing written; the fastest of {_RUNS} runs:"
+        f"Implicit steps of {1e3 * _STEP:g} ms from the start of case 'vibration_c4_20' (Fig. 3.13), by wall clock, "
+        f"kernels compiled and one step done before, nothing written; the fastest of {_RUNS} runs:"
     )
     settings = IntegratorSettings(step=_STEP)
     for vertices, steps in ((20, 800), (200, 200), (2000, 20)):
