@@ -368,6 +368,28 @@ def test_the_stability_limit_is_where_the_motion_diverges():
         assert grown != bounded
 
 
+def test_the_limit_of_a_rod_with_one_free_number_is_that_of_one_oscillator():
+    whole = ["x3", "x2", "d3", "d2"]
+    supports = [{"at": at, "hold": hold} for at, hold in enumerate((whole, whole, whole[:3]))]
+    case = BEAM.vary("one", rod={"vertices": 3}, supports=supports, start={"amplitude": 0.0})
+    _, system, state = parts_of(case)
+    limit = motion.stable_step(system, state.q)
+    assert limit == pytest.approx(np.sqrt(8) / case.problem.modes(1).angular_frequency[0], rel=1e-9)
+
+
+def test_modes_of_a_motion_are_those_of_the_unloaded_rod():
+    """Its reference is at rest without loads alone; so couples neither move them nor the damping they set."""
+    hinge = [{"at": "first", "hold": ["x3", "x2"]}]
+    plain = BEAM.vary("plain", supports=hinge, damping=1.0).problem
+    motor = BEAM.vary(
+        "motor", supports=hinge, damping=1.0, couples=[{"at": "first", "moment": 80.0}]
+    ).problem
+    assert (motor.modes(3).angular_frequency == plain.modes(3).angular_frequency).all()
+    assert plain.modes(1).angular_frequency[0] == 0
+    drags = [problem.system(problem.rod.geometry()).drag for problem in (plain, motor)]
+    assert drags[0] == drags[1] == pytest.approx(2 * plain.modes(2).angular_frequency[1])
+
+
 def test_a_step_beyond_the_limit_is_refused_with_the_limit():
     with pytest.raises(
         InputError,

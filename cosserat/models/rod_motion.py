@@ -77,18 +77,20 @@ class RodMotion(RodProblem):
         )
         if not self.damping:
             return at_rest
-        lowest = first_elastic_frequency(at_rest, reference(geometry))
+        unloaded = replace(at_rest, body=self.rod.body(geometry))
+        lowest = first_elastic_frequency(unloaded, reference(geometry))
         return replace(at_rest, drag=2 * self.damping * lowest)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
-        """The lowest natural frequencies and shapes about the reference configuration.
+        """The lowest natural frequencies and shapes of the unloaded rod about its reference configuration.
 
         Raises
         ------
         UnstableError : small motions about it grow.
         """
         geometry = self.rod.geometry()
-        return modes(self.system(geometry), reference(geometry), count, name)
+        unloaded = replace(self.system(geometry), body=self.rod.body(geometry))
+        return modes(unloaded, reference(geometry), count, name)
 
     def begin(self) -> State:
         """The state at time zero."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigvalsh
 
 from cosserat.errors import DivergedError, InputError, NotConvergedError
 from cosserat.parameters import Parameters, Quantity
@@ -20,6 +21,7 @@ from cosserat.solvers.stepping import MAX_ITERATIONS, TOLERANCE, counted_on, mar
 if TYPE_CHECKING:
     from scipy.sparse import dia_array
 
+_FEW = 8  # unknowns of which all eigenvalues are sought, as an iteration needs more than it seeks
 _EXACT = 1e-9  # a duration that is so near to a whole number of steps is one
 
 
@@ -226,9 +228,12 @@ def refuse_unstable_step(
 
 def highest_frequency(system: System, q: Vector) -> float:
     """Largest angular frequency of small motions about q, held unknowns left out [rad/s]."""
+    stiffness, mass = free_matrices(system, q)
+    if mass.shape[0] < _FEW:
+        largest = np.abs(eigvalsh(stiffness.toarray(), mass.toarray())).max()
+        return float(np.sqrt(largest))
     from scipy.sparse.linalg import eigsh  # 0.2 s: only where it is used
 
-    stiffness, mass = free_matrices(system, q)
     (largest,) = eigsh(
         stiffness, 1, mass, which="LM", v0=np.ones(mass.shape[0]), return_eigenvectors=False
     )
