@@ -554,7 +554,7 @@ def test_parts_of_another_run_are_refused(tmp_path):
 
 
 def test_cost_of_a_step_grows_no_faster_than_the_rod():
-    """From 20 to 200 to 2000 vertices, as many steps each; processor time, the best of three: other work counts little."""
+    """From 20 to 200 to 2000 vertices, as many steps each, in processor time, the best of three."""
     import time
 
     costs = []
