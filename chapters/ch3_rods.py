@@ -17,7 +17,7 @@
 # %% tags=["remove-cell"]
 import cosserat
 from cosserat.book import page
-from cosserat.models import published, rod, section
+from cosserat.models import published, rod_problem, section
 
 # %% [markdown]
 # ## Sections that vary
@@ -108,10 +108,12 @@ page.say(
 page.excerpt(published._assemble, "W_turn = W_theta", "total: float")
 
 # %% [markdown]
-# Line loads act over any stretch of the rod, and held numbers may be moved: at rest to a new place, in motion to and fro.
+# Line loads act over any stretch of the rod, and held numbers may be moved (`moves`): at rest to a new place, in motion to
+# and fro. A held section may be turned as it is, through any angle (`turns`): to move its director's numbers along straight
+# lines would stretch it.
 
 # %% tags=["remove-input"]
-page.source(rod.RodProblem.loads)
+page.source(rod_problem.RodProblem.loads)
 
 # %% [markdown]
 # ## Curved references

@@ -629,7 +629,7 @@ def test_shear_is_that_of_the_edges():
                     {"at": 0, "unknown": "x3", "by": "2 cm"},
                 ]
             },
-            "moves the same number of a vertex twice",
+            "move x3 of vertex 0 twice",
         ),
         ({"rod": {"vertices": 100_000_000}}, "'rod.vertices' is 100000000; it must be at most 20000000"),
         ({"newton": {"load_steps": 10**9}}, "it must be at most 100000"),

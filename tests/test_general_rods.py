@@ -1,5 +1,6 @@
 """Rods as the theory allows them: varying sections, a centreline anywhere, couples, line loads, curved references."""
 
+import re
 from itertools import pairwise
 
 import numpy as np
@@ -8,6 +9,7 @@ from conftest import assembled, random_state
 from scipy.integrate import quad
 
 import cosserat
+from cosserat.errors import InputError
 from cosserat.models import rod_motion
 from cosserat.models.planar_rod import rigid_motions, strains
 from cosserat.solvers import banded
@@ -414,3 +416,58 @@ def test_moves_need_a_support_and_statics_no_frequency():
         BEAM.vary("bad", moves=[{"at": "last", "unknown": "x2", "by": 0.1}])
     with pytest.raises(cosserat.InputError, match="a static problem has no time"):
         BEAM.vary("bad", moves=[{"at": "first", "unknown": "x2", "by": 0.1, "frequency": 2}])
+
+
+@pytest.mark.parametrize(
+    ("energy", "angle"), [("published", 0.6), ("consistent", 0.6), ("consistent", np.pi)]
+)
+def test_a_turned_clamp_turns_the_rod_and_stretches_nothing(energy, angle):
+    consistent = {"energy": "consistent", "calibration": "none"} if energy == "consistent" else {}
+    turned = BEAM.vary("turned", rod=consistent, gravity=None, turns=[{"at": "first", "by": angle}])
+    data = cosserat.run(turned)
+    length = turned.problem.rod.length
+    np.testing.assert_allclose(
+        data.x[-1], [length * np.cos(angle), length * np.sin(angle)], atol=1e-6 * length
+    )
+    np.testing.assert_allclose(data.lam, 1, atol=1e-7)
+
+
+def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
+    rocked = cosserat.case("vibration_consistent").vary(
+        "rocked",
+        start={"amplitude": 0.0},
+        turns=[{"at": "first", "by": "0.5 rad", "frequency": "2 Hz"}],
+        duration="0.5 s",
+        every="5 ms",
+        integrator={"step": "1 ms"},
+    )
+    data = cosserat.run(rocked)
+    first = data.d.isel(vertex=0).to_numpy()
+    reach = np.linalg.norm(first, axis=1)
+    np.testing.assert_allclose(reach, reach[0], rtol=1e-12)
+    turned = 0.5 * np.sin(4 * np.pi * data.time.to_numpy())
+    np.testing.assert_allclose(np.arctan2(-first[:, 0], first[:, 1]), turned, atol=1e-9)
+    tip = data.x.isel(vertex=-1).sel(axis="E2").to_numpy()
+    assert (
+        np.corrcoef(tip, np.sin(turned))[0, 1] > 0.99
+    )  # far below its first frequency the beam follows
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"turns": [{"at": "last", "by": 1.0}]},
+            "'turns' turns the section of vertex last, which no support holds; add d3 to 'hold'",
+        ),
+        (
+            {"turns": [{"at": 0, "by": 1.0}], "moves": [{"at": "first", "unknown": "d3", "by": 0.1}]},
+            "move d3 of vertex 0 twice",
+        ),
+        ({"turns": [{"at": 0, "by": 1.0, "frequency": 2}]}, "has a 'frequency', but a static problem"),
+        ({"turns": [{"at": 99, "by": 1.0}]}, "'at' is 99"),
+    ],
+)
+def test_turns_that_cannot_be_are_refused(changes, sentence):
+    with pytest.raises(InputError, match=re.escape(sentence)):
+        BEAM.vary("turned", **changes)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat import analytic
-from cosserat.models.rod import RodProblem
+from cosserat.models.rod_problem import RodProblem
 from cosserat.models.rod_statics import RodStatics
 from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters

@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from cosserat import analytic, elastica
 from cosserat.models.calibration import beam_of
-from cosserat.models.rod import PointForce
+from cosserat.models.rod_problem import PointForce
 from cosserat.models.rod_statics import RodStatics
 from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.models.consistent import COUPLE, DIRECTOR, DIRECTOR_2, DIRECTOR_3, EDGE, ConsistentRod
+from cosserat.models.drive import Drive
 from cosserat.solvers.banded import Band, Mask, Vector, band_product
 
 Array = NDArray[np.float64]
@@ -19,14 +20,14 @@ class LoadedRod:
     """Dead loads, couples and moved supports, all of them times one factor.
 
     body : without couples, its unknowns displacements.  moments : (N,) [N m].  dead : (4 N,) [N].
-    shift : (4 N,) how far held unknowns are moved at the factor one [m].
+    drive : how held unknowns are moved.
     """
 
     body: ConsistentRod
     moments: Array
     dead: Vector
     held: Mask
-    shift: Vector
+    drive: Drive
 
     @property
     def half_bandwidth(self) -> int:
@@ -50,7 +51,11 @@ class LoadedRod:
 
     def place(self, q: Vector, factor: float) -> Vector:
         """q with its held unknowns where the factor puts them."""
-        return np.where(self.held, factor * self.shift, q)
+        return np.where(self.held, self.drive.grown(factor)[0], q)
+
+    def moving(self, factor: float) -> Vector:
+        """Change of the held unknowns with the factor, zero elsewhere."""
+        return self.drive.grown(factor)[1]
 
     def load(self, factor: float, *, signed: bool = False) -> Vector:
         """Dead load, shape (4 N,) [N]; unsigned, a couple counts as the force of its director."""
@@ -72,10 +77,9 @@ class LoadedRod:
 
     def rate(self, q: Vector, factor: float, band: Band) -> Vector:
         """Change of that gradient with the factor."""
-        del factor  # all loads are proportional to it
         change = -self.dead
-        if self.shift.any():
-            change = change + band_product(band, self.shift)
+        if self.drive.parts:
+            change = change + band_product(band, self.moving(factor))
         for vertex in np.flatnonzero(self.moments):
             d0, d1 = self._directors(q)[vertex]
             square = d0 * d0 + d1 * d1

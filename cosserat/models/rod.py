@@ -1,17 +1,16 @@
-"""A straight rod with its supports and loads: what its problems at rest and in motion have in common, section 3.5."""
+"""The rod itself, section 3.5: its sections, its reference configuration and its elastic body."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import GetCoreSchemaHandler, field_validator, model_validator
-from pydantic_core import PydanticCustomError, core_schema
+from pydantic import field_validator, model_validator
+from pydantic_core import PydanticCustomError
 
 from cosserat.models.consistent import ConsistentRod, SectionState, coefficients
-from cosserat.models.loaded_rod import LoadedRod
-from cosserat.models.planar_rod import UNKNOWNS, Geometry
+from cosserat.models.planar_rod import Geometry
 from cosserat.models.published import PublishedRod
 from cosserat.models.section import Station, lump, mass_share, mean
 from cosserat.models.section import share as share_of
@@ -27,37 +26,6 @@ from cosserat.parameters import Count, Parameters, Quantity
 Array = NDArray[np.float64]
 _INCOMPRESSIBLE = 0.49  # least Poisson's ratio that may be called so
 RodBody = PublishedRod | ConsistentRod
-_DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
-
-
-class _VertexName:
-    """Annotation: 'first', 'last' or an index."""
-
-    @staticmethod
-    def check(value: object) -> str | int:
-        """Read one name of a vertex."""
-        if isinstance(value, str) and value in ("first", "last"):
-            return value
-        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            raise PydanticCustomError(
-                "type", f"is {value!r}; it must be 'first', 'last' or the index of a vertex"
-            )
-        return value
-
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.check)
-
-
-Vertex = Annotated[str | int, _VertexName()]
-Direction = Literal["E3", "-E3", "E2", "-E2"]
-UnknownName = Literal["x3", "x2", "d3", "d2"]
-
-
-def unit_vector(direction: Direction) -> Array:
-    """The unit vector of a named direction, shape (2,)."""
-    return np.array(_DIRECTIONS[direction])
 
 
 class Rod(Parameters):
@@ -193,195 +161,3 @@ class Rod(Parameters):
             self.intrinsic_curvature,
         )
         return PublishedRod.of(stiff, geometry, couples)
-
-
-class Support(Parameters):
-    """Numbers of one vertex that keep their reference value."""
-
-    at: Vertex
-    hold: tuple[UnknownName, ...]
-
-
-class Gravity(Parameters):
-    """The weight of the rod, lumped at the vertices: rho0 g L, section 3.5."""
-
-    g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
-    along: Direction
-
-
-class PointForce(Parameters):
-    """A dead force on the centreline at one vertex."""
-
-    at: Vertex
-    along: Direction
-    force: Annotated[float, Quantity("N", "n", "section 3.5")]
-
-
-class LineLoad(Parameters):
-    """A dead force per length on the centreline, over a stretch of it."""
-
-    along: Direction
-    density: Annotated[float, Quantity("N/m")]
-    start: Annotated[float, Quantity("m", at_least=0)] = 0.0
-    end: Annotated[float, Quantity("m", above=0)] | None = None
-    """The end of the rod, if not given."""
-
-
-class Couple(Parameters):
-    """A moment on one section, positive from E3 towards E2, that turns with it: it does the work of a couple."""
-
-    at: Vertex
-    moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
-
-
-class Move(Parameters):
-    """A held number that is moved: at rest to a new place, in motion there at once or to and fro.
-
-    With a frequency f it stands at by sin(2 pi f t) from its reference value.
-    """
-
-    at: Vertex
-    unknown: UnknownName
-    by: Annotated[float, Quantity("m")]
-    frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
-
-
-class RodProblem(Parameters):
-    """A rod, what holds it and what pulls it."""
-
-    rod: Rod
-    supports: tuple[Support, ...]
-    gravity: Gravity | None = None
-    forces: tuple[PointForce, ...] = ()
-    line_loads: tuple[LineLoad, ...] = ()
-    couples: tuple[Couple, ...] = ()
-    moves: tuple[Move, ...] = ()
-
-    @model_validator(mode="after")
-    def _vertices_exist(self) -> Self:
-        for at in [
-            item.at for items in (self.supports, self.forces, self.couples, self.moves) for item in items
-        ]:
-            if isinstance(at, int) and at >= self.rod.vertices:
-                raise PydanticCustomError(
-                    "range",
-                    f"'at' is {at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
-                    "choose one of those, 'first' or 'last'",
-                )
-        for line in self.line_loads:
-            end = self.rod.length if line.end is None else line.end
-            if not line.start < end <= self.rod.length * (1 + 1e-12):
-                raise PydanticCustomError(
-                    "range",
-                    f"'line_loads' has one from {line.start:g} m to {end:g} m, but the rod goes from 0 to "
-                    f"{self.rod.length:g} m; let it begin before it ends, on the rod",
-                )
-        moved = [(self.index(move.at), move.unknown) for move in self.moves]
-        if len(set(moved)) < len(moved):
-            raise PydanticCustomError(
-                "twice", "'moves' moves the same number of a vertex twice; put both together"
-            )
-        held = self.held()
-        for move in self.moves:
-            if not held[self.index(move.at), UNKNOWNS.index(move.unknown)]:
-                raise PydanticCustomError(
-                    "support",
-                    f"'moves' moves {move.unknown} of vertex {move.at}, which no support holds; "
-                    "add it to 'hold' of a support there",
-                )
-        return self
-
-    def loads(self, geometry: Geometry) -> Array:
-        """Dead forces on the unknowns of each vertex, shape (N, 4) [N]."""
-        load = np.zeros((self.rod.vertices, len(UNKNOWNS)))
-        if self.gravity is not None:
-            weight = (
-                self.gravity.g
-                * self.rod.part_masses(geometry)[:, None]
-                * unit_vector(self.gravity.along)
-            )
-            load[:, :2] += weight
-            load[:, 2:] += self.rod.first_inertia * weight  # the weight acts at the centre of mass
-        for line in self.line_loads:
-            covered = _overlap(geometry, line.start, self.rod.length if line.end is None else line.end)
-            load[:, :2] += line.density * covered[:, None] * unit_vector(line.along)
-        for item in self.forces:
-            load[self.index(item.at), :2] += item.force * unit_vector(item.along)
-        return load
-
-    def body(self, geometry: Geometry) -> RodBody:
-        """The rod with its couples, which have a potential but are no dead load."""
-        return self.rod.body(geometry, self._moments())
-
-    def loaded(self, geometry: Geometry) -> LoadedRod:
-        """The consistent rod with all its loads, couples and moves growing together."""
-        rod = self.rod.body(geometry)
-        assert isinstance(rod, ConsistentRod)
-        dead = self.loads(geometry).ravel()
-        held = self.held().ravel()
-        return LoadedRod(rod.displaced(geometry), self._moments(), dead, held, self.drive(0.0)[0])
-
-    def _moments(self) -> Array:
-        """Couple at each vertex, shape (N,) [N m]."""
-        moments = np.zeros(self.rod.vertices)
-        for item in self.couples:
-            moments[self.index(item.at)] += item.moment
-        return moments
-
-    def mass(self, geometry: Geometry) -> Array:
-        """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
-
-        The consistent rod takes the mean of that and of the mass that straight edges have, shape (4 N, 5): their errors
-        in a frequency are opposite.  Where the centreline is off the area centres it takes (3.3.43) too.
-        """
-        if self.rod.calibration is None and self.rod.first_inertia == 0.0:
-            return self._mean_mass(geometry)
-        part = self.rod.part_masses(geometry)
-        band = np.zeros((part.size, len(UNKNOWNS), 3))
-        band[:, :2, 0] = part[:, None]
-        band[:, 2:, 0] = part[:, None] * self.rod.second_inertia
-        band[:, :2, 2] = part[:, None] * self.rod.first_inertia
-        return band.reshape(-1, 3)
-
-    def _mean_mass(self, geometry: Geometry) -> Array:
-        arc = geometry.arc_length
-        share = mean(self.rod.stations, mass_share, arc[:-1], arc[1:])
-        edge = self.rod.line_density * geometry.edge_length * share
-        own = np.zeros(arc.size)
-        own[:-1] += 5 / 12 * edge
-        own[1:] += 5 / 12 * edge
-        band = np.zeros((arc.size, len(UNKNOWNS), 5))
-        for columns, inertia in ((slice(0, 2), 1.0), (slice(2, 4), self.rod.second_inertia)):
-            band[:, columns, 0] = inertia * own[:, None]
-            band[:-1, columns, 4] = inertia * edge[:, None] / 12
-        return band.reshape(-1, 5)
-
-    def drive(self, time: float) -> tuple[Array, Array]:
-        """Prescribed displacement and velocity of the held numbers at a time, each of shape (4 N,)."""
-        place, rate = np.zeros((2, self.rod.vertices, len(UNKNOWNS)))
-        for move in self.moves:
-            at = self.index(move.at), UNKNOWNS.index(move.unknown)
-            omega = 2 * np.pi * move.frequency
-            place[at] = move.by * (np.sin(omega * time) if omega else 1.0)
-            rate[at] = move.by * omega * np.cos(omega * time)
-        return place.ravel(), rate.ravel()
-
-    def held(self) -> NDArray[np.bool_]:
-        """Which unknowns of each vertex keep their value, shape (N, 4)."""
-        held = np.zeros((self.rod.vertices, len(UNKNOWNS)), dtype=np.bool_)
-        for support in self.supports:
-            for unknown in support.hold:
-                held[self.index(support.at), UNKNOWNS.index(unknown)] = True
-        return held
-
-    def index(self, at: Vertex) -> int:
-        """The index of a vertex that a load or a support names."""
-        return {"first": 0, "last": self.rod.vertices - 1}[at] if isinstance(at, str) else at
-
-
-def _overlap(geometry: Geometry, start: float, end: float) -> Array:
-    """Length that each vertex's part shares with an interval, shape (N,) [m]."""
-    arc = geometry.arc_length
-    cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
-    shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
-    return shared

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from cosserat import analytic
 from cosserat.models.consistent import keeping_volume
 from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, counted_angles, rigid_motions
-from cosserat.models.rod import Direction, RodProblem, unit_vector
+from cosserat.models.rod_problem import Direction, RodProblem, unit_vector
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
 from cosserat.solvers.motion import (
@@ -73,7 +73,7 @@ class RodMotion(RodProblem):
             translations=np.empty((0, held.size))
             if held.any()
             else rigid_fields(reference(geometry))[:2],
-            drive=self.drive if self.moves else None,
+            drive=self.drive(geometry) if self.moves or self.turns else None,
         )
         if not self.damping:
             return at_rest
@@ -108,7 +108,7 @@ class RodMotion(RodProblem):
         v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)
         v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
         v[self.held()] = 0.0
-        place, rate = self.drive(0.0)
+        place, rate = self.drive(geometry)(0.0)
         start = q.ravel() + place
         upright = counted_angles(geometry.D)[0]
         return State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))

@@ -11,7 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError
 from cosserat.models.planar_rod import Geometry
-from cosserat.models.rod import RodProblem
+from cosserat.models.rod_problem import RodProblem
 from cosserat.models.rod_statics import refuse_rigid_motion
 from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters, Quantity
@@ -48,9 +48,9 @@ class RodPath(RodProblem):
             raise PydanticCustomError(
                 "energy", "needs rod.energy = 'consistent'; the published rod has no paths"
             )
-        if any(move.frequency for move in self.moves):
+        if self.swings:
             raise PydanticCustomError(
-                "static", "'moves' has a 'frequency', but a path has no time; leave it out"
+                "static", "'moves' or 'turns' has a 'frequency', but a path has no time; leave it out"
             )
         return self
 

@@ -12,7 +12,8 @@ from pydantic_core import PydanticCustomError
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.models.consistent import ConsistentRod, edge_shear
 from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
-from cosserat.models.rod import RodBody, RodProblem
+from cosserat.models.rod import RodBody
+from cosserat.models.rod_problem import RodProblem
 from cosserat.outcome import Outcome
 from cosserat.solvers.climb import Climb, Point
 from cosserat.solvers.modes import Modes, modes
@@ -31,9 +32,10 @@ class RodStatics(RodProblem):
 
     @model_validator(mode="after")
     def _nothing_swings(self) -> Self:
-        if any(move.frequency for move in self.moves):
+        if self.swings:
             raise PydanticCustomError(
-                "static", "'moves' has a 'frequency', but a static problem has no time; leave it out"
+                "static",
+                "'moves' or 'turns' has a 'frequency', but a static problem has no time; leave it out",
             )
         return self
 
@@ -71,7 +73,7 @@ class RodStatics(RodProblem):
         reference = np.hstack([geometry.X, geometry.D])
         held = self.held()
         refuse_rigid_motion(reference, held, name)
-        start = reference.ravel() + self.drive(0.0)[0]
+        start = reference.ravel() + self.drive(geometry)(0.0)[0]
         if self.rod.calibration is None:
             climb = Climb(self.loaded(geometry), self.newton, name)
             try:

@@ -23,8 +23,8 @@ from cosserat.cases.catalogue import find
 from cosserat.data.files import whole_or_absent
 from cosserat.errors import CosseratError
 from cosserat.models.calibration import beam_of
-from cosserat.models.rod import PointForce
 from cosserat.models.rod_motion import RodMotion
+from cosserat.models.rod_problem import PointForce
 from cosserat.models.rod_statics import RodStatics
 from cosserat.solvers.climb import Climb
 from cosserat.solvers.motion import IntegratorSettings, advance

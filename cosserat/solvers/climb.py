@@ -51,6 +51,9 @@ class Loaded(Protocol):
     def place(self, q: Vector, factor: float) -> Vector:
         """q with its held unknowns where the factor puts them."""
 
+    def moving(self, factor: float) -> Vector:
+        """Change of the held unknowns with the factor, zero elsewhere, shape (n,)."""
+
     def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
         """Elastic energy at q; overwrites the gradient of the potential, loads included, and the Hessian."""
 

@@ -155,9 +155,10 @@ def _tangent(climb: Climb, point: Point, before: tuple[Vector, float] | None) ->
     body.assemble(point.q, point.factor, climb.gradient, climb.band)
     rate = body.rate(point.q, point.factor, climb.band)
     hold(climb.band, body.held)
-    moved = body.place(point.q, point.factor + 1.0) - point.q
     change = solve_any(climb.band, np.where(body.held, 0.0, -rate))
-    change = np.where(body.held, moved, np.zeros_like(point.q) if change is None else change)
+    change = np.where(
+        body.held, body.moving(point.factor), np.zeros_like(point.q) if change is None else change
+    )
     size = np.hypot(_norm(body, point.q, change), 1.0)
     change, slope = change / size, 1.0 / size
     if before is not None and float(change @ before[0]) + slope * before[1] * _weight(before[0]) < 0:

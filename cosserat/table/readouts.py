@@ -16,7 +16,7 @@ from scipy.optimize import minimize_scalar
 from cosserat import analytic, elastica
 from cosserat.data.dataset import problem_of as posed
 from cosserat.models.calibration import beam_of
-from cosserat.models.rod import RodProblem
+from cosserat.models.rod_problem import RodProblem
 from cosserat.table import crawl_readouts
 from cosserat.table.reading import Reading
 
