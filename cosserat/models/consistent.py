@@ -374,7 +374,7 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                 _turn(band, p - 2, n0, n1, W_ra / r_a, turn_a / r_a)
         if rod[K, COUPLE] != 0.0:
             terms[6] -= rod[K, COUPLE] * (angle - rod[K, ANGLE])
-        if order in {1, 2}:
+        if 0 < order < 3:
             gradient[p + 2] += W_rb * p0 - W_turn / r_b * p1
             gradient[p + 3] += W_rb * p1 + W_turn / r_b * p0
         if order == 2:

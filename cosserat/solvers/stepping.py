@@ -44,7 +44,7 @@ mean of its ends instead of its middle; parameters have a column that is added t
 
 TOLERANCE = 1e-11  # of the last correction, as a share of the step
 MAX_ITERATIONS = 60
-_FAST = 0.05  # ratio of two corrections above which the matrix is made anew
+_FAST = 0.02  # ratio of two corrections above which the matrix is made anew
 _NEAR = 1e-3  # a correction below this share of the step: from it on the change of energy is asked for
 _TINY = float(np.finfo(float).tiny)
 STALL = 1e4  # corrections that no longer shrink are rounding if they are below this multiple of it
