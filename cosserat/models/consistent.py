@@ -28,6 +28,7 @@ import numpy as np
 from numba import cfunc, njit
 from numpy.typing import NDArray
 
+from cosserat.models.compiled_rod import CompiledRod
 from cosserat.models.planar_rod import Geometry, Lumped, counted_angles
 from cosserat.solvers.banded import Band, Vector
 from cosserat.solvers.stepping import KERNEL
@@ -145,11 +146,8 @@ def _moduli(part: Lumped, section: SectionState) -> tuple[Array, Array, Array]:
     return part.shear, part.young * nu / ((1 + nu) * (1 - 2 * nu)), part.young / (1 - nu**2)
 
 
-_NO_VECTOR, _NO_BAND = np.empty(0), np.empty((0, 8))
-
-
 @dataclass(frozen=True)
-class ConsistentRod:
+class ConsistentRod(CompiledRod):
     """The convergent rod as a solver sees it: an energy with its gradient and banded Hessian."""
 
     rod: Array
@@ -191,26 +189,9 @@ class ConsistentRod:
         rod[:, DIRECTOR_3 : DIRECTOR_2 + 1] = geometry.D
         return ConsistentRod(rod)
 
-    def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
-        """Strain energy less the work of the couples [J] at q, shape (4 N,); overwrites gradient and band.
-
-        The energy is infinite where a section or an edge has shrunk to nothing or neighbouring directors oppose.
-        """
-        return float(_assemble(q, self.rod, 2, gradient, band, np.empty(7)))
-
-    def energy(self, q: Vector) -> float:
-        """The same energy [J]."""
-        return float(_assemble(q, self.rod, 0, _NO_VECTOR, _NO_BAND, np.empty(7)))
-
-    def differentiate(self, q: Vector, gradient: Vector) -> float:
-        """The same energy [J]; overwrites its gradient, shape (4 N,) [N]."""
-        return float(_assemble(q, self.rod, 1, gradient, _NO_BAND, np.empty(7)))
-
-    def energy_terms(self, q: Vector) -> Array:
-        """The parts of the energy at q, in the order of `TERMS`, shape (7,) [J]."""
-        terms = np.empty(7)
-        _assemble(q, self.rod, 0, _NO_VECTOR, _NO_BAND, terms)
-        return terms
+    def evaluate(self, q: Vector, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+        """The kernel at q; infinite where a section or an edge has shrunk to nothing or two directors oppose."""
+        return float(_assemble(q, self.rod, order, gradient, band, terms))
 
 
 @njit(cache=True)

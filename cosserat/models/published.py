@@ -21,6 +21,7 @@ import numpy as np
 from numba import cfunc, njit
 from numpy.typing import NDArray
 
+from cosserat.models.compiled_rod import CompiledRod
 from cosserat.models.planar_rod import Geometry, counted_angles
 from cosserat.models.stiffness import Stiffness
 from cosserat.solvers.banded import Band, Vector
@@ -43,11 +44,9 @@ TERMS = (
 EDGE, K1, K5, K6, VORONOI, DIRECTOR, K2, K3, K4, K7, INTRINSIC, COUPLE, ANGLE, START = range(14)
 """Columns of what the kernel reads: row K has edge K (the last row none), vertex K and its couple; row 0 the start."""
 
-_NO_VECTOR, _NO_BAND = np.empty(0), np.empty((0, 14))
-
 
 @dataclass(frozen=True)
-class PublishedRod:
+class PublishedRod(CompiledRod):
     """The published rod with its couples as a solver sees it: an energy with its gradient and banded Hessian.
 
     A couple M on a director that has turned by alpha has the potential -M alpha.  Minus its gradient is the director
@@ -101,27 +100,9 @@ class PublishedRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
         return replace(self, start=angle)
 
-    def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
-        """Strain energy less the work of the couples [J] at q, shape (4 N,), from the reference on.
-
-        Overwrites gradient and band.  The energy is infinite where a section or an edge has shrunk to nothing or a
-        shear angle has reached pi/2.
-        """
-        return float(_assemble(q, self.parameters, 2, gradient, band, np.empty(8)))
-
-    def energy(self, q: Vector) -> float:
-        """The same energy [J]."""
-        return float(_assemble(q, self.parameters, 0, _NO_VECTOR, _NO_BAND, np.empty(8)))
-
-    def differentiate(self, q: Vector, gradient: Vector) -> float:
-        """The same energy [J]; overwrites its gradient, shape (4 N,) [N]."""
-        return float(_assemble(q, self.parameters, 1, gradient, _NO_BAND, np.empty(8)))
-
-    def energy_terms(self, q: Vector) -> Array:
-        """The seven terms of eq. (3.4.11) at q, in the order of `TERMS`, shape (7,) [J]."""
-        terms = np.empty(8)
-        _assemble(q, self.parameters, 0, _NO_VECTOR, _NO_BAND, terms)
-        return terms[:7]
+    def evaluate(self, q: Vector, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+        """The kernel at q; infinite where a section or an edge has vanished or a shear angle has reached pi/2."""
+        return float(_assemble(q, self.parameters, order, gradient, band, terms))
 
 
 @njit(cache=True, error_model="numpy")
