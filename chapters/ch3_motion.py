@@ -14,10 +14,13 @@
 # Each vertex moves with the mass of the part round it. With $X$ measured along the director and scaled so that its tip
 # is at $X = 1$, the section at vertex $K$ has the inertias
 #
-# $$
-# {}_K\rho_0 = \int \rho_0^*\, dA , \qquad {}_K\rho_0\, {}_K Y^{02} = \int X \rho_0^*\, dA , \qquad
-# {}_K\rho_0\, {}_K Y^{22} = \int X X \rho_0^*\, dA , \tag{3.3.28}
-# $$
+# \begin{equation*}
+# \begin{gathered}
+# {}_K\rho_0 = \int \rho_0^*\, dA , \\
+# {}_K\rho_0\, {}_K Y^{02} = \int X \rho_0^*\, dA , \qquad
+# {}_K\rho_0\, {}_K Y^{22} = \int X X \rho_0^*\, dA ,
+# \end{gathered} \tag{3.3.28}
+# \end{equation*}
 #
 # which make up its mass matrix, and the rod obeys
 #
@@ -47,11 +50,13 @@ page.source(rod_motion.RodMotion.mass)
 # method is here too (`rk45`, and `rk4` with a fixed step, which is refused beyond its limit). The other one follows the
 # motion that one wants to see. It is the midpoint rule,
 #
-# $$
+# \begin{equation*}
+# \begin{aligned}
 # \frac{2}{h} \mathbf{M} \left( \frac{\mathbf{q}_1 - \mathbf{q}_0}{h} - \mathbf{v}_0 \right)
-# = \mathbf{F}_{ext} - \nabla\Pi_e \left( \tfrac12 (\mathbf{q}_0 + \mathbf{q}_1) \right) - \sigma \mathbf{z} , \qquad
-# \mathbf{v}_1 = \frac{2}{h} (\mathbf{q}_1 - \mathbf{q}_0) - \mathbf{v}_0 ,
-# $$
+# &= \mathbf{F}_{ext} - \nabla\Pi_e \left( \tfrac12 (\mathbf{q}_0 + \mathbf{q}_1) \right) - \sigma \mathbf{z} , \\
+# \mathbf{v}_1 &= \frac{2}{h} (\mathbf{q}_1 - \mathbf{q}_0) - \mathbf{v}_0 ,
+# \end{aligned}
+# \end{equation*}
 #
 # with a force $\sigma \mathbf{z}$ chosen so that the work of the elastic forces over the step is the change of energy,
 # exactly: Gonzalez's discrete gradient. Taken along the step itself, $\mathbf{z}$ would push a flying rod; here it is
