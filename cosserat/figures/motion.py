@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat import analytic
+from cosserat import analytic, elastica
 from cosserat.figures.rod import draw_loads, draw_outline, draw_supports, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, CONSISTENT, EXACT, INK, VARIANT, canvas
 from cosserat.models.calibration import beam_of
@@ -48,9 +48,17 @@ def fig_3_13(data: Data) -> Figure:
                 linewidth=0.9,
                 label=None if start else "periods by (3.5.15)",
             )
+    exact = (
+        2
+        * np.pi
+        / elastica.timoshenko_frequencies(beam_of(problem_of(data["vibration_consistent"])), 1)[0]
+    )
+    returns = np.arange(0, last, exact)
+    right.plot(returns, np.full(returns.size, 11.5), "v", color=CONSISTENT, markersize=4, clip_on=False)
+    left.plot([], [], "v", color=CONSISTENT, markersize=4, label="exact Timoshenko periods, in (b)")
     left.set(xlabel="time [s]", ylabel="kinetic energy [J]", title="(a) kinetic energy, period halved")
     right.set(xlabel="time [s]", ylabel="tip displacement [mm]", title="(b) displacement")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
 
