@@ -82,8 +82,8 @@ stiffer = 1 + 12 * (0.5 - body.centreline) ** 2
 assert abs(stiffer * sags[0] / sags[1] - 1) < 0.1
 page.say(
     f"With its centreline at {body.centreline:g} of the height the clamped-free beam sags {sags[0] / sags[1]:.2f} times as "
-    f"far as with the centreline in the middle, since $I$ is {stiffer:.2f} times as large; the consistent energy shares this. "
-    "So for what bends, the centreline belongs at the area centres."
+    f"far as with the centreline in the middle, since $I$ is {stiffer:.2f} times as large. The consistent rod couples both, and "
+    "sags the same."
 )
 
 # %% [markdown]

@@ -23,7 +23,7 @@ SECTIONS = ("free", "plane strain", "incompressible")
 CLAMP = [{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}]
 
 
-def small_rod(section="free", barrier=False, couples=True, poisson=0.3):
+def small_rod(section="free", barrier=False, couples=True, poisson=0.3, offset=0.0):
     geometry = Geometry.arc(6, 1.0, np.full(6, 0.05), 0.7)
 
     def lumped(count):
@@ -31,7 +31,7 @@ def small_rod(section="free", barrier=False, couples=True, poisson=0.3):
 
     moments = np.array([0, 0, 3.0, 0, 0, -2.0]) * couples
     return geometry, ConsistentRod(
-        coefficients(geometry, lumped(6), lumped(5), 5 / 6, section, moments, barrier)
+        coefficients(geometry, lumped(6), lumped(5), 5 / 6, section, moments, barrier, offset)
     )
 
 
@@ -56,10 +56,10 @@ def slender(elements, radius=0.005, **rod):
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-@pytest.mark.parametrize("barrier", [False, True])
+@pytest.mark.parametrize(("barrier", "offset"), [(False, 0.0), (True, 0.0), (False, 0.7)])
 @given(st.integers(0, 1000))
-def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(section, barrier, seed):
-    geometry, rod = small_rod(section, barrier)
+def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(section, barrier, offset, seed):
+    geometry, rod = small_rod(section, barrier, offset=offset)
     q = strained(geometry, seed)
     _, gradient, hessian = assembled(rod, q)
     h = 1e-7
@@ -76,9 +76,10 @@ def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(section, barr
     assert rod.energy(q) == rod.energy_terms(q).sum()
 
 
+@pytest.mark.parametrize("offset", [0.0, -0.4])
 @given(st.integers(0, 1000), st.floats(-3, 3))
-def test_rigid_motions_cost_nothing_and_forces_balance(seed, turn):
-    geometry, rod = small_rod(couples=False)
+def test_rigid_motions_cost_nothing_and_forces_balance(offset, seed, turn):
+    geometry, rod = small_rod(couples=False, offset=offset)
     q = strained(geometry, seed)
     c, s = np.cos(turn), np.sin(turn)
     R = np.array([[c, -s], [s, c]])
@@ -93,9 +94,9 @@ def test_rigid_motions_cost_nothing_and_forces_balance(seed, turn):
     assert np.abs(work).max() < 1e-11 * np.abs(gradient).max()
 
 
-@pytest.mark.parametrize("barrier", [False, True])
-def test_the_reference_is_at_rest_also_where_it_is_curved(barrier):
-    geometry, rod = small_rod(couples=False, barrier=barrier)
+@pytest.mark.parametrize(("barrier", "offset"), [(False, 0.0), (True, 0.0), (False, 0.7)])
+def test_the_reference_is_at_rest_also_where_it_is_curved(barrier, offset):
+    geometry, rod = small_rod(couples=False, barrier=barrier, offset=offset)
     q = np.hstack([geometry.X, geometry.D]).ravel()
     gradient = np.empty(q.size)
     assert abs(rod.differentiate(q, gradient)) < 1e-25
@@ -103,7 +104,7 @@ def test_the_reference_is_at_rest_also_where_it_is_curved(barrier):
 
 
 def test_counted_from_the_reference_it_is_the_same_rod():
-    geometry, rod = small_rod()
+    geometry, rod = small_rod(offset=0.3)
     q = strained(geometry, 1)
     shifted = q - np.hstack([geometry.X, geometry.D]).ravel()
     for one, other in zip(assembled(rod, q), assembled(rod.displaced(geometry), shifted), strict=True):
@@ -121,6 +122,17 @@ def test_second_order_in_every_measure_over_four_meshes(solved):
     for name, errors in zip(MEASURES, data.errors.to_numpy()[:, 1:4], strict=True):
         if name.startswith("elastica displacement"):
             assert (errors < [1e-3, 2.5e-4, 6e-5]).all(), name
+
+
+@pytest.mark.parametrize("centreline", [0.2, 0.7])
+def test_a_body_is_the_same_whichever_line_it_is_followed_by(centreline):
+    """Sag and frequencies of a beam do not depend on the height of its centreline."""
+    middle = cosserat.case("clamped_free_consistent").problem
+    off = middle.replace(rod=middle.rod.replace(centreline=centreline))
+    sags = [problem.solve("beam").fields["u"][-1, 1] for problem in (middle, off)]
+    assert sags[1] == pytest.approx(sags[0], rel=5e-4)
+    one, other = (problem.replace(gravity=None).modes(5).angular_frequency for problem in (middle, off))
+    np.testing.assert_allclose(other, one, rtol=1e-9)
 
 
 def test_directors_between_two_clamps_are_exact_at_the_vertices(solved):

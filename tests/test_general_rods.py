@@ -186,12 +186,11 @@ def test_an_offset_rod_in_flight_keeps_its_momenta_and_turns_about_its_centre_of
     )  # the centreline's mean does wobble
 
 
-@pytest.mark.parametrize("name", ["clamped_free", "clamped_free_consistent"])
-def test_an_offset_centreline_stiffens_the_bending(name):
-    """The energies couple no stretching with bending: I about the centreline counts whole, and the beam sags less."""
-    offset = cosserat.case(name).vary("offset", rod={"centreline": 0.2})
+def test_an_offset_centreline_stiffens_the_published_bending():
+    """It couples no stretching with bending: I about the centreline counts whole, and the beam sags less."""
+    offset = BEAM.vary("offset", rod={"centreline": 0.2})
     larger = 1 + 12 * 0.3**2
-    assert tip(cosserat.case(name))[1] / tip(offset)[1] == pytest.approx(larger, rel=0.06)
+    assert tip(BEAM)[1] / tip(offset)[1] == pytest.approx(larger, rel=0.06)
 
 
 def test_an_offset_rod_falls_without_turning():

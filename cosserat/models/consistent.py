@@ -10,9 +10,11 @@ and each vertex has the stretch lambda = |d| / |D| of its section.  The energy i
                            + [ EI T^2 + mu I (difference of lambda)^2 ] / (2 h)
        + sum over vertices L 2 mu A (lambda - 1)^2 / 2
 
-less the measures of the reference.  The volumetric part sits on the edges, where it cannot lock; Lambda is Lame's
-first constant in plane strain, and E nu / (1 - nu^2) where the section is free to contract in E1.  In an incompressible
-section Lambda is a penalty, on a times the mean of lambda less 1: the area in the plane itself, not its linear part.
+less the measures of the reference.  Where the centreline misses the area centres, edges run between those, at
+x + Y02 d: stretching and bending then couple as they do in (1.2.93).  The volumetric part sits on the edges, where it
+cannot lock; Lambda is Lame's first constant in plane strain, and E nu / (1 - nu^2) where the section is free in E1.
+In an incompressible section Lambda is a penalty, on a times the mean of lambda less 1: the area in the plane itself,
+not its linear part.
 
 Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, and t = (sin b, -cos b),
     h a = e . t,   h g = e . m,   d(h a)/db = h g,   d(h g)/db = -h a.
@@ -63,7 +65,7 @@ _STIFF = 5.0
 
 (EDGE, AXIAL, SLIDE, TURN, K_AXIAL, K_VOLUME, K_SHEAR, K_BENDING, K_JUMP) = range(9)
 (DIRECTOR, VORONOI, K_SECTION, COUPLE, BARRIER, ANGLE) = range(9, 15)
-(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, SHIFT, START) = range(15, 22)
+(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, OFFSET, SHIFT, START) = range(15, 23)
 """Columns of what the kernel reads; `coefficients` says what they hold."""
 
 
@@ -75,22 +77,27 @@ def coefficients(
     section: SectionState,
     couples: Array,
     barrier: bool,
+    offset: float = 0.0,
 ) -> Array:
-    """What the kernel needs, shape (N, 22): row K has edge K (the last row none), vertex K and its couple.
+    """What the kernel needs, shape (N, 23): row K has edge K (the last row none), vertex K and its couple.
 
     Of the edge: length; axial measure, shear measure and turning in the reference; 2 mu A, Lambda A, k mu A, EI, mu I.
     Of the vertex: |D|, L, 2 mu A, the couple [N m], one for the barriers of Fig. 3.7, and the angle of the director in
     the reference, counted on from vertex to vertex.  Then four numbers that are zero, or what `ConsistentRod.displaced`
-    puts there; one where the product of the stretches is the volume, not their sum; a number added to the change of
-    volume, zero but in a step of motion; and, in row 0, the angle within half a turn of which that of the first
-    director is counted.
+    puts there; one where the product of the stretches is the volume, not their sum; the offset; a number added to the
+    change of volume, zero but in a step of motion; and, in row 0, the angle within half a turn of which that of the
+    first director is counted.
+
+    offset : of the area centres from the centreline, in directors; edges run from one area centre to the next, and the
+        second moment is about them.
     """
+    centres = geometry.X + offset * geometry.D
     n = geometry.X.shape[0]
     rod = np.zeros((n, START + 1))
-    e, alpha = np.diff(geometry.X, axis=0), counted_angles(geometry.D)
+    e, alpha = np.diff(centres, axis=0), counted_angles(geometry.D)
     turn = np.diff(alpha)
     b = alpha[:-1] + turn / 2
-    rod[:-1, EDGE] = geometry.edge_length
+    rod[:-1, EDGE] = np.linalg.norm(e, axis=1)
     rod[:-1, AXIAL] = e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b)
     rod[:-1, SLIDE] = e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b)
     rod[:-1, TURN] = turn
@@ -108,16 +115,9 @@ def coefficients(
     rod[:, BARRIER] = float(barrier)
     rod[:, ANGLE] = alpha
     rod[:, PRODUCT] = float(section == "incompressible")
+    rod[:, OFFSET] = offset
     rod[0, START] = alpha[0]
     return rod
-
-
-def edge_shear(x: Array, d: Array) -> Array:
-    """Angle of each edge against the normal of the mean of its two directors, shape (N - 1,) [rad]."""
-    unit = d / np.linalg.norm(d, axis=1)[:, None]
-    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
-    angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
-    return angle
 
 
 def keeping_volume(geometry: Geometry, x: Array, d: Array, section: SectionState) -> Array:
@@ -173,6 +173,11 @@ class ConsistentRod(CompiledRod):
         stiff = bool((self.rod[:, K_VOLUME] > _STIFF * self.rod[:, K_AXIAL]).any())
         return SHIFT if stiff else -1
 
+    @property
+    def offset(self) -> float:
+        """Of the area centres from the centreline, in directors."""
+        return float(self.rod[0, OFFSET])
+
     def counted_near(self, angle: float) -> ConsistentRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
         rod = self.rod.copy()
@@ -185,7 +190,7 @@ class ConsistentRod(CompiledRod):
         Forces then feel the rounding of displacements instead of positions, which on fine meshes is far less.
         """
         rod = self.rod.copy()
-        rod[:-1, EDGE_3 : EDGE_2 + 1] = np.diff(geometry.X, axis=0)
+        rod[:-1, EDGE_3 : EDGE_2 + 1] = np.diff(geometry.X + self.offset * geometry.D, axis=0)
         rod[:, DIRECTOR_3 : DIRECTOR_2 + 1] = geometry.D
         return ConsistentRod(rod)
 
@@ -251,7 +256,7 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
         0.0  # of the vertex before: angle, counted on from vertex to vertex, direction and length
     )
     v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
-    product = rod[0, PRODUCT] != 0.0
+    product, offset = rod[0, PRODUCT] != 0.0, rod[0, OFFSET]
     for K in range(rod.shape[0]):
         p = 4 * K
         p0, p1 = q[p + 2] + rod[K, DIRECTOR_3], q[p + 3] + rod[K, DIRECTOR_2]
@@ -273,6 +278,8 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
             J = K - 1
             E, D_a = rod[J, EDGE], rod[J, DIRECTOR]
             e0, e1 = q[p] - q[p - 4] + rod[J, EDGE_3], q[p + 1] - q[p - 3] + rod[J, EDGE_2]
+            if offset != 0.0:
+                e0, e1 = e0 + offset * (q[p + 2] - q[p - 2]), e1 + offset * (q[p + 3] - q[p - 1])
             T = np.arctan2(n0 * p1 - n1 * p0, n0 * p0 + n1 * p1)
             angle += T
             s0, s1 = n0 + p0, n1 + p1  # along m
@@ -319,6 +326,11 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                 gradient[p - 1] += W_ra * n1 + turn_a * n0
                 gradient[p] += f0
                 gradient[p + 1] += f1
+                if offset != 0.0:
+                    gradient[p - 2] -= offset * f0
+                    gradient[p - 1] -= offset * f1
+                    gradient[p + 2] += offset * f0
+                    gradient[p + 3] += offset * f1
             if order > 1:
                 if rod[J, SHIFT] != 0.0:
                     most = _CAP * rod[J, K_AXIAL]
@@ -338,7 +350,8 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                 v[4, 2], v[4, 3], v[4, 6], v[4, 7] = -n0 / D_a, -n1 / D_a, p0 / D, p1 / D
                 for i in range(8):
                     if i % 4 > 1:
-                        v[0, i], v[1, i] = G * v[5, i], -A * v[5, i]
+                        v[0, i] = G * v[5, i] + offset * v[0, i - 2]
+                        v[1, i] = -A * v[5, i] + offset * v[1, i - 2]
                         widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
                     v[3, i] = by_axial * v[0, i] + by_wide * E * widening[i]
                 w[0], w[1], w[2] = (
@@ -349,6 +362,7 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                 w[3], w[4], w[5] = rod[J, K_VOLUME] / E, rod[J, K_JUMP] / E, -W_A * A - W_G * G
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
                 c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
+                c[2], c[3], c[6], c[7] = -offset * c0, -offset * c1, offset * c0, offset * c1
                 _curve(band, p - 4, v, w, c)
                 if product:
                     _pair(band, p - 4, v[0], widening, pressure)

@@ -169,6 +169,14 @@ def counted_angles(d: Array) -> Array:
     return angles
 
 
+def edge_shear(x: Array, d: Array) -> Array:
+    """Angle of each edge against the normal of the mean of its two directors, shape (N - 1,) [rad]."""
+    unit = d / np.linalg.norm(d, axis=1)[:, None]
+    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
+    angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
+    return angle
+
+
 def lengths(vectors: Array) -> Array:
     """Norms of the rows of an (n, 2) array: (n,)."""
     norm: Array = np.hypot(vectors[:, 0], vectors[:, 1])

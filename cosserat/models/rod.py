@@ -134,20 +134,30 @@ class Rod(Parameters):
         return self.line_density * part * mean(self.stations, mass_share, cuts[:-1], cuts[1:])
 
     def body(self, geometry: Geometry, couples: Array | None = None) -> RodBody:
-        """The elastic body with the averages of Table 3.1 and its couples, shape (N,) [N m]."""
+        """The elastic body with the averages of Table 3.1 and its couples, shape (N,) [N m].
+
+        The published energy takes I about the centreline, the consistent one about the area centres.
+        """
+        own = self.area * self.height**2 / 12
         vertex, edge = lump(
             self.stations,
             geometry.arc_length,
             area=self.area,
-            second_moment=self.second_moment,
+            second_moment=own if self.calibration is None else self.second_moment,
             young=self.young,
             poisson=self.poisson,
         )
         if self.calibration is None:
-            moments = np.zeros(self.vertices) if couples is None else couples
             return ConsistentRod(
                 coefficients(
-                    geometry, vertex, edge, self.shear_correction, self.section, moments, self.barrier
+                    geometry,
+                    vertex,
+                    edge,
+                    self.shear_correction,
+                    self.section,
+                    np.zeros(self.vertices) if couples is None else couples,
+                    self.barrier,
+                    self.first_inertia,
                 )
             )
         stiff = stiffnesses(

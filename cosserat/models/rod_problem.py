@@ -214,17 +214,14 @@ class RodProblem(Parameters):
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
 
-        The consistent rod takes the mean of that and of the mass that straight edges have, shape (4 N, 5): their errors
-        in a frequency are opposite.  Where the centreline is off the area centres it takes (3.3.43) too.
+        The consistent rod takes the mean of that and of the mass that straight edges have, shape (4 N, 7): their errors
+        in a frequency are opposite.
         """
-        if self.rod.calibration is None and self.rod.first_inertia == 0.0:
+        if self.rod.calibration is None:
             return self._mean_mass(geometry)
-        part = self.rod.part_masses(geometry)
-        band = np.zeros((part.size, len(UNKNOWNS), 3))
-        band[:, :2, 0] = part[:, None]
-        band[:, 2:, 0] = part[:, None] * self.rod.second_inertia
-        band[:, :2, 2] = part[:, None] * self.rod.first_inertia
-        return band.reshape(-1, 3)
+        return self._mass_band(self.rod.part_masses(geometry), np.zeros(geometry.edge_length.size))[
+            :, :3
+        ]
 
     def _mean_mass(self, geometry: Geometry) -> Array:
         arc = geometry.arc_length
@@ -233,11 +230,18 @@ class RodProblem(Parameters):
         own = np.zeros(arc.size)
         own[:-1] += 5 / 12 * edge
         own[1:] += 5 / 12 * edge
-        band = np.zeros((arc.size, len(UNKNOWNS), 5))
-        for columns, inertia in ((slice(0, 2), 1.0), (slice(2, 4), self.rod.second_inertia)):
-            band[:, columns, 0] = inertia * own[:, None]
-            band[:-1, columns, 4] = inertia * edge[:, None] / 12
-        return band.reshape(-1, 5)
+        return self._mass_band(own, edge / 12)
+
+    def _mass_band(self, own: Array, shared: Array) -> Array:
+        """Masses of vertices (N,) and between neighbours (N - 1,), times 1, Y02 and Y22, shape (4 N, 7)."""
+        first, second = self.rod.first_inertia, self.rod.second_inertia
+        band = np.zeros((own.size, len(UNKNOWNS), 7))
+        band[:, :2, 0], band[:, :2, 2], band[:, 2:, 0] = (
+            factor * own[:, None] for factor in (1.0, first, second)
+        )
+        band[:-1, :2, 4], band[:-1, :2, 6] = shared[:, None], first * shared[:, None]
+        band[:-1, 2:, 2], band[:-1, 2:, 4] = first * shared[:, None], second * shared[:, None]
+        return band.reshape(-1, 7)
 
     def drive(self, geometry: Geometry) -> Drive:
         """How held numbers are moved."""

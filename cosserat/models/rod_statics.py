@@ -10,8 +10,8 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
-from cosserat.models.consistent import ConsistentRod, edge_shear
-from cosserat.models.planar_rod import AXES, Geometry, rigid_motions, strains
+from cosserat.models.consistent import ConsistentRod
+from cosserat.models.planar_rod import AXES, Geometry, edge_shear, rigid_motions, strains
 from cosserat.models.rod import RodBody
 from cosserat.models.rod_problem import RodProblem
 from cosserat.outcome import Outcome
@@ -128,7 +128,7 @@ def _fields(geometry: Geometry, body: RodBody, state: Equilibrium, load: Array) 
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
     if isinstance(body, ConsistentRod):
-        own = {"shear": edge_shear(x, d), "energy_parts": body.energy_terms(state.q)}
+        own = {"shear": edge_shear(x + body.offset * d, d), "energy_parts": body.energy_terms(state.q)}
     else:
         own = {"theta": measured.theta, "energy": body.energy_terms(state.q)}
     return own | {
