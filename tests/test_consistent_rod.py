@@ -650,3 +650,94 @@ def test_shear_is_that_of_the_edges():
 def test_loads_that_would_be_dropped_and_sizes_that_cannot_be(changes, sentence):
     with pytest.raises(InputError, match=sentence):
         cosserat.case("elastica").vary("x", **changes)
+
+
+# ---------------------------------------------------------------- moved supports, free flight, whole turns
+
+
+@pytest.mark.parametrize("method", ["rk45", "rk4"])
+def test_moved_supports_pull_by_the_mass_they_share(method):
+    """The consistent mass couples a moved vertex to its neighbour: both kinds of integrator have to know it."""
+    shaken = cosserat.case("vibration_consistent").vary(
+        "shaken",
+        rod={"vertices": 3},
+        start={"amplitude": 0.0},
+        moves=[{"at": "first", "unknown": "x3", "by": 1e-4, "frequency": 1400}],
+        duration=5e-4,
+        every=5e-4,
+    )
+    explicit = {"method": method, "step": 2e-7} | ({"tolerance": 1e-12} if method == "rk45" else {})
+    exact = cosserat.run(shaken.vary("shaken", integrator=explicit))
+    given = 1e-4 * 2 * np.pi * 1400 * np.cos(2 * np.pi * 1400 * 5e-4)
+    assert exact.x_rate[-1, 0, 0] == pytest.approx(given, rel=1e-9)
+    errors = []
+    for step in (1e-5, 5e-6, 2.5e-6):
+        found = cosserat.run(shaken.vary("shaken", integrator={"method": "implicit", "step": step}))
+        errors.append(float(np.abs(found.x[-1] - exact.x[-1]).max()))
+    assert errors[-1] < 1e-4 * 1e-3
+    np.testing.assert_allclose(np.diff(np.log2(errors)), -2, atol=0.05)
+
+
+@pytest.mark.parametrize(
+    ("spin", "step", "allowed"), [(1.0, 1e-4, 1e-9), (1.0, 1e-3, 1e-5), (30.0, 1e-3, 1e-2)]
+)
+def test_a_rod_that_hardly_deforms_spins_on(spin, step, allowed):
+    free = cosserat.case("vibration_consistent").vary(
+        "free",
+        rod={"vertices": 11},
+        supports=[],
+        start={"shape": "reference", "amplitude": 0.0, "spin": spin},
+        every=0.02,
+        integrator={"step": step},
+    )
+    data = cosserat.run(free)
+    energy = (data.kinetic_energy + data.strain_energy).to_numpy()
+    assert np.abs(energy / energy[0] - 1).max() < allowed
+    turning = data.angular_momentum.to_numpy()
+    assert np.abs(turning / turning[0] - 1).max() < 1e-12
+
+
+@pytest.mark.parametrize("method", ["rk4", "rk45", "implicit"])
+def test_no_turn_is_missed_between_two_frames(method):
+    motor = cosserat.case("vibration_consistent").vary(
+        "motor",
+        rod={"vertices": 3, "young": 1e7},
+        supports=[{"at": "first", "hold": ["x3", "x2"]}],
+        start={"shape": "reference", "amplitude": 0.0, "spin": 100.0},
+        couples=[{"at": "first", "moment": 80.0}],
+        duration=0.1,
+        every=0.1,
+        integrator={"method": method, "step": 5e-6},
+    )
+    data = cosserat.run(motor)
+    total = data.kinetic_energy + data.strain_energy + data.load_potential
+    assert float(total[-1]) == pytest.approx(float(total[0]), rel=1e-6)
+    assert data.first_angle[-1] - data.first_angle[0] > 6
+
+
+def test_a_clamp_turned_through_a_whole_turn_winds_the_rod_up():
+    both = [*CLAMP, {"at": "last", "hold": ["d3", "d2"]}]
+    posed, bending = slender(40)
+    wound = posed.replace(supports=both, turns=({"at": "last", "by": 2 * np.pi},)).solve("x")
+    assert wound.fields["energy_parts"].sum() == pytest.approx(bending * (2 * np.pi) ** 2 / 2, rel=1e-3)
+
+
+def test_a_first_arc_of_any_length_ends_at_the_full_load():
+    forces = [{"at": "last", "along": "-E3", "force": 2.3}, {"at": "last", "along": "E2", "force": 1e-4}]
+    path = cosserat.run(
+        cosserat.case("column_path").vary("x", forces=forces, arc={"first": 1.2, "longest": 3.0})
+    )
+    assert path.load_factor[-1] == 1
+
+
+@pytest.mark.parametrize("longest", [0.3, 0.05])
+def test_a_path_ends_at_the_full_load_also_just_below_a_limit(longest):
+    peak = cosserat.run(loaded_arch(20, longest=0.02, count=2000)).load_factor.to_numpy()
+    first = peak[: int(np.argmax(np.diff(peak) < 0)) + 1].max()
+    force = 46.875 * first / 1.001
+    near = loaded_arch(20, longest=longest).vary(
+        "near", forces=[{"at": 20, "along": "E2", "force": force}]
+    )
+    path = cosserat.run(near)
+    assert path.load_factor[-1] == 1
+    assert path.stable.to_numpy().all()

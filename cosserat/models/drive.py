@@ -18,9 +18,9 @@ class Shift:
     by: float
     frequency: float
 
-    def place(self, share: float) -> tuple[Array, Array]:
-        """Displacement at a share of the whole, and its derivative by the share, each of shape (1,)."""
-        return np.array([share * self.by]), np.array([self.by])
+    def place(self, share: float) -> tuple[Array, Array, Array]:
+        """Displacement at a share of the whole, and two derivatives by the share, each of shape (1,)."""
+        return np.array([share * self.by]), np.array([self.by]), np.zeros(1)
 
 
 @dataclass(frozen=True)
@@ -32,11 +32,11 @@ class Turned:
     by: float
     frequency: float
 
-    def place(self, share: float) -> tuple[Array, Array]:
-        """Displacement at a share of the whole, and its derivative by the share, each of shape (2,)."""
+    def place(self, share: float) -> tuple[Array, Array, Array]:
+        """Displacement at a share of the whole, and two derivatives by the share, each of shape (2,)."""
         c, s = np.cos(share * self.by), np.sin(share * self.by)
         d = np.array([c * self.D[0] - s * self.D[1], s * self.D[0] + c * self.D[1]])
-        return d - self.D, self.by * np.array([-d[1], d[0]])
+        return d - self.D, self.by * np.array([-d[1], d[0]]), -(self.by**2) * d
 
 
 @dataclass(frozen=True)
@@ -46,21 +46,28 @@ class Drive:
     n: int
     parts: tuple[Shift | Turned, ...]
 
-    def __call__(self, time: float) -> tuple[Array, Array]:
-        """Displacement and velocity at a time, each of shape (n,): by sin(2 pi f t), or by all of it from the start."""
-        place, rate = np.zeros(self.n), np.zeros(self.n)
+    def __call__(self, time: float) -> tuple[Array, Array, Array]:
+        """Displacement, velocity and acceleration at a time, each (n,): by sin(2 pi f t), or by all from the start."""
+        motion = np.zeros((3, self.n))
         for part in self.parts:
             omega = 2 * np.pi * part.frequency
-            at, slope = part.place(np.sin(omega * time) if omega else 1.0)
+            share = np.sin(omega * time) if omega else 1.0
+            rate = omega * np.cos(omega * time)
+            at, slope, bend = part.place(share)
             where = slice(part.index, part.index + at.size)
-            place[where], rate[where] = at, slope * omega * np.cos(omega * time)
-        return place, rate
+            motion[:, where] = at, slope * rate, bend * rate**2 - slope * omega**2 * share
+        return motion[0], motion[1], motion[2]
 
     def grown(self, factor: float) -> tuple[Array, Array]:
         """Displacement at a factor of the load, and its derivative by the factor, each of shape (n,)."""
         place, slope = np.zeros(self.n), np.zeros(self.n)
         for part in self.parts:
-            at, change = part.place(factor)
+            at, change, _ = part.place(factor)
             where = slice(part.index, part.index + at.size)
             place[where], slope[where] = at, change
         return place, slope
+
+    @property
+    def largest_turn(self) -> float:
+        """Largest angle that a section is turned by [rad]."""
+        return max((abs(part.by) for part in self.parts if isinstance(part, Turned)), default=0.0)

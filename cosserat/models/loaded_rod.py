@@ -53,6 +53,12 @@ class LoadedRod:
         """q with its held unknowns where the factor puts them."""
         return np.where(self.held, self.drive.grown(factor)[0], q)
 
+    @property
+    def stride(self) -> float:
+        """No section is turned by more than is safe at once: angles are told by less than half a turn."""
+        turn = self.drive.largest_turn
+        return _TURN / turn if turn else np.inf
+
     def moving(self, factor: float) -> Vector:
         """Change of the held unknowns with the factor, zero elsewhere."""
         return self.drive.grown(factor)[1]

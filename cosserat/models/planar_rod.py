@@ -193,3 +193,13 @@ def rigid_motions(q: Array) -> Array:
     fields[1, :, 1] = 1.0
     fields[2] = np.column_stack([-q[:, 1], q[:, 0], -q[:, 3], q[:, 2]])
     return fields
+
+
+def free_motions(q: Array, held: NDArray[np.bool_]) -> Array:
+    """How much of the three rigid motions moves no held number, each from 0 to 1: q, held of shape (N, 4) -> (3,)."""
+    motions = rigid_motions(q)
+    at_supports = motions[:, held] / np.abs(motions).max(axis=(1, 2))[:, None]
+    _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
+    free = directions[np.append(stretch, np.zeros(3 - stretch.size)) < 1e-10]
+    left: Array = np.abs(free).max(axis=0, initial=0.0)
+    return left

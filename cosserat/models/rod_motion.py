@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
 
 from cosserat import analytic
 from cosserat.models.consistent import keeping_volume
-from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, counted_angles, rigid_motions
+from cosserat.models.planar_rod import (
+    AXES,
+    UNKNOWNS,
+    Geometry,
+    counted_angles,
+    free_motions,
+    rigid_motions,
+)
 from cosserat.models.rod_problem import Direction, RodProblem, unit_vector
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
@@ -51,6 +60,16 @@ class RodMotion(RodProblem):
     """
     integrator: IntegratorSettings
 
+    @model_validator(mode="after")
+    def _starts_as_it_can(self) -> Self:
+        if self.start.shape != "reference" and self.rod.curvature:
+            raise PydanticCustomError(
+                "start",
+                f"has start.shape = '{self.start.shape}', which is that of a straight rod, and 'rod.curvature' = "
+                f"{self.rod.curvature:g}; begin from the 'reference' or take a straight rod",
+            )
+        return self
+
     @property
     def frames(self) -> int:
         """Number of frames after the first."""
@@ -78,7 +97,9 @@ class RodMotion(RodProblem):
         if not self.damping:
             return at_rest
         unloaded = replace(at_rest, body=self.rod.body(geometry))
-        lowest = first_elastic_frequency(unloaded, reference(geometry))
+        lowest = first_elastic_frequency(
+            unloaded, reference(geometry), anchored=self._anchored(geometry)
+        )
         return replace(at_rest, drag=2 * self.damping * lowest)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
@@ -90,7 +111,12 @@ class RodMotion(RodProblem):
         """
         geometry = self.rod.geometry()
         unloaded = replace(self.system(geometry), body=self.rod.body(geometry))
-        return modes(unloaded, reference(geometry), count, name)
+        return modes(unloaded, reference(geometry), count, name, anchored=self._anchored(geometry))
+
+    def _anchored(self, geometry: Geometry) -> bool:
+        """Whether no rigid motion is left free."""
+        start = np.hstack([geometry.X, geometry.D])
+        return bool((free_motions(start, self.held()) == 0).all())
 
     def begin(self) -> State:
         """The state at time zero."""
@@ -108,7 +134,7 @@ class RodMotion(RodProblem):
         v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)
         v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
         v[self.held()] = 0.0
-        place, rate = self.drive(geometry)(0.0)
+        place, rate, _ = self.drive(geometry)(0.0)
         start = q.ravel() + place
         upright = counted_angles(geometry.D)[0]
         return State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))

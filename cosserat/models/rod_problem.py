@@ -167,6 +167,14 @@ class RodProblem(Parameters):
                         f"'{words.split()[0]}' {words} of vertex {at}, which no support holds; "
                         f"add {unknown} to 'hold' of a support there",
                     )
+        at_once = self.rod.calibration is not None or getattr(self, "kind", "") == "rod motion"
+        for turn in self.turns:
+            if at_once and not turn.frequency and abs(turn.by) > np.pi / 2:
+                raise PydanticCustomError(
+                    "range",
+                    f"'turns' turns the section of vertex {turn.at} by {turn.by:.4g} rad at once; only the "
+                    "consistent rod at rest turns by more than a quarter, in steps: take that, or a smaller angle",
+                )
         return self
 
     @property

@@ -11,7 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.models.consistent import ConsistentRod
-from cosserat.models.planar_rod import AXES, Geometry, edge_shear, rigid_motions, strains
+from cosserat.models.planar_rod import AXES, Geometry, edge_shear, free_motions, strains
 from cosserat.models.rod import RodBody
 from cosserat.models.rod_problem import RodProblem
 from cosserat.outcome import Outcome
@@ -66,14 +66,14 @@ class RodStatics(RodProblem):
         system = System(
             body, self.mass(geometry), load.ravel(), self.held().ravel(), 0.0, np.empty((0, load.size))
         )
-        return modes(system, at_rest, count, name)
+        return modes(system, at_rest, count, name, anchored=True)
 
     def equilibrium(self, geometry: Geometry, body: RodBody, load: Array, name: str) -> Equilibrium:
         """The equilibrium of this problem's body under given loads, shape (N, 4)."""
         reference = np.hstack([geometry.X, geometry.D])
         held = self.held()
         refuse_rigid_motion(reference, held, name)
-        start = reference.ravel() + self.drive(geometry)(0.0)[0]
+        start = reference.ravel() + self.drive(geometry).grown(1.0)[0]
         if self.rod.calibration is None:
             climb = Climb(self.loaded(geometry), self.newton, name)
             try:
@@ -105,16 +105,7 @@ def _as_equilibrium(climb: Climb, point: Point, reference: Array) -> Equilibrium
 
 def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
     """Raise UnsupportedRodError if a rigid motion moves no held number; q, held : (N, 4)."""
-    motions = rigid_motions(q)
-    size = np.abs(motions).max(axis=(1, 2))
-    at_supports = motions[:, held] / size[:, None]
-    _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
-    free = directions[np.append(stretch, np.zeros(3 - stretch.size)) < 1e-10]
-    left = [
-        motion
-        for motion, share in zip(_MOTIONS, np.abs(free).max(axis=0, initial=0.0), strict=True)
-        if share > 0.1
-    ]
+    left = [motion for motion, share in zip(_MOTIONS, free_motions(q, held), strict=True) if share > 0.1]
     if left:
         raise UnsupportedRodError(
             f"{name}: the supports leave the rod free to move ({', '.join(left)}); "

@@ -51,6 +51,10 @@ class Loaded(Protocol):
     def place(self, q: Vector, factor: float) -> Vector:
         """q with its held unknowns where the factor puts them."""
 
+    @property
+    def stride(self) -> float:
+        """Largest change of the factor by which supports may move at once."""
+
     def moving(self, factor: float) -> Vector:
         """Change of the held unknowns with the factor, zero elsewhere, shape (n,)."""
 
@@ -113,6 +117,7 @@ class Climb:
         """
         last: Point | None = None
         q, done, increment = start, 0.0, factor / self.settings.load_steps
+        increment = float(np.clip(increment, -self.body.stride, self.body.stride))
         with np.errstate(over="ignore", invalid="ignore"):
             while done != factor:
                 goal = factor if abs(factor - done) <= 1.001 * abs(increment) else done + increment

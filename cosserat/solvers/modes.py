@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from cosserat.errors import UnstableError
-from cosserat.solvers.banded import Band, Vector, band_product
+from cosserat.solvers.banded import Band, Vector, band_product, hold, negative_eigenvalues
 from cosserat.solvers.motion import System, free_matrices
 
+Dense = NDArray[np.float64]
 _ROUNDING = 16 * float(np.finfo(float).eps)  # of a squared frequency, as a share of the largest one
 
 
@@ -32,24 +33,29 @@ class Modes:
         return shares
 
 
-def modes(system: System, q: Vector, count: int, name: str) -> Modes:
+def modes(system: System, q: Vector, count: int, name: str, *, anchored: bool) -> Modes:
     """The lowest `count` modes about q, with the held unknowns at rest.
+
+    anchored : no motion without deformation is left free, so that a stable body has no frequency zero.
 
     Raises
     ------
     UnstableError : some small motions about q grow.
     """
     stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q))
-    all_squared = eigh(stiffness, mass, eigvals_only=True)
-    rounding = _ROUNDING * all_squared[-1]
-    growing = int((all_squared < -rounding).sum())
+    if anchored:
+        rounding, growing = 0.0, _growing(system, q)
+    else:
+        every = eigh(stiffness, mass, eigvals_only=True)
+        rounding = _ROUNDING * every[-1]
+        growing = int((every < -rounding).sum())
     if growing:
         raise UnstableError(
             f"{name}: what it vibrates about is unstable in {growing} direction{'s' * (growing > 1)}, along which "
             "small motions grow instead of swinging; lessen the loads, or nudge the rod by a small force so that it "
             "comes to rest in a stable equilibrium"
         )
-    squared, vectors = eigh(stiffness, mass, subset_by_index=(0, min(count, mass.shape[0]) - 1))
+    squared, vectors = _lowest(stiffness, mass, min(count, mass.shape[0]), anchored)
     shapes = np.zeros((squared.size, q.size))
     shapes[:, ~system.held] = vectors.T
     largest = np.take_along_axis(shapes, np.abs(shapes).argmax(axis=1)[:, None], axis=1)
@@ -57,7 +63,32 @@ def modes(system: System, q: Vector, count: int, name: str) -> Modes:
     return Modes(frequencies, shapes * np.sign(largest))
 
 
-def first_elastic_frequency(system: System, q: Vector) -> float:
-    """The lowest angular frequency about q that is not zero to rounding: of the first motion that deforms [rad/s]."""
-    squared = eigh(*(matrix.toarray() for matrix in free_matrices(system, q)), eigvals_only=True)
+def _growing(system: System, q: Vector) -> int:
+    """How many directions of the free unknowns the Hessian at q bends down in."""
+    gradient, band = np.empty(q.size), np.empty((q.size, system.body.half_bandwidth + 1))
+    system.body.assemble(q, gradient, band)
+    hold(band, system.held)
+    band[system.held, 0] = 1.0
+    return negative_eigenvalues(band)
+
+
+def _lowest(stiffness: Dense, mass: Dense, count: int, anchored: bool) -> tuple[Vector, Dense]:
+    """The lowest squared frequencies and their modes, v . M v = 1, as columns.
+
+    Of an anchored body they are the largest of the inverse problem, free of the rounding of the stiffest.
+    """
+    if not anchored:
+        squared, vectors = eigh(stiffness, mass, subset_by_index=(0, count - 1))
+        return squared, vectors
+    last = mass.shape[0] - 1
+    inverse, vectors = eigh(mass, stiffness, subset_by_index=(last - count + 1, last))
+    return 1 / inverse[::-1], vectors[:, ::-1] / np.sqrt(inverse[::-1])
+
+
+def first_elastic_frequency(system: System, q: Vector, *, anchored: bool) -> float:
+    """The lowest angular frequency about q of a motion that deforms: not zero to rounding [rad/s]."""
+    stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q))
+    if anchored:
+        return float(np.sqrt(_lowest(stiffness, mass, 1, anchored)[0][0]))
+    squared = eigh(stiffness, mass, eigvals_only=True)
     return float(np.sqrt(squared[squared > _ROUNDING * squared[-1]][0]))

@@ -89,8 +89,8 @@ class System:
 class Drive(Protocol):
     """Prescribed displacements of held unknowns."""
 
-    def __call__(self, time: float) -> tuple[Vector, Vector]:
-        """Displacement and velocity at a time, each (n,), zero where nothing is prescribed."""
+    def __call__(self, time: float) -> tuple[Vector, Vector, Vector]:
+        """Displacement, velocity and acceleration at a time, each (n,), zero where nothing is prescribed."""
 
 
 @dataclass(frozen=True)
@@ -134,16 +134,30 @@ def advance(
     if settings.method == "implicit":
         return _marched(system, state, duration / count, count, name), count
     move = _Rk4(system)
+    after = state
     with np.errstate(over="ignore", invalid="ignore"):
         for _ in range(count):
-            state = move.step(state, duration / count)
-    _refuse_divergence(system, state, settings, name)
-    return _counted(state), count
+            after = _counted(move.step(after, duration / count))
+    _refuse_divergence(system, after, settings, name)
+    return _driven(system, state, after), count
 
 
 def step_count(duration: float, settings: IntegratorSettings) -> int:
     """The least number of equal steps in a duration of which none is longer than the given step."""
     return max(1, math.ceil(duration / settings.step * (1 - _EXACT)))
+
+
+def _driven(system: System, before: State, after: State) -> State:
+    """The state after an explicit method has moved on, its held unknowns where and as fast as they are moved."""
+    if system.drive is None:
+        return after
+    start, _, _ = system.drive(before.time)
+    place, rate, _ = system.drive(after.time)
+    return replace(
+        after,
+        q=np.where(system.held, before.q - start + place, after.q),
+        v=np.where(system.held, rate, after.v),
+    )
 
 
 def _counted(state: State) -> State:
@@ -161,7 +175,7 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
     path = np.zeros((2, count + 1, moved.size))
     if system.drive:
         for number in range(count + 1):
-            place, rate = system.drive(state.time + number * h)
+            place, rate, _ = system.drive(state.time + number * h)
             path[:, number] = place[moved], rate[moved]
     done = march()(
         system.body.kernel,
@@ -282,7 +296,7 @@ class _Rk4:
 
 
 class _Acceleration:
-    """Rates of (q, v): velocities, and M^-1 (load - gradient) - drag v."""
+    """Rates of (q, v): velocities, and M^-1 (load - gradient - M (a + drag v) of what is moved) - drag v."""
 
     def __init__(self, system: System) -> None:
         self.system = system
@@ -292,10 +306,13 @@ class _Acceleration:
 
     def __call__(self, time: float, y: Vector) -> Vector:
         q, v = np.split(y, 2)
-        if self.system.drive is not None:
-            v = np.where(self.system.held, self.system.drive(time)[1], v)
         self.system.body.differentiate(q, self.gradient)
-        force = np.where(self.system.held, 0.0, self.system.load - self.gradient)
+        force = self.system.load - self.gradient
+        if self.system.drive is not None:
+            _, given, gaining = self.system.drive(time)
+            v = np.where(self.system.held, given, v)
+            force -= band_product(self.system.mass, gaining + self.system.drag * given)
+        force[self.system.held] = 0.0
         acceleration = solve_positive(self.mass, force)
         assert acceleration is not None  # a mass is positive
         slowing = np.where(self.system.held, 0.0, acceleration - self.system.drag * v)
@@ -321,10 +338,12 @@ def _adaptive(
     )
     if not done.success:
         raise DivergedError(f"{name}: the explicit integrator stopped ({done.message}); {_REMEDY}")
-    q, v = np.split(done.y[:, -1], 2)
-    after = State(q, v, state.time + duration, state.angle)
+    after = state
+    for y in done.y.T:  # every step, so that no turn is missed
+        q, v = np.split(y, 2)
+        after = _counted(State(q, v, state.time + duration, after.angle))
     _refuse_divergence(system, after, settings, name)
-    return _counted(after), int(done.nfev)
+    return _driven(system, state, after), int(done.nfev)
 
 
 _REMEDY = "take a shorter 'integrator.step' or the method 'implicit'"

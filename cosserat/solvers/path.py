@@ -61,6 +61,9 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
     for _ in range(arc.count):
         before = climb.iterations
         found, ahead, ds = _next(climb, point, direction, ds, arc)
+        if _peaks_beyond(point, direction, found, ahead, ds, arc.until) and ds > _CLOSE * arc.first:
+            ds /= 2
+            continue
         effort = climb.iterations - before
         if switch and found.negative != point.negative and ahead[1] * direction[1] > 0:
             near, found = _crossing(climb, point, direction, ds, arc)
@@ -73,9 +76,12 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
             size = _apart(body, branch, found)
             ahead = _tangent(climb, branch, (away / size, (branch.factor - found.factor) / size))
             origin, found, switch, ds = found, branch, False, arc.first
-        if point.factor != 0.0 and (found.factor - arc.until) * (point.factor - arc.until) <= 0:
-            last = climb.at(found.q, arc.until)
-            yield found if last is None else last
+        if (found.factor - arc.until) * (point.factor - arc.until) <= 0:
+            last = _at_end(climb, point, found, arc.until)
+            if last.negative != point.negative and ds > _CLOSE * arc.first:
+                ds /= 2  # it came from beyond a limit point
+                continue
+            yield last
             return
         if abs(found.factor) > arc.limit:
             raise climb.stopped(
@@ -96,6 +102,13 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
         ds = min(arc.longest, 2 * ds) if effort <= _EASY else ds / 2 if effort > _HARD else ds
 
 
+def _at_end(climb: Climb, point: Point, found: Point, until: float) -> Point:
+    """The equilibrium at the end of the path, between two points of it; the second of them where there is none."""
+    share = (until - point.factor) / (found.factor - point.factor)
+    last = climb.at(point.q + share * (found.q - point.q), until)
+    return found if last is None else last
+
+
 def _next(
     climb: Climb, point: Point, direction: tuple[Vector, float], ds: float, arc: Arc
 ) -> tuple[Point, tuple[Vector, float], float]:
@@ -108,6 +121,24 @@ def _next(
                 return found, ahead, ds
         ds /= 2
     raise climb.failure(point.factor, point.factor + direction[1] * ds, point)
+
+
+def _peaks_beyond(
+    point: Point,
+    direction: tuple[Vector, float],
+    found: Point,
+    ahead: tuple[Vector, float],
+    ds: float,
+    until: float,
+) -> bool:
+    """Whether the factor turns back within an arc, but hardly before it has passed `until`, by Hermite's cubic."""
+    if direction[1] * ahead[1] >= 0 or (found.factor - until) * (point.factor - until) <= 0:
+        return False
+    s = np.linspace(0.0, 1.0, 33)
+    rise = point.factor * (1 - s) ** 2 * (1 + 2 * s) + found.factor * s**2 * (3 - 2 * s)
+    bend = ds * s * (1 - s) * (direction[1] * (1 - s) - ahead[1] * s)
+    left = (until - rise - bend) * np.sign(until - point.factor)
+    return bool((left <= _CLOSE * abs(until)).any())
 
 
 def _cosine(one: tuple[Vector, float], other: tuple[Vector, float]) -> float:

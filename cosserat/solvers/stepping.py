@@ -3,7 +3,8 @@
 The elastic force is the gradient at the midpoint plus sigma z, where sigma makes its work the change of energy, exactly
 (Gonzalez, J. Nonlinear Sci. 6, 449, 1996).  Gonzalez takes z along the step; here z is the step less its rigid part
 when nothing is held, so that the added force has neither a resultant nor a moment and linear and angular momentum stay
-as they are.  Second order in the step.
+as they are.  Second order in the step.  Where a body hardly deforms in a step, there may be no such z: after some
+iterations the step is taken without, and its energy is right to second order only.
 
 Where some measure is very stiff (a volume that hardly changes), its stress is taken at the mean of its values at both
 ends (Simo & Tarnow, ZAMP 43, 757, 1992): at the midpoint itself a mere rotation by t would strain it by t^2 / 8.
@@ -46,6 +47,9 @@ TOLERANCE = 1e-11  # of the last correction, as a share of the step
 MAX_ITERATIONS = 60
 _FAST = 0.02  # ratio of two corrections above which the matrix is made anew
 _NEAR = 1e-3  # a correction below this share of the step: from it on the change of energy is asked for
+_PATIENCE = (
+    25  # iterations after which sigma, of which Newton's matrix knows nothing, is left out of a step
+)
 _TINY = float(np.finfo(float).tiny)
 STALL = 1e4  # corrections that no longer shrink are rounding if they are below this multiple of it
 _EPS = float(np.finfo(float).eps)
@@ -179,7 +183,7 @@ def _march(  # type: ignore[no-untyped-def]
     n, steps = q.size, places.shape[0] - 1
     gradient, none, terms, nothing = np.empty(n), np.empty((0, width + 1)), np.empty(16), np.empty(0)
     factor, change, middle, force = np.empty((n, width + 1)), np.empty(n), np.empty(n), np.empty(n)
-    product, pull, z, spin = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    product, pull, z, spin, gained = np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n)
     earlier, earliest = np.zeros(n), np.zeros(n)  # changes of the last two steps
     shifted, old, new, now = rod.copy(), np.zeros(n), np.zeros(n), np.zeros(n)
     inertia = 2 / h**2 + drag / h
@@ -197,7 +201,7 @@ def _march(  # type: ignore[no-untyped-def]
             kernel(q, rod, 3, old, none, terms)
         arrived, near, after = False, False, before
         relative = np.inf  # last correction as a share of the step
-        for _ in range(MAX_ITERATIONS):
+        for iteration in range(MAX_ITERATIONS):
             if averaged >= 0:
                 kernel(q + change, rod, 3, new, none, terms)
                 kernel(q + change / 2, rod, 3, now, none, terms)
@@ -222,7 +226,13 @@ def _march(  # type: ignore[no-untyped-def]
                     middle[i] = q[i] + change[i]
                 after = kernel(middle, rod, 0, nothing, none, terms)
                 sigma = _sigma(change, gradient, z, before, after, _EPS * reach * np.sqrt(2 * stiffest))
-            _times(mass, change, product)
+                if iteration > _PATIENCE:
+                    sigma = 0.0
+            for i in range(n):
+                gained[i] = change[i]
+            for i in range(moved.size):  # accelerated from one given velocity to the next
+                gained[moved[i]] = h / 2 * (rates[done, i] + rates[done + 1, i])
+            _times(mass, gained, product)
             for i in range(n):
                 added = sigma * z[i] if near else 0.0
                 force[i] = 0.0 if held[i] else pull[i] - inertia * product[i] - gradient[i] - added
