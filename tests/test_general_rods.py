@@ -465,6 +465,10 @@ def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
         ),
         ({"turns": [{"at": 0, "by": 1.0, "frequency": 2}]}, "has a 'frequency', but a static problem"),
         ({"turns": [{"at": 99, "by": 1.0}]}, "'at' is 99"),
+        (
+            {"rod": {"stations": [{"at": "7 m"}]}},
+            "'stations' has one at 7 m, but the rod goes from 0 to 5 m",
+        ),
     ],
 )
 def test_turns_that_cannot_be_are_refused(changes, sentence):

@@ -94,6 +94,11 @@ class Rod(Parameters):
             raise PydanticCustomError(
                 "order", "'stations' are not in the order of 'at'; sort them along the rod"
             )
+        if places and places[-1] > self.length * (1 + 1e-12):
+            raise PydanticCustomError(
+                "range",
+                f"'stations' has one at {places[-1]:g} m, but the rod goes from 0 to {self.length:g} m; move it",
+            )
         if abs(self.curvature) * self.length / (self.vertices - 1) >= 1:
             raise PydanticCustomError(
                 "range",

@@ -105,7 +105,8 @@ class Climb:
         self.iterations = self.halvings = self.pushes = 0
         self.last: Point | None = None  # the equilibrium that `to` found last
         self.remedy = (
-            "the path may turn back there: follow it with kind = 'rod path', or check supports and loads"
+            "the path may turn back there: follow it with kind = 'rod path', raise 'newton.max_iterations' if it is "
+            "small, or check supports and loads"
         )
 
     def to(self, start: Vector, factor: float) -> Point:
