@@ -24,21 +24,18 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numba import cfunc, njit
 from numpy.typing import NDArray
 
 from cosserat.models.compiled_rod import CompiledRod
-from cosserat.models.planar_rod import Geometry, Lumped, counted_angles
+from cosserat.models.compliance import EdgeStiffnesses, SectionState
+from cosserat.models.planar_rod import Geometry, counted_angles
 from cosserat.solvers.banded import Band, Vector
 from cosserat.solvers.stepping import KERNEL
 
 Array = NDArray[np.float64]
-
-SectionState = Literal["free", "plane strain", "incompressible"]
-"""What the section may do in E1: contract freely, not at all, or (in plane strain) nothing that changes the area."""
 
 TERMS = (
     "axial stretching",
@@ -50,9 +47,6 @@ TERMS = (
     "couples",
 )
 """The parts of the energy, in the order of `energy_terms`."""
-
-PENALTY = 1e5
-"""Lambda over 2 mu of an incompressible section."""
 
 _CAP = 0.05
 """Pressure over 2 mu A up to which the Hessian counts its geometric stiffness in a step of motion.
@@ -71,12 +65,11 @@ _STIFF = 5.0
 
 def coefficients(
     geometry: Geometry,
-    vertex: Lumped,
-    edge: Lumped,
-    shear_correction: float,
-    section: SectionState,
+    stiffness: EdgeStiffnesses,
     couples: Array,
+    *,
     barrier: bool,
+    product: bool,
     offset: float = 0.0,
 ) -> Array:
     """What the kernel needs, shape (N, 23): row K has edge K (the last row none), vertex K and its couple.
@@ -101,20 +94,18 @@ def coefficients(
     rod[:-1, AXIAL] = e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b)
     rod[:-1, SLIDE] = e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b)
     rod[:-1, TURN] = turn
-    shear, first, plane = _moduli(edge, section)
-    rod[:-1, K_AXIAL] = 2 * shear * edge.area
-    rod[:-1, K_VOLUME] = first * edge.area
-    rod[:-1, K_SHEAR] = shear_correction * shear * edge.area
-    rod[:-1, K_BENDING] = plane * edge.second_moment
-    rod[:-1, K_JUMP] = shear * edge.second_moment
-    shear, _, _ = _moduli(vertex, section)
+    rod[:-1, K_AXIAL] = stiffness.axial
+    rod[:-1, K_VOLUME] = stiffness.volume
+    rod[:-1, K_SHEAR] = stiffness.shear
+    rod[:-1, K_BENDING] = stiffness.bending
+    rod[:-1, K_JUMP] = stiffness.stretch_gradient
     rod[:, DIRECTOR] = geometry.director_length
     rod[:, VORONOI] = geometry.voronoi_length
-    rod[:, K_SECTION] = 2 * shear * vertex.area
+    rod[:, K_SECTION] = stiffness.section
     rod[:, COUPLE] = couples
     rod[:, BARRIER] = float(barrier)
     rod[:, ANGLE] = alpha
-    rod[:, PRODUCT] = float(section == "incompressible")
+    rod[:, PRODUCT] = float(product)
     rod[:, OFFSET] = offset
     rod[0, START] = alpha[0]
     return rod
@@ -133,17 +124,6 @@ def keeping_volume(geometry: Geometry, x: Array, d: Array, section: SectionState
         wide[K + 1] = 2 * (1 / a if section == "incompressible" else 2 - a) - wide[K]
     directors: Array = (geometry.director_length * wide)[:, None] * unit
     return directors
-
-
-def _moduli(part: Lumped, section: SectionState) -> tuple[Array, Array, Array]:
-    """mu, Lambda and the modulus of bending."""
-    if section == "incompressible":
-        shear = part.young / 3
-        return shear, PENALTY * 2 * shear, part.young / 0.75
-    nu = part.poisson
-    if section == "free":
-        return part.shear, part.young * nu / (1 - nu**2), part.young
-    return part.shear, part.young * nu / ((1 + nu) * (1 - 2 * nu)), part.young / (1 - nu**2)
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 from pydantic import field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.models.consistent import ConsistentRod, SectionState, coefficients
-from cosserat.models.planar_rod import Geometry
+from cosserat.models import compliance
+from cosserat.models.compliance import SectionState
+from cosserat.models.consistent import ConsistentRod, coefficients
+from cosserat.models.planar_rod import UNKNOWNS, Geometry
 from cosserat.models.published import PublishedRod
-from cosserat.models.section import Station, lump, mass_share, mean
+from cosserat.models.section import Station, edge_masses, lump, mass_share, mean, vertex_cuts
 from cosserat.models.section import share as share_of
 from cosserat.models.stiffness import (
     Calibration,
@@ -134,37 +136,71 @@ class Rod(Parameters):
 
     def part_masses(self, geometry: Geometry) -> Array:
         """Mass of the part round each vertex, shape (N,) [kg]."""
-        arc, part = geometry.arc_length, geometry.voronoi_length
-        cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
-        return self.line_density * part * mean(self.stations, mass_share, cuts[:-1], cuts[1:])
+        cuts = vertex_cuts(geometry.arc_length)
+        return (
+            self.line_density
+            * np.diff(cuts)
+            * mean(self.stations, lambda scale, _: mass_share(scale), cuts)
+        )
+
+    def mass(self, geometry: Geometry) -> Array:
+        """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
+
+        That of the consistent rod is the mean of such a one and of the mass that straight edges have, shape (4 N, 7).
+        """
+        if self.calibration is not None:
+            return self._mass_band(self.part_masses(geometry), np.zeros(self.vertices - 1))[:, :3]
+        edges = edge_masses(self.stations, self.line_density, geometry.arc_length)
+        own = np.append(edges.before, 0.0) + np.insert(edges.after, 0, 0.0)
+        return self._mass_band(own, edges.shared)
+
+    def _mass_band(self, own: Array, shared: Array) -> Array:
+        """Masses of vertices (N,) and between neighbours (N - 1,), times 1, Y02 and Y22, shape (4 N, 7)."""
+        first, second = self.first_inertia, self.second_inertia
+        band = np.zeros((own.size, len(UNKNOWNS), 7))
+        band[:, :2, 0], band[:, :2, 2], band[:, 2:, 0] = (
+            factor * own[:, None] for factor in (1.0, first, second)
+        )
+        band[:-1, :2, 4], band[:-1, :2, 6] = shared[:, None], first * shared[:, None]
+        band[:-1, 2:, 2], band[:-1, 2:, 4] = first * shared[:, None], second * shared[:, None]
+        return band.reshape(-1, 7)
 
     def body(self, geometry: Geometry, couples: Array | None = None) -> RodBody:
-        """The elastic body with the averages of Table 3.1 and its couples, shape (N,) [N m].
+        """The elastic body and its couples, shape (N,) [N m].
 
-        The published energy takes I about the centreline, the consistent one about the area centres.
+        The published energy takes the averages of Table 3.1 and I about the centreline, the consistent one the
+        compliances of its edges and I about the area centres.
         """
-        own = self.area * self.height**2 / 12
-        vertex, edge = lump(
-            self.stations,
-            geometry.arc_length,
-            area=self.area,
-            second_moment=own if self.calibration is None else self.second_moment,
-            young=self.young,
-            poisson=self.poisson,
-        )
+        arc = geometry.arc_length
         if self.calibration is None:
+            stiffness = compliance.stiffnesses(
+                self.stations,
+                arc,
+                area=self.area,
+                second_moment=self.area * self.height**2 / 12,
+                young=self.young,
+                poisson=self.poisson,
+                shear_correction=self.shear_correction,
+                section=self.section,
+            )
             return ConsistentRod(
                 coefficients(
                     geometry,
-                    vertex,
-                    edge,
-                    self.shear_correction,
-                    self.section,
+                    stiffness,
                     np.zeros(self.vertices) if couples is None else couples,
-                    self.barrier,
-                    self.first_inertia,
+                    barrier=self.barrier,
+                    product=self.section == "incompressible",
+                    offset=self.first_inertia,
                 )
             )
+        vertex, edge = lump(
+            self.stations,
+            arc,
+            area=self.area,
+            second_moment=self.second_moment,
+            young=self.young,
+            poisson=self.poisson,
+        )
         stiff = stiffnesses(
             geometry,
             vertex,

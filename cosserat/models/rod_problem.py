@@ -14,8 +14,8 @@ from cosserat.models.drive import Drive, Shift, Turned
 from cosserat.models.loaded_rod import LoadedRod
 from cosserat.models.planar_rod import UNKNOWNS, Geometry
 from cosserat.models.rod import Rod, RodBody
-from cosserat.models.section import mass_share, mean
 from cosserat.parameters import Parameters, Quantity
+from cosserat.solvers.banded import band_product
 
 Array = NDArray[np.float64]
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
@@ -59,7 +59,7 @@ class Support(Parameters):
 
 
 class Gravity(Parameters):
-    """The weight of the rod, lumped at the vertices: rho0 g L, section 3.5."""
+    """The weight of the rod: its mass matrix times a uniform acceleration, which lumped is rho0 g L of section 3.5."""
 
     g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
     along: Direction
@@ -186,13 +186,9 @@ class RodProblem(Parameters):
         """Dead forces on the unknowns of each vertex, shape (N, 4) [N]."""
         load = np.zeros((self.rod.vertices, len(UNKNOWNS)))
         if self.gravity is not None:
-            weight = (
-                self.gravity.g
-                * self.rod.part_masses(geometry)[:, None]
-                * unit_vector(self.gravity.along)
-            )
-            load[:, :2] += weight
-            load[:, 2:] += self.rod.first_inertia * weight  # the weight acts at the centre of mass
+            fall = np.zeros_like(load)
+            fall[:, :2] = self.gravity.g * unit_vector(self.gravity.along)
+            load += band_product(self.mass(geometry), fall.ravel()).reshape(load.shape)
         for line in self.line_loads:
             covered = _overlap(geometry, line.start, self.rod.length if line.end is None else line.end)
             load[:, :2] += line.density * covered[:, None] * unit_vector(line.along)
@@ -220,36 +216,8 @@ class RodProblem(Parameters):
         return moments
 
     def mass(self, geometry: Geometry) -> Array:
-        """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
-
-        The consistent rod takes the mean of that and of the mass that straight edges have, shape (4 N, 7): their errors
-        in a frequency are opposite.
-        """
-        if self.rod.calibration is None:
-            return self._mean_mass(geometry)
-        return self._mass_band(self.rod.part_masses(geometry), np.zeros(geometry.edge_length.size))[
-            :, :3
-        ]
-
-    def _mean_mass(self, geometry: Geometry) -> Array:
-        arc = geometry.arc_length
-        share = mean(self.rod.stations, mass_share, arc[:-1], arc[1:])
-        edge = self.rod.line_density * geometry.edge_length * share
-        own = np.zeros(arc.size)
-        own[:-1] += 5 / 12 * edge
-        own[1:] += 5 / 12 * edge
-        return self._mass_band(own, edge / 12)
-
-    def _mass_band(self, own: Array, shared: Array) -> Array:
-        """Masses of vertices (N,) and between neighbours (N - 1,), times 1, Y02 and Y22, shape (4 N, 7)."""
-        first, second = self.rod.first_inertia, self.rod.second_inertia
-        band = np.zeros((own.size, len(UNKNOWNS), 7))
-        band[:, :2, 0], band[:, :2, 2], band[:, 2:, 0] = (
-            factor * own[:, None] for factor in (1.0, first, second)
-        )
-        band[:-1, :2, 4], band[:-1, :2, 6] = shared[:, None], first * shared[:, None]
-        band[:-1, 2:, 2], band[:-1, 2:, 4] = first * shared[:, None], second * shared[:, None]
-        return band.reshape(-1, 7)
+        """Mass matrix as a symmetric band, eq. (3.3.43)."""
+        return self.rod.mass(geometry)
 
     def drive(self, geometry: Geometry) -> Drive:
         """How held numbers are moved."""

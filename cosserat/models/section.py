@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Sequence
 from typing import Annotated, NamedTuple
 
@@ -40,7 +39,7 @@ class Shares(NamedTuple):
     density: Array
 
 
-Property = Callable[[Shares], Array]
+Property = Callable[[Shares, Array], Array]
 
 
 def mass_share(s: Shares) -> Array:
@@ -62,24 +61,62 @@ def share(stations: Sequence[Station], name: str, xi: Array, *, before: bool) ->
     return result
 
 
-def mean(stations: Sequence[Station], value: Property, low: Array, high: Array) -> Array:
-    """Mean of a property over each interval [low, high].
+def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
+    """Means of properties between neighbouring cuts, shape (..., cuts - 1).
 
-    Gauss's rule with four points on each smooth piece: exact to rounding for the polynomials that linear shares make.
+    value : of shape (..., points), from the scale factors at the points and their places s between the cuts, 0 to 1.
+    Gauss's rule with eight points on each smooth piece: exact to rounding for the polynomials that linear scale
+    factors make, and nearly so for their inverses.
     """
-    if not stations:
-        return value(Shares(*(np.ones_like(low) for _ in Shares._fields)))
-    nodes, weights = np.polynomial.legendre.leggauss(4)
-    breaks = np.array(sorted({s.at for s in stations}))
-    total = np.zeros_like(low)
-    for number, (a, b) in enumerate(zip(low, high, strict=True)):
-        cuts = np.concatenate([[a], breaks[(breaks > a) & (breaks < b)], [b]])
-        for left, right in itertools.pairwise(cuts):
-            xi = (left + right) / 2 + (right - left) / 2 * nodes
-            shares = Shares(*(share(stations, name, xi, before=False) for name in Shares._fields))
-            total[number] += (right - left) / 2 * float(weights @ value(shares))
-    result: Array = total / (high - low)
-    return result
+    count = cuts.size - 1
+    if not stations:  # the same all along: one interval stands for all
+        nodes, weights = _gauss(np.array([0.0, 1.0]))
+        one = value(Shares(*(np.ones_like(nodes) for _ in Shares._fields)), nodes) @ weights
+        return np.repeat(np.asarray(one)[..., None], count, axis=-1)
+    steps = np.array([station.at for station in stations])
+    nodes, weights = _gauss(
+        np.unique(np.concatenate([cuts, steps[(steps > cuts[0]) & (steps < cuts[-1])]]))
+    )
+    owner = np.clip(np.searchsorted(cuts, nodes, side="right") - 1, 0, count - 1)
+    span = (cuts[1:] - cuts[:-1])[owner]
+    shares = Shares(*(share(stations, name, nodes, before=False) for name in Shares._fields))
+    parts = value(shares, (nodes - cuts[owner]) / span) * (weights / span)
+    first = np.searchsorted(owner, np.arange(count))
+    means: Array = np.add.reduceat(parts, first, axis=-1)
+    return means
+
+
+def _gauss(cuts: Array) -> tuple[Array, Array]:
+    """Nodes and weights of Gauss's rule on every interval between neighbouring cuts, in order."""
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    half = (cuts[1:, None] - cuts[:-1, None]) / 2
+    return (cuts[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
+
+
+def vertex_cuts(arc: Array) -> Array:
+    """Arc lengths where the parts round the vertices meet, and both ends, shape (N + 1,) [m]."""
+    return np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
+
+
+class EdgeMasses(NamedTuple):
+    """Masses of the edges between their two vertices a and b, each (N - 1,) [kg]: of a, shared by both, of b."""
+
+    before: Array
+    shared: Array
+    after: Array
+
+
+def edge_masses(stations: Sequence[Station], line_density: float, arc: Array) -> EdgeMasses:
+    """The mean of the lumped and the consistent mass of every edge.
+
+    derived: with s from 0 to 1 along an edge and M_k the integral of s^k over its mass, linear interpolation gives
+    M_0 - 2 M_1 + M_2, M_1 - M_2 and M_2; the two masses at the ends that keep M_0 and M_1 are M_0 - M_1 and M_1.  Both
+    keep mass and centre of mass, and their errors in a frequency are opposite.
+    """
+    M0, M1, M2 = (np.diff(arc) * line_density) * mean(
+        stations, lambda scale, s: mass_share(scale) * s ** np.arange(3)[:, None], arc
+    )
+    return EdgeMasses(M0 - 3 / 2 * M1 + M2 / 2, (M1 - M2) / 2, (M1 + M2) / 2)
 
 
 def lump(
@@ -96,18 +133,22 @@ def lump(
     arc : (N,) arc length of the vertices.  The boundary vertices have the properties of their edges, eq. (3.4.10)
     without its half.  Each of A, I, E, G and nu is averaged by itself, as the table has it.
     """
-    middles = (arc[1:] + arc[:-1]) / 2
-    properties: dict[str, Property] = {
-        "area": lambda s: area * s.width * s.height,
-        "second_moment": lambda s: second_moment * s.width * s.height**3,
-        "young": lambda s: young * s.young,
-        "shear": lambda s: young * s.young / (2 * (1 + poisson * s.poisson)),
-        "poisson": lambda s: poisson * s.poisson,
-    }
 
-    def averaged(low: Array, high: Array) -> dict[str, Array]:
-        return {name: mean(stations, value, low, high) for name, value in properties.items()}
+    def averaged(cuts: Array) -> Array:
+        return mean(
+            stations,
+            lambda s, _: np.stack(
+                [
+                    area * s.width * s.height,
+                    second_moment * s.width * s.height**3,
+                    young * s.young,
+                    young * s.young / (2 * (1 + poisson * s.poisson)),
+                    poisson * s.poisson,
+                ]
+            ),
+            cuts,
+        )
 
-    edge, inner = averaged(arc[:-1], arc[1:]), averaged(middles[:-1], middles[1:])
-    vertex = {name: np.concatenate([edge[name][:1], inner[name], edge[name][-1:]]) for name in edge}
-    return Lumped(**vertex), Lumped(**edge)
+    edge, inner = averaged(arc), averaged(vertex_cuts(arc))
+    vertex = np.concatenate([edge[:, :1], inner[:, 1:-1], edge[:, -1:]], axis=1)
+    return Lumped(*vertex), Lumped(*edge)
