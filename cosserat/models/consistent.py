@@ -174,6 +174,12 @@ class ConsistentRod(CompiledRod):
         rod[:, DIRECTOR_3 : DIRECTOR_2 + 1] = geometry.D
         return ConsistentRod(rod)
 
+    def with_couples(self, couples: Array) -> ConsistentRod:
+        """The same rod with other couples, (N,) [N m]."""
+        rod = self.rod.copy()
+        rod[:, COUPLE] = couples
+        return ConsistentRod(rod)
+
     def evaluate(self, q: Vector, order: int, gradient: Vector, band: Band, terms: Array) -> float:
         """The kernel at q; infinite where a section or an edge has shrunk to nothing or two directors oppose."""
         return float(_assemble(q, self.rod, order, gradient, band, terms))

@@ -100,6 +100,10 @@ class PublishedRod(CompiledRod):
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
         return replace(self, start=angle)
 
+    def with_couples(self, couples: Array) -> PublishedRod:
+        """The same rod with other couples, (N,) [N m]."""
+        return replace(self, couples=couples)
+
     def evaluate(self, q: Vector, order: int, gradient: Vector, band: Band, terms: Array) -> float:
         """The kernel at q; infinite where a section or an edge has vanished or a shear angle has reached pi/2."""
         return float(_assemble(q, self.parameters, order, gradient, band, terms))

@@ -17,7 +17,7 @@ from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.solvers.climb import Climb, Point
 from cosserat.solvers.newton import NewtonSettings
-from cosserat.solvers.path import Arc, follow
+from cosserat.solvers.path import Arc, follow, unloaded
 
 Array = NDArray[np.float64]
 
@@ -72,11 +72,11 @@ class RodPath(RodProblem):
             self.arc.count,
             until=1.0,
             limit=self.arc.limit,
-            switch=self.arc.branch == "leave",
+            branches=int(self.arc.branch == "leave"),
         )
         points: list[Point] = []
         try:
-            points.extend(follow(climb, np.zeros(start.size), arc))
+            points.extend(follow(climb, unloaded(climb, np.zeros(start.size)), arc))
         except NotConvergedError as error:
             if points:
                 error.reached = _outcome(geometry, start, points, climb.iterations)

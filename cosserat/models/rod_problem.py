@@ -201,12 +201,17 @@ class RodProblem(Parameters):
         return self.rod.body(geometry, self._moments())
 
     def loaded(self, geometry: Geometry) -> LoadedRod:
-        """The consistent rod with all its loads, couples and moves growing together."""
+        """The rod with all its loads, couples and moves growing together.
+
+        The consistent rod counts displacements itself, whose rounding is far less than that of positions.
+        """
         rod = self.rod.body(geometry)
-        assert isinstance(rod, ConsistentRod)
-        dead = self.loads(geometry).ravel()
-        held = self.held().ravel()
-        return LoadedRod(rod.displaced(geometry), self._moments(), dead, held, self.drive(geometry))
+        reference = np.hstack([geometry.X, geometry.D])
+        base = reference.ravel()
+        if isinstance(rod, ConsistentRod):
+            rod, base = rod.displaced(geometry), np.zeros_like(base)
+        dead, held = self.loads(geometry).ravel(), self.held().ravel()
+        return LoadedRod(rod, base, self._moments(), dead, held, self.drive(geometry), reference)
 
     def _moments(self) -> Array:
         """Couple at each vertex, shape (N,) [N m]."""

@@ -18,7 +18,8 @@ from cosserat.outcome import Outcome
 from cosserat.solvers.climb import Climb, Point
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.motion import System
-from cosserat.solvers.newton import Equilibrium, NewtonSettings, equilibrium
+from cosserat.solvers.newton import Equilibrium, NewtonSettings
+from cosserat.solvers.path import lead
 
 Array = NDArray[np.float64]
 _MOTIONS = ("translation along E3", "translation along E2", "rotation")
@@ -69,24 +70,22 @@ class RodStatics(RodProblem):
         return modes(system, at_rest, count, name, anchored=True)
 
     def equilibrium(self, geometry: Geometry, body: RodBody, load: Array, name: str) -> Equilibrium:
-        """The equilibrium of this problem's body under given loads, shape (N, 4)."""
+        """The equilibrium that the loads lead to as they grow together."""
         reference = np.hstack([geometry.X, geometry.D])
-        held = self.held()
-        refuse_rigid_motion(reference, held, name)
-        start = reference.ravel() + self.drive(geometry).grown(1.0)[0]
-        if self.rod.calibration is None:
-            climb = Climb(self.loaded(geometry), self.newton, name)
-            try:
-                return _as_equilibrium(climb, climb.to(np.zeros(reference.size), 1.0), reference.ravel())
-            except NotConvergedError as error:
-                if climb.last is not None:
-                    last, part = _as_equilibrium(climb, climb.last, reference.ravel()), climb.last.factor
-                    error.reached = Outcome(
-                        _fields(geometry, body, last, part * load),
-                        _statistics(last) | {"load_factor_reached": part},
-                    )
-                raise
-        return equilibrium(body, start, load.ravel(), held.ravel(), self.newton, name)
+        refuse_rigid_motion(reference, self.held(), name)
+        climb = Climb(self.loaded(geometry), self.newton, name)
+        try:
+            return _as_equilibrium(climb, lead(climb, np.zeros(reference.size)), reference.ravel())
+        except NotConvergedError as error:
+            if error.state is not None:
+                last = climb.at(error.state, error.factor)
+                assert last is not None  # it was one
+                state = _as_equilibrium(climb, last, reference.ravel())
+                error.reached = Outcome(
+                    _fields(geometry, body, state, last.factor * load),
+                    _statistics(state) | {"load_factor_reached": last.factor},
+                )
+            raise
 
 
 def _as_equilibrium(climb: Climb, point: Point, reference: Array) -> Equilibrium:
@@ -96,7 +95,7 @@ def _as_equilibrium(climb: Climb, point: Point, reference: Array) -> Equilibrium
         point.reaction,
         point.iterations,
         shortened=climb.halvings,
-        shifted=climb.pushes,
+        shifted=climb.branchings,
         residual=point.residual,
         tolerance=point.tolerance,
         rounding=point.rounding,

@@ -28,6 +28,7 @@ from cosserat.models.rod_problem import PointForce
 from cosserat.models.rod_statics import RodStatics
 from cosserat.solvers.climb import Climb
 from cosserat.solvers.motion import IntegratorSettings, advance
+from cosserat.solvers.path import lead
 from cosserat.table.readouts import period
 
 RUNS = 5
@@ -156,7 +157,7 @@ def _solve(problem: Problem, posed: RodStatics | RodMotion) -> tuple[dict[str, A
     if isinstance(posed, RodStatics):  # as for the others, the model is built before
         loaded = posed.loaded(posed.rod.geometry())
         start = time.perf_counter()
-        found = Climb(loaded, posed.newton, problem.name).to(np.zeros(loaded.held.size), 1.0)
+        found = lead(Climb(loaded, posed.newton, problem.name), np.zeros(loaded.held.size))
         taken = time.perf_counter() - start
         u = found.q.reshape(-1, 4)[:, 1]
         return {"profile": u.tolist(), "tip": float(u[-1])}, taken

@@ -2,8 +2,7 @@
 
 Slender bodies turn far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
 creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how
-much of a step that is.  Where a load is too much for one go it is halved; where the equilibrium found is unstable the
-body is pushed along its softest motion and comes to rest elsewhere.  Nothing here knows what the unknowns mean.
+much of a step that is.  Nothing here knows what the unknowns mean.
 """
 
 from __future__ import annotations
@@ -12,6 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cosserat.errors import NotConvergedError
 from cosserat.solvers.banded import (
@@ -19,18 +19,22 @@ from cosserat.solvers.banded import (
     Mask,
     Vector,
     absolute_product,
+    band_product,
     hold,
     negative_eigenvalues,
     solve_positive,
 )
-from cosserat.solvers.indefinite import shifted, softest, solve_any
+from cosserat.solvers.indefinite import softest, solve_any
 from cosserat.solvers.newton import NewtonSettings
 
+Fields = NDArray[np.float64]
+
 _EPS = float(np.finfo(float).eps)
-SMALLEST = 2.0**-12  # share of the load below which halving gives up
+SMALLEST = 2.0**-24  # share of the first arc below which halving gives up
 _BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answer worthless
 _ROUGH = 16.0  # multiple of the estimate below which a residual that no longer falls is rounding
-_PUSH = 0.05  # share of its reach by which an unstable body is pushed
+_POLISH = 6  # Newton steps beyond the tolerance
+_SURE = 5.0  # multiple of its rounding from which on a force decides to which side a body buckles
 
 
 class Loaded(Protocol):
@@ -70,6 +74,12 @@ class Loaded(Protocol):
     def reach(self, q: Vector, step: Vector) -> float:
         """Largest share of a step that turns no part by more than is safe."""
 
+    def rates(self, q: Vector, change: Vector) -> Fields:
+        """How fast the parts of the body turn [rad] and stretch as the unknowns change, (parts, 2)."""
+
+    def foretold(self, q: Vector, moved: Fields, factor: float) -> Vector:
+        """The unknowns at a factor after the parts have turned and stretched by so much."""
+
 
 @dataclass(frozen=True)
 class Point:
@@ -96,54 +106,30 @@ class Point:
 
 
 class Climb:
-    """Equilibria at given factors, from the reference on."""
+    """Equilibria at given factors, and what finding them took.
+
+    branchings : how often a path was left where another crosses it.  undecided : factors at which the body was so
+    symmetric that nothing decides the side to which it goes.  turned_back : the load had to fall before it could grow.
+    """
 
     def __init__(self, body: Loaded, settings: NewtonSettings, name: str) -> None:
         n = body.held.size
         self.body, self.settings, self.name = body, settings, name
         self.gradient, self.band = np.empty(n), np.empty((n, body.half_bandwidth + 1))
-        self.iterations = self.halvings = self.pushes = 0
-        self.last: Point | None = None  # the equilibrium that `to` found last
+        self.iterations = self.halvings = self.branchings = 0
+        self.undecided: list[float] = []
+        self.turned_back = False
         self.remedy = (
             "the path may turn back there: follow it with kind = 'rod path', raise 'newton.max_iterations' if it is "
             "small, or check supports and loads"
         )
 
-    def to(self, start: Vector, factor: float) -> Point:
-        """A stable equilibrium at the factor, by as few increments as it takes.
-
-        Raises
-        ------
-        NotConvergedError : with the factor that was reached, and the last equilibrium as `state`.
-        """
-        last: Point | None = None
-        q, done, increment = start, 0.0, factor / self.settings.load_steps
-        increment = float(np.clip(increment, -self.body.stride, self.body.stride))
-        with np.errstate(over="ignore", invalid="ignore"):
-            while done != factor:
-                goal = factor if abs(factor - done) <= 1.001 * abs(increment) else done + increment
-                point = self.at(q, goal)
-                if point is not None and not point.stable:
-                    point = self._pushed(point)
-                if point is None:
-                    self.halvings += 1
-                    increment /= 2
-                    if abs(increment) < SMALLEST * abs(factor):
-                        raise self.failure(done, goal, last)
-                    continue
-                last = self.last = point
-                q, done = point.q, goal
-        if last is None:  # no load at all
-            last = self.at(start, factor)
-            if last is None:
-                raise self.failure(0.0, factor, None)
-        return last
-
-    def at(self, q: Vector, factor: float, *, downhill: bool = False) -> Point | None:
+    def at(self, q: Vector, factor: float, *, share: float | None = None) -> Point | None:
         """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.
 
-        downhill : where the Hessian is not positive, take the step of a shifted one, which lowers the potential.
+        share : of the loads that may be left unbalanced, in place of the tolerance of the settings.
         """
+        allowed = self.settings.tolerance if share is None else share
         body, held = self.body, self.body.held
         q = body.place(q, factor)
         load = float(np.abs(body.load(factor)).max())
@@ -157,7 +143,7 @@ class Climb:
             largest = max(largest, residual)
             rounding = self.rounding(q)
             scale = max(load, float(np.abs(self.gradient[held]).max(initial=0.0)), largest * (load == 0))
-            tolerance = max(self.settings.tolerance * scale, rounding)
+            tolerance = max(allowed * scale, rounding)
             if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
                 if iteration > 0:
                     return None  # a step went astray, to where everything is stiff
@@ -185,7 +171,7 @@ class Climb:
                 )
             last = residual
             if step is None:
-                step = shifted(self.band, unbalanced) if downhill else solve_any(self.band, unbalanced)
+                step = solve_any(self.band, unbalanced)
             if step is None or not np.isfinite(step).all():
                 return None
             q = q + min(1.0, body.reach(q, step)) * step
@@ -197,21 +183,50 @@ class Climb:
         size = np.maximum(np.abs(q), self.body.grain)
         return _EPS * float(absolute_product(self.band, size).max())
 
-    def softest_motion(self, point: Point) -> Vector:
-        """The softest motion at a point, one reach long, to the side that the loads push to."""
-        self.body.assemble(point.q, point.factor, self.gradient, self.band)
-        hold(self.band, self.body.held)
-        motion = softest(self.band, self.body.held)
-        if float(self.body.load(point.factor, signed=True) @ motion) < 0:
-            motion = -motion
-        return self.body.reach(point.q, motion) * motion
+    def softest_motion(self, before: Point, after: Point) -> tuple[Vector, bool]:
+        """The softest motion of a stable body that is about to buckle, one reach long, and whether its side is decided.
 
-    def _pushed(self, point: Point) -> Point | None:
-        """From an unstable equilibrium, along its softest motion, to another one."""
-        self.pushes += 1
-        motion = self.softest_motion(point)
-        found = self.at(point.q + _PUSH * motion, point.factor, downhill=True)
-        return found if found is not None and found.stable else None
+        before, after : on both sides of the load at which it loses its stability.
+
+        The growing load pulls along the motion with -motion . rate.  What is left of that pull without the softening
+        is an imperfection; where it drowns in rounding the body is symmetric and both sides are alike: the one of the
+        positive largest entry is taken.
+        """
+        body = self.body
+        q = self._polished(before)
+        body.assemble(q, before.factor, self.gradient, self.band)
+        rate = body.rate(q, before.factor, self.band)
+        hold(self.band, body.held)
+        motion = softest(self.band, body.held)
+        motion *= np.sign(motion[np.abs(motion).argmax()])
+        pull = -float(motion @ rate)
+        size = np.maximum(np.abs(q), body.grain)
+        noise = _EPS * float(np.linalg.norm(motion * absolute_product(self.band, size)))
+        stiff = float(motion @ band_product(self.band, motion))
+        body.assemble(after.q, after.factor, self.gradient, self.band)
+        hold(self.band, body.held)
+        softening = (stiff - float(motion @ band_product(self.band, motion))) / max(
+            abs(after.factor - before.factor), _EPS
+        )
+        magnified = 1 + abs(before.factor * softening / max(stiff, _EPS * abs(softening)))
+        decided = abs(pull * before.factor) > _SURE * magnified * noise
+        if decided and pull < 0:
+            motion = -motion
+        return body.reach(q, motion) * motion, decided
+
+    def _polished(self, point: Point) -> Vector:
+        """The unknowns of a stable point after Newton steps beyond the tolerance, down to rounding."""
+        body, q, last = self.body, point.q, np.inf
+        for _ in range(_POLISH):
+            body.assemble(q, point.factor, self.gradient, self.band)
+            unbalanced = np.where(body.held, 0.0, -self.gradient)
+            residual = float(np.abs(unbalanced).max())
+            hold(self.band, body.held)
+            step = solve_positive(self.band, unbalanced)
+            if step is None or residual >= last:
+                break
+            q, last = q + step, residual
+        return q
 
     def failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
         """An error that says how far the load came and what was tried next."""

@@ -1,7 +1,9 @@
-"""The path of equilibria of a slender elastic body whose load grows, past limit points and branches.
+"""The equilibria that a slender elastic body goes through as its load grows, past limit points and branches.
 
-By pseudo-arclength (Keller 1977; Crisfield 1991, chapter 9).  An arc is taken anew, half as long, where its end lies
-off the tangent, or where the path turns, more than a share of it: so no other path that comes near is taken for this.
+`follow` takes every point of the path by pseudo-arclength (Keller 1977; Crisfield 1991, chapter 9).  An arc is taken
+anew, half as long, where its end lies off the tangent, or where the path turns, more than a share of it: so no other
+path that comes near is taken for this.  `lead` wants the end alone.  It takes increments of the load as long as the
+tangent foretells them and the body stays stable, and follows the path from where it does not.
 """
 
 from __future__ import annotations
@@ -11,14 +13,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosserat.solvers.banded import Vector, hold, negative_eigenvalues
-from cosserat.solvers.climb import SMALLEST, Climb, Loaded, Point, stalled
+from cosserat.solvers.banded import Vector, hold, negative_eigenvalues, solve_positive
+from cosserat.solvers.climb import SMALLEST, Climb, Fields, Loaded, Point, stalled
 from cosserat.solvers.indefinite import solve_any
 
 _CLOSE = 0.02  # share of the first arc to which a crossing of paths is closed in on
 _STRAY = 0.2  # share of an arc by which a point may lie off the tangent
 _BEND = 0.9  # least cosine of the angle by which a path may turn within an arc
 _AWAY = 10.0  # multiple of the first arc from which on a branch can come back to its beginning
+_FORETOLD = 0.3  # share of an increment by which its end may lie off what is foretold
+_STILL = 1e-5  # turning below which an increment needs no foretelling [rad]
+_ON_THE_WAY = 1e-8  # share of the loads that may be left unbalanced before the end
+_TURN = 0.7  # most that a part may turn in an increment [rad]
+_MOST = 10_000  # arcs on the way to one equilibrium
+_TRIES = 4  # increments refused in a row before the path is followed
 _EASY, _HARD = 4, 8  # corrector iterations below which the arc grows and above which it shrinks
 
 
@@ -28,7 +36,7 @@ class Arc:
 
     A length is the change of the unknowns in the norm of the largest, as a share of the reach of the body, and that of
     the factor.  until : factor at which the path ends.  limit : factor beyond which it is given up.
-    switch : whether to leave the path where it branches.
+    branches : how often to leave the path where it branches and the body is so symmetric that it could stay.
     """
 
     first: float
@@ -36,14 +44,80 @@ class Arc:
     count: int
     until: float
     limit: float
-    switch: bool
+    branches: int
 
 
-def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
-    """Points along the path from the factor zero on, by pseudo-arclength, until the factor passes `until`.
+def lead(climb: Climb, start: Vector) -> Point:
+    """The equilibrium at the factor one that the load leads to as it grows from nothing.
 
-    Where an eigenvalue changes its sign without the path turning back, another path crosses: the crossing is closed in
-    on by halving, and the path left along the softest motion there.
+    Raises
+    ------
+    NotConvergedError : no path leads there, or to no stable equilibrium; the last point is its `state`.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused, not warned of
+        point = _foretold(climb, unloaded(climb, start))
+        if point.factor == 1.0:
+            return point
+        point = climb.at(point.q, point.factor) or point
+        arc = Arc(first=0.05, longest=0.3, count=_MOST, until=1.0, limit=3.0, branches=_MOST)
+        last = point
+        for last in follow(climb, point, arc):
+            climb.turned_back |= not last.stable
+    if last.factor != 1.0 or not last.stable:
+        raise climb.failure(point.factor, 1.0, last)
+    return last
+
+
+def unloaded(climb: Climb, start: Vector) -> Point:
+    """The equilibrium without any load."""
+    point = climb.at(start, 0.0)
+    if point is None:
+        raise climb.failure(0.0, 0.0, None)
+    return point
+
+
+def _foretold(climb: Climb, point: Point) -> Point:
+    """The last equilibrium that increments reach which the path before them foretells."""
+    body, refused = climb.body, 0
+    longest = min(1.0 / climb.settings.load_steps, body.stride)
+    increment = longest
+    before: tuple[float, Fields] | None = None
+    bend: Fields = np.zeros(())
+    while point.factor < 1.0 and point.stable and refused < _TRIES:
+        slope = _slope(climb, point)
+        if slope is None:
+            break
+        rates = body.rates(point.q, slope)
+        if before is not None:
+            bend = (rates - before[1]) / (point.factor - before[0])
+        fastest = float(np.abs(rates).max())
+        increment = min(increment, longest, _TURN / fastest if fastest > 0 else longest)
+        goal = point.factor + increment if point.factor + 1.001 * increment < 1.0 else 1.0
+        step = goal - point.factor
+        moved = step * (rates + step / 2 * bend)
+        found = climb.at(
+            body.foretold(point.q, moved, goal), goal, share=None if goal == 1.0 else _ON_THE_WAY
+        )
+        off = np.inf
+        if found is not None and found.stable:
+            turned = body.rates((point.q + found.q) / 2, found.q - point.q)
+            off = float(np.abs(turned - moved).max()) / max(float(np.abs(turned).max()), _STILL)
+        if found is None or off > _FORETOLD:
+            refused += 1
+            climb.halvings += 1
+            increment = step / 2
+            continue
+        before, point, refused = (point.factor, rates), found, 0
+        increment *= float(np.clip(np.sqrt(_FORETOLD / 2 / max(off, 1e-3)), 0.5, 2.0))
+    return point
+
+
+def follow(climb: Climb, point: Point, arc: Arc) -> Iterator[Point]:
+    """Points along the path from a first one on, by pseudo-arclength, until the factor passes `until`.
+
+    Where an eigenvalue changes its sign without the path turning back, another path crosses or comes near: the crossing
+    is closed in on by halving, and the path goes on along the softest motion there.  Where the body is so symmetric
+    that the path could also stay, it does so once it has left as often as it may.
 
     Raises
     ------
@@ -51,31 +125,29 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
         the last point is its `state`.
     """
     climb.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
-    point = climb.at(start, 0.0)
-    if point is None:
-        raise climb.failure(0.0, 0.0, None)
     yield point
-    body, switch, origin, went_away = climb.body, arc.switch, None, False
+    body, origin, went_away, left = climb.body, None, False, 0
     direction = _tangent(climb, point, None)
     ds = arc.first
     for _ in range(arc.count):
         before = climb.iterations
-        found, ahead, ds = _next(climb, point, direction, ds, arc)
+        (found, ahead, ds), across = _crossing_or_turn(climb, point, direction, ds, arc)
         if _peaks_beyond(point, direction, found, ahead, ds, arc.until) and ds > _CLOSE * arc.first:
             ds /= 2
             continue
         effort = climb.iterations - before
-        if switch and found.negative != point.negative and ahead[1] * direction[1] > 0:
-            near, found = _crossing(climb, point, direction, ds, arc)
-            if near is not point:
-                yield near
-            branch = _branch(climb, found, arc)
-            if branch is None:
-                raise climb.failure(found.factor, found.factor, point)
-            away = branch.q - found.q
-            size = _apart(body, branch, found)
-            ahead = _tangent(climb, branch, (away / size, (branch.factor - found.factor) / size))
-            origin, found, switch, ds = found, branch, False, arc.first
+        if across is not None:
+            motion, decided = climb.softest_motion(*across)
+            if decided or left < arc.branches:
+                climb.branchings += 1
+                if not decided:
+                    left += 1
+                    climb.undecided.append(across[0].factor)
+                if across[0] is not point:
+                    yield across[0]
+                origin = point = across[0]
+                found, direction, ds = _branch(climb, point, motion, arc)
+                ahead = _tangent(climb, found, direction)
         if (found.factor - arc.until) * (point.factor - arc.until) <= 0:
             last = _at_end(climb, point, found, arc.until)
             if last.negative != point.negative and ds > _CLOSE * arc.first:
@@ -83,11 +155,7 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
                 continue
             yield last
             return
-        if abs(found.factor) > arc.limit:
-            raise climb.stopped(
-                f"the path goes to {found.factor:.4g} of the load, beyond 'arc.limit' = {arc.limit:g}; raise it",
-                point,
-            )
+        _refuse_beyond(climb, point, found, arc)
         if origin is not None:
             distance = _apart(body, origin, found)
             went_away = went_away or distance > _AWAY * arc.first
@@ -102,6 +170,35 @@ def follow(climb: Climb, start: Vector, arc: Arc) -> Iterator[Point]:
         ds = min(arc.longest, 2 * ds) if effort <= _EASY else ds / 2 if effort > _HARD else ds
 
 
+def _refuse_beyond(climb: Climb, point: Point, found: Point, arc: Arc) -> None:
+    """Raise NotConvergedError where the path goes beyond its limit."""
+    if abs(found.factor) > arc.limit:
+        raise climb.stopped(
+            f"the path goes to {found.factor:.4g} of the load, beyond 'arc.limit' = {arc.limit:g}; raise it",
+            point,
+        )
+
+
+def _crossing_or_turn(
+    climb: Climb, point: Point, direction: tuple[Vector, float], ds: float, arc: Arc
+) -> tuple[tuple[Point, tuple[Vector, float], float], tuple[Point, Point] | None]:
+    """The next point, direction and arc; and the points on both sides of a crossing on the way there, if any.
+
+    Raises
+    ------
+    NotConvergedError : there is no next point.
+    """
+    further = _next(climb, point, direction, ds, arc)
+    if further is None:
+        across = _sharp_turn(climb, point, direction, arc)
+        if across is None:
+            raise climb.failure(point.factor, point.factor + direction[1] * ds, point)
+        return (across[1], direction, ds), across
+    found, ahead, ds = further
+    crosses = found.negative != point.negative and ahead[1] * direction[1] > 0
+    return further, _crossing(climb, point, direction, ds, arc) if crosses else None
+
+
 def _at_end(climb: Climb, point: Point, found: Point, until: float) -> Point:
     """The equilibrium at the end of the path, between two points of it; the second of them where there is none."""
     share = (until - point.factor) / (found.factor - point.factor)
@@ -111,8 +208,8 @@ def _at_end(climb: Climb, point: Point, found: Point, until: float) -> Point:
 
 def _next(
     climb: Climb, point: Point, direction: tuple[Vector, float], ds: float, arc: Arc
-) -> tuple[Point, tuple[Vector, float], float]:
-    """The next point along a direction, the direction there, and the arc that led to it."""
+) -> tuple[Point, tuple[Vector, float], float] | None:
+    """The next point along a direction, the direction there, and the arc that led to it; None where there is none."""
     while ds > SMALLEST * arc.first:
         found = _corrected(climb, point, *direction, ds, _STRAY * ds)
         if found is not None:
@@ -120,7 +217,15 @@ def _next(
             if _cosine(direction, ahead) > _BEND:
                 return found, ahead, ds
         ds /= 2
-    raise climb.failure(point.factor, point.factor + direction[1] * ds, point)
+    return None
+
+
+def _sharp_turn(
+    climb: Climb, point: Point, direction: tuple[Vector, float], arc: Arc
+) -> tuple[Point, Point] | None:
+    """A stable point where the body turns aside too sharply for arcs to follow, and an unstable one straight on."""
+    found = climb.at(point.q, point.factor + _CLOSE * arc.first * np.sign(direction[1]))
+    return (point, found) if point.stable and found is not None and not found.stable else None
 
 
 def _peaks_beyond(
@@ -180,16 +285,22 @@ def _apart(body: Loaded, one: Point, other: Point) -> float:
     return float(np.hypot(_norm(body, one.q, other.q - one.q), other.factor - one.factor))
 
 
-def _tangent(climb: Climb, point: Point, before: tuple[Vector, float] | None) -> tuple[Vector, float]:
-    """Direction of the path at a point: change of unknowns and factor, of unit length, going on from before."""
+def _slope(climb: Climb, point: Point) -> Vector | None:
+    """Change of the unknowns with the factor at a point; None where the Hessian is singular."""
     body = climb.body
     body.assemble(point.q, point.factor, climb.gradient, climb.band)
     rate = body.rate(point.q, point.factor, climb.band)
     hold(climb.band, body.held)
-    change = solve_any(climb.band, np.where(body.held, 0.0, -rate))
-    change = np.where(
-        body.held, body.moving(point.factor), np.zeros_like(point.q) if change is None else change
-    )
+    right = np.where(body.held, 0.0, -rate)
+    change = solve_positive(climb.band, right) if point.stable else solve_any(climb.band, right)
+    return None if change is None else np.where(body.held, body.moving(point.factor), change)
+
+
+def _tangent(climb: Climb, point: Point, before: tuple[Vector, float] | None) -> tuple[Vector, float]:
+    """Direction of the path at a point: change of unknowns and factor, of unit length, going on from before."""
+    body, change = climb.body, _slope(climb, point)
+    if change is None:
+        change = np.where(body.held, body.moving(point.factor), np.zeros_like(point.q))
     size = np.hypot(_norm(body, point.q, change), 1.0)
     change, slope = change / size, 1.0 / size
     if before is not None and float(change @ before[0]) + slope * before[1] * _weight(before[0]) < 0:
@@ -249,12 +360,21 @@ def _corrected(
     return None
 
 
-def _branch(climb: Climb, point: Point, arc: Arc) -> Point | None:
-    """A point on the path that leaves this one along its softest motion, to the side that the loads push to."""
-    body, motion, ds = climb.body, climb.softest_motion(point), arc.first
+def _branch(
+    climb: Climb, point: Point, motion: Vector, arc: Arc
+) -> tuple[Point, tuple[Vector, float], float]:
+    """A point on the path that leaves this one along a motion, the direction to it and the arc that led there.
+
+    Raises
+    ------
+    NotConvergedError : there is none.
+    """
+    body, ds = climb.body, arc.first
     while ds > SMALLEST * arc.first:
         found = _corrected(climb, point, motion, 0.0, ds, arc.first)
         if found is not None and _norm(body, point.q, found.q - point.q) > ds / 4:
-            return found
+            size = _apart(body, found, point)
+            away = (found.q - point.q) / size, (found.factor - point.factor) / size
+            return found, away, ds
         ds /= 2
-    return None
+    raise climb.failure(point.factor, point.factor, point)
