@@ -62,6 +62,16 @@ class OutOfReachError(CosseratError):
     """A state exists but the theory cannot place it in space."""
 
 
+class CrossingError(CosseratError):
+    """Neighbouring sections of a rod cross: its material would pass through itself.
+
+    reached, dataset : what was reached before, or None, as of NotConvergedError.
+    """
+
+    reached: Outcome | None = None
+    dataset: xr.Dataset | None = None
+
+
 class UnstableError(CosseratError):
     """Small motions about a configuration grow, so that it has no vibrations."""
 

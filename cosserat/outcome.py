@@ -17,8 +17,10 @@ class Outcome:
     """fields : arrays by variable name, SI units.  statistics : what the solver did, by name.
 
     along : the dimension that a field with one more than it has in `data.variables` begins with.
+    warnings : what a user should know before using the numbers, a sentence each that begins with a name.
     """
 
     fields: Mapping[str, NDArray[np.float64]]
     statistics: Mapping[str, int | float]
     along: str = "time"
+    warnings: tuple[str, ...] = ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import xarray as xr
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.dataset import to_dataset
 from cosserat.data.parts import Parts
-from cosserat.errors import InputError, NotConvergedError
+from cosserat.errors import CrossingError, InputError, NotConvergedError
 from cosserat.models.peristalsis import Crawl
 from cosserat.models.rod_course import Course, resumed
 from cosserat.models.rod_motion import RodMotion
@@ -42,7 +43,7 @@ def run(case: Case | str, *, result: Path | None = None, progress: Progress | No
     name = f"case '{known.name}'"
     try:
         outcome = _outcome_of(known, name, result, progress)
-    except NotConvergedError as error:
+    except (NotConvergedError, CrossingError) as error:
         if error.reached is not None:
             error.dataset = to_dataset(known, error.reached)
         raise
@@ -80,7 +81,8 @@ def _in_parts(
                 (number + 1) / course.parts,
                 f"{outcome.fields['time'][-1]:.4g} of {problem.duration:g} s",
             )
-    return _joined(done, course.legs)
+    whole = _joined(done, course.legs)
+    return replace(whole, warnings=course.warnings(whole))
 
 
 def _outcome(stored: xr.Dataset) -> Outcome:

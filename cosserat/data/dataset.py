@@ -63,7 +63,14 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
         "solver": _sorted_json(dict(outcome.statistics)),
         "environment": _sorted_json(environment()),
     }
+    if outcome.warnings:
+        dataset.attrs["warnings"] = "\n".join(outcome.warnings)
     return dataset
+
+
+def warnings_of(dataset: xr.Dataset) -> list[str]:
+    """What a user should know before using the numbers, a sentence each; none where all is well."""
+    return str(dataset.attrs.get("warnings", "")).splitlines()
 
 
 def case_of(dataset: xr.Dataset) -> Case:

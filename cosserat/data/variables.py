@@ -107,6 +107,12 @@ VARIABLES: dict[str, Variable] = {
     "load_potential": Variable(
         ("time",), "J", "potential of the dead loads and couples", "-W", "3.3.40", 1e-9
     ),
+    "dissipated_energy": Variable(
+        ("time",), "J", "energy that the damping has taken since the start", "", "section 3.5", 1e-9
+    ),
+    "support_work": Variable(
+        ("time",), "J", "work that moved supports have done since the start", "", "3.3.40", 1e-9
+    ),
     "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-7),
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from cosserat.solvers.banded import Band, Vector
 
 Array = NDArray[np.float64]
+_NO_MEASURES = np.empty((0, 4))
 _ROOM = 8  # terms of a kernel, those of its couples included
 
 
@@ -31,34 +32,31 @@ class CompiledRod(ABC):
     def parameters(self) -> Array:
         """What the kernel takes besides the unknowns."""
 
-    @property
     @abstractmethod
-    def averaged(self) -> int:
-        """Column of the parameters that shifts measures too stiff for the middle of a step, or -1."""
-
-    @abstractmethod
-    def evaluate(self, q: Vector, order: int, gradient: Vector, band: Band, terms: Array) -> float:
-        """The kernel at q."""
+    def evaluate(
+        self, q: Vector, order: int, measures: Array, gradient: Vector, band: Band, terms: Array
+    ) -> float:
+        """The kernel at q, not in a step."""
 
     def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
         """Strain energy less the work of the couples [J] at q, shape (4 N,), from the reference on.
 
         Overwrites gradient and band.  The energy is infinite where the rod has collapsed; the kernel says when.
         """
-        return self.evaluate(q, 2, gradient, band, np.empty(_ROOM))
+        return self.evaluate(q, 2, _NO_MEASURES, gradient, band, np.empty(_ROOM))
 
     def differentiate(self, q: Vector, gradient: Vector) -> float:
         """The same energy [J]; overwrites its gradient, shape (4 N,) [N]."""
-        return self.evaluate(q, 1, gradient, self._no_band, np.empty(_ROOM))
+        return self.evaluate(q, 1, _NO_MEASURES, gradient, self._no_band, np.empty(_ROOM))
 
     def energy(self, q: Vector) -> float:
         """The same energy [J]."""
-        return self.evaluate(q, 0, np.empty(0), self._no_band, np.empty(_ROOM))
+        return self.evaluate(q, 0, _NO_MEASURES, np.empty(0), self._no_band, np.empty(_ROOM))
 
     def energy_terms(self, q: Vector) -> Array:
         """The parts of the energy at q, in the order of the rod's `TERMS`, shape (7,) [J]."""
         terms = np.empty(_ROOM)
-        self.evaluate(q, 0, np.empty(0), self._no_band, terms)
+        self.evaluate(q, 0, _NO_MEASURES, np.empty(0), self._no_band, terms)
         return terms[:7]
 
     @property

@@ -48,19 +48,15 @@ TERMS = (
 )
 """The parts of the energy, in the order of `energy_terms`."""
 
-_CAP = 0.05
-"""Pressure over 2 mu A up to which the Hessian counts its geometric stiffness in a step of motion.
-
-On the way to an answer a change of s leaves a pressure of Lambda s^2, which the next iteration takes away again.
-"""
-
 _STIFF = 5.0
-"""Lambda over 2 mu from which on the pressure in motion is a mean: Poisson's ratio 0.45 in plane strain."""
+"""Lambda over 2 mu from which on a volume is stiff: Poisson's ratio 0.45 in plane strain."""
 
 (EDGE, AXIAL, SLIDE, TURN, K_AXIAL, K_VOLUME, K_SHEAR, K_BENDING, K_JUMP) = range(9)
 (DIRECTOR, VORONOI, K_SECTION, COUPLE, BARRIER, ANGLE) = range(9, 15)
-(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, OFFSET, SHIFT, START) = range(15, 23)
+(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, OFFSET, START) = range(15, 22)
 """Columns of what the kernel reads; `coefficients` says what they hold."""
+STRAIN, SLIDING, TURNING, STRETCH = range(4)
+"""Columns of the measures: of edge K the axial strain, the shear and the turning; of vertex K the section stretch."""
 
 
 def coefficients(
@@ -72,14 +68,13 @@ def coefficients(
     product: bool,
     offset: float = 0.0,
 ) -> Array:
-    """What the kernel needs, shape (N, 23): row K has edge K (the last row none), vertex K and its couple.
+    """What the kernel needs, shape (N, 22): row K has edge K (the last row none), vertex K and its couple.
 
     Of the edge: length; axial measure, shear measure and turning in the reference; 2 mu A, Lambda A, k mu A, EI, mu I.
     Of the vertex: |D|, L, 2 mu A, the couple [N m], one for the barriers of Fig. 3.7, and the angle of the director in
     the reference, counted on from vertex to vertex.  Then four numbers that are zero, or what `ConsistentRod.displaced`
-    puts there; one where the product of the stretches is the volume, not their sum; the offset; a number added to the
-    change of volume, zero but in a step of motion; and, in row 0, the angle within half a turn of which that of the
-    first director is counted.
+    puts there; one where the product of the stretches is the volume, not their sum; the offset; and, in row 0, the
+    angle within half a turn of which that of the first director is counted.
 
     offset : of the area centres from the centreline, in directors; edges run from one area centre to the next, and the
         second moment is about them.
@@ -148,10 +143,9 @@ class ConsistentRod(CompiledRod):
         return self.rod
 
     @property
-    def averaged(self) -> int:
-        """In motion, whether the pressure is the mean of those at both ends of a step: where volume is stiff."""
-        stiff = bool((self.rod[:, K_VOLUME] > _STIFF * self.rod[:, K_AXIAL]).any())
-        return SHIFT if stiff else -1
+    def stiff_volume(self) -> bool:
+        """Whether a change of volume costs so much more than one of shape that motions have to begin without."""
+        return bool((self.rod[:, K_VOLUME] > _STIFF * self.rod[:, K_AXIAL]).any())
 
     @property
     def offset(self) -> float:
@@ -180,9 +174,14 @@ class ConsistentRod(CompiledRod):
         rod[:, COUPLE] = couples
         return ConsistentRod(rod)
 
-    def evaluate(self, q: Vector, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+    def evaluate(
+        self, q: Vector, order: int, measures: Array, gradient: Vector, band: Band, terms: Array
+    ) -> float:
         """The kernel at q; infinite where a section or an edge has shrunk to nothing or two directors oppose."""
-        return float(_assemble(q, self.rod, order, gradient, band, terms))
+        return float(_assemble(q, _NOTHING, self.rod, order, measures, gradient, band, terms))
+
+
+_NOTHING = np.empty(0)
 
 
 @njit(cache=True)
@@ -232,72 +231,121 @@ def _turn(band: Band, p: int, n0: float, n1: float, across: float, twist: float)
 
 
 @njit(cache=True, error_model="numpy")
-def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
-    """The energy and its parts; with order 1 also the gradient, with 2 the Hessian too; with 3 changes of volume."""
+def _measured(
+    e0: float, e1: float, n0: float, n1: float, p0: float, p1: float
+) -> tuple[float, float, float, float, float]:
+    """h a, h g and the turning of an edge e between two directions, and the direction m between them."""
+    s0, s1 = n0 + p0, n1 + p1
+    both = np.sqrt(s0 * s0 + s1 * s1)
+    m0, m1 = s0 / both, s1 / both
+    return e0 * m1 - e1 * m0, e0 * m0 + e1 * m1, np.arctan2(n0 * p1 - n1 * p0, n0 * p0 + n1 * p1), m0, m1
+
+
+@njit(cache=True)
+def _volume(strain: float, wide: float, product: bool) -> float:
+    """Change of volume of an edge by its axial strain and the mean stretch of its sections."""
+    return (1 + strain) * wide - 1 if product else strain + wide - 1
+
+
+@njit(cache=True, error_model="numpy")
+def _assemble(
+    q: Vector,
+    after: Vector,
+    rod: Array,
+    order: int,
+    measures: Array,
+    gradient: Vector,
+    band: Band,
+    terms: Array,
+) -> float:
+    """The energy and its parts, as `stepping.KERNEL` says."""
     gradient[:] = 0.0
     band[:, :] = 0.0
     terms[:] = 0.0
-    barrier = rod[0, BARRIER]
-    angle = n0 = n1 = r_a = (
-        0.0  # of the vertex before: angle, counted on from vertex to vertex, direction and length
-    )
+    moving, measuring, deriving, curving = after.size > 0, order == 3, 0 < order < 3, order == 2
+    barrier, product, offset = rod[0, BARRIER], rod[0, PRODUCT] != 0.0, rod[0, OFFSET]
+    # of the vertex before: direction, length and stretch; at the end of a step; and the stretch that stresses go by
+    n0 = n1 = r_a = a0 = a1 = end_a = used_a = angle = 0.0
     v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
-    product, offset = rod[0, PRODUCT] != 0.0, rod[0, OFFSET]
     for K in range(rod.shape[0]):
-        p = 4 * K
+        p, J, D = 4 * K, K - 1, rod[K, DIRECTOR]
         p0, p1 = q[p + 2] + rod[K, DIRECTOR_3], q[p + 3] + rod[K, DIRECTOR_2]
         r_b = np.sqrt(p0 * p0 + p1 * p1)
         if not r_b > 0.0:
             return np.inf
         p0, p1 = p0 / r_b, p1 / r_b
-        D = rod[K, DIRECTOR]
-        W_rb, W_rr, W_turn = 0.0, 0.0, -rod[K, COUPLE]
-        uncounted_r, uncounted_turn = 0.0, 0.0
-        value, first, second = _well(r_b / D, barrier)
-        terms[1] += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * value
-        W_rb += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * first / D
-        W_rr = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * second / D**2
+        b0, b1, used_b = p0, p1, r_b / D
+        end_b = used_b
+        if moving:
+            b0, b1 = after[p + 2] + rod[K, DIRECTOR_3], after[p + 3] + rod[K, DIRECTOR_2]
+            size = np.sqrt(b0 * b0 + b1 * b1)
+            if not size > 0.0:
+                return np.inf
+            b0, b1, end_b = b0 / size, b1 / size, size / D
+            used_b = (measures[K, STRETCH] + end_b) / 2
+        if measuring:
+            measures[K, STRETCH] = end_b
+        terms[1] += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * _well(end_b, barrier)[0]
+        W_rb = W_rr = 0.0
+        W_turn = -rod[K, COUPLE]
+        if deriving:
+            _, first, second = _well(used_b, barrier)
+            W_rb = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * first / D
+            W_rr = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * second / D**2
         if K == 0:
-            angle = np.arctan2(p1, p0)
+            angle = np.arctan2(b1, b0)
             angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))
         else:
-            J = K - 1
             E, D_a = rod[J, EDGE], rod[J, DIRECTOR]
             e0, e1 = q[p] - q[p - 4] + rod[J, EDGE_3], q[p + 1] - q[p - 3] + rod[J, EDGE_2]
             if offset != 0.0:
                 e0, e1 = e0 + offset * (q[p + 2] - q[p - 2]), e1 + offset * (q[p + 3] - q[p - 1])
-            T = np.arctan2(n0 * p1 - n1 * p0, n0 * p0 + n1 * p1)
-            angle += T
-            s0, s1 = n0 + p0, n1 + p1  # along m
-            both = np.sqrt(s0 * s0 + s1 * s1)
-            if not both > 0.0:
-                return np.inf
-            m0, m1 = s0 / both, s1 / both
-            A, G = e0 * m1 - e1 * m0, e0 * m0 + e1 * m1
+            A, G, T, m0, m1 = _measured(e0, e1, n0, n1, p0, p1)
             if not A > 0.0:
                 return np.inf
-            strain, slide = (A - rod[J, AXIAL]) / E, (G - rod[J, SLIDE]) / E
-            value, first, w_axial = _well(1 + strain, barrier)
-            wide = (r_a / D_a + r_b / D) / 2
-            # the change of volume and its derivatives by the axial and the cross-section stretch
-            volume, by_axial, by_wide = strain + wide - 1, 1.0, 1.0
-            if product:
-                volume, by_axial, by_wide = (1 + strain) * wide - 1, wide, 1 + strain
-            if order == 3:
-                gradient[J] = volume
-                n0, n1, r_a = p0, p1, r_b
-                continue
-            volume += rod[J, SHIFT]
-            bent, bent_first, bent_second = _bow(T - rod[J, TURN], barrier)
-            jump = r_b / D - r_a / D_a
-            terms[0] += rod[J, K_AXIAL] / 2 * E * value
+            strain, slide, turn = (A - rod[J, AXIAL]) / E, (G - rod[J, SLIDE]) / E, T
+            if moving:
+                e0, e1 = (
+                    after[p] - after[p - 4] + rod[J, EDGE_3],
+                    after[p + 1] - after[p - 3] + rod[J, EDGE_2],
+                )
+                if offset != 0.0:
+                    e0 += offset * (after[p + 2] - after[p - 2])
+                    e1 += offset * (after[p + 3] - after[p - 1])
+                A_end, G_end, turn, _, _ = _measured(e0, e1, a0, a1, b0, b1)
+                if not A_end > 0.0:
+                    return np.inf
+                strain, slide = (A_end - rod[J, AXIAL]) / E, (G_end - rod[J, SLIDE]) / E
+            angle += turn
+            wide = (end_a + end_b) / 2
+            volume, jump = _volume(strain, wide, product), end_b - end_a
+            terms[0] += rod[J, K_AXIAL] / 2 * E * _well(1 + strain, barrier)[0]
             terms[4] += rod[J, K_VOLUME] / 2 * E * volume * volume
             terms[3] += rod[J, K_SHEAR] / 2 * E * slide * slide
-            terms[2] += rod[J, K_BENDING] / (2 * E) * bent
+            terms[2] += rod[J, K_BENDING] / (2 * E) * _bow(turn - rod[J, TURN], barrier)[0]
             terms[5] += rod[J, K_JUMP] / (2 * E) * jump * jump
-            if order > 0:
+            if measuring:
+                measures[J, STRAIN], measures[J, SLIDING], measures[J, TURNING] = strain, slide, turn
+            if deriving:
+                least = -np.inf
+                if moving:  # stresses are those of the mean of both ends
+                    old, old_wide = (
+                        measures[J, STRAIN],
+                        (measures[J, STRETCH] + measures[K, STRETCH]) / 2,
+                    )
+                    old_volume = _volume(old, old_wide, product)
+                    if curving:
+                        least = rod[J, K_AXIAL] / 2 * _well(1 + old, barrier)[1]
+                        least += rod[J, K_VOLUME] * old_volume * (old_wide if product else 1.0)
+                    volume, strain = (old_volume + volume) / 2, (old + strain) / 2
+                    slide, turn = (measures[J, SLIDING] + slide) / 2, (measures[J, TURNING] + turn) / 2
+                    wide, jump = (used_a + used_b) / 2, used_b - used_a
+                by_axial, by_wide = (wide, 1 + strain) if product else (1.0, 1.0)
+                _, first, w_axial = _well(1 + strain, barrier)
+                _, bent_first, bent_second = _bow(turn - rod[J, TURN], barrier)
                 pressure = rod[J, K_VOLUME] * volume
-                W_A, W_G = rod[J, K_AXIAL] / 2 * first + pressure * by_axial, rod[J, K_SHEAR] * slide
+                W_A = max(rod[J, K_AXIAL] / 2 * first + pressure * by_axial, least)
+                W_G = rod[J, K_SHEAR] * slide
                 W_T = rod[J, K_BENDING] / (2 * E) * bent_first
                 W_wide = pressure * E / 2 * by_wide
                 W_ra = (W_wide - rod[J, K_JUMP] / E * jump) / D_a
@@ -317,25 +365,15 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                     gradient[p - 1] -= offset * f1
                     gradient[p + 2] += offset * f0
                     gradient[p + 3] += offset * f1
-            if order > 1:
-                if rod[J, SHIFT] != 0.0:
-                    most = _CAP * rod[J, K_AXIAL]
-                    excess = pressure - min(max(pressure, -most), most)
-                    pressure -= excess
-                    W_A -= excess * by_axial
-                    W_ra -= excess * E / 2 * by_wide / D_a
-                    turn_a -= excess * by_axial * G / 2 / r_a
-                    uncounted_r = excess * E / 2 * by_wide / D
-                    uncounted_turn = excess * by_axial * G / 2
+            if curving:
                 # gradients by (x, d) of both vertices: A, G, T, volume E, jump, b
-                a0, a1, b0, b1 = -n1 / r_a, n0 / r_a, -p1 / r_b, p0 / r_b
                 v[0, 0], v[0, 1], v[0, 4], v[0, 5] = -m1, m0, m1, -m0
                 v[1, 0], v[1, 1], v[1, 4], v[1, 5] = -m0, -m1, m0, m1
-                v[5, 2], v[5, 3], v[5, 6], v[5, 7] = a0 / 2, a1 / 2, b0 / 2, b1 / 2
-                v[2, 2], v[2, 3], v[2, 6], v[2, 7] = -a0, -a1, b0, b1
+                v[2, 2], v[2, 3], v[2, 6], v[2, 7] = n1 / r_a, -n0 / r_a, -p1 / r_b, p0 / r_b
                 v[4, 2], v[4, 3], v[4, 6], v[4, 7] = -n0 / D_a, -n1 / D_a, p0 / D, p1 / D
                 for i in range(8):
                     if i % 4 > 1:
+                        v[5, i] = v[2, i] / 2 if i > 3 else -v[2, i] / 2
                         v[0, i] = G * v[5, i] + offset * v[0, i - 2]
                         v[1, i] = -A * v[5, i] + offset * v[1, i - 2]
                         widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
@@ -355,22 +393,31 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
                 _turn(band, p - 2, n0, n1, W_ra / r_a, turn_a / r_a)
         if rod[K, COUPLE] != 0.0:
             terms[6] -= rod[K, COUPLE] * (angle - rod[K, ANGLE])
-        if 0 < order < 3:
+        if deriving:
             gradient[p + 2] += W_rb * p0 - W_turn / r_b * p1
             gradient[p + 3] += W_rb * p1 + W_turn / r_b * p0
-        if order == 2:
+        if curving:
             band[p + 2, 0] += W_rr * p0 * p0
             band[p + 2, 1] += W_rr * p0 * p1
             band[p + 3, 0] += W_rr * p1 * p1
-            _turn(band, p + 2, p0, p1, (W_rb - uncounted_r) / r_b, (W_turn - uncounted_turn) / r_b**2)
-        n0, n1, r_a = p0, p1, r_b
+            _turn(band, p + 2, p0, p1, W_rb / r_b, W_turn / r_b**2)
+        n0, n1, r_a, a0, a1, end_a, used_a = p0, p1, r_b, b0, b1, end_b, used_b
     total: float = terms.sum()
     return total
 
 
-def _energy(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+def _energy(
+    q: Vector,
+    after: Vector,
+    rod: Array,
+    order: int,
+    measures: Array,
+    gradient: Vector,
+    band: Band,
+    terms: Array,
+) -> float:
     """The same, as a function that compiled solvers can be handed."""
-    return _assemble(q, rod, order, gradient, band, terms)
+    return _assemble(q, after, rod, order, measures, gradient, band, terms)
 
 
 @functools.cache

@@ -92,9 +92,9 @@ class PublishedRod(CompiledRod):
         return rod
 
     @property
-    def averaged(self) -> int:
-        """None of its measures is so stiff that motions have to take means of it."""
-        return -1
+    def stiff_volume(self) -> bool:
+        """It has no volume."""
+        return False
 
     def counted_near(self, angle: float) -> PublishedRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
@@ -104,9 +104,14 @@ class PublishedRod(CompiledRod):
         """The same rod with other couples, (N,) [N m]."""
         return replace(self, couples=couples)
 
-    def evaluate(self, q: Vector, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+    def evaluate(
+        self, q: Vector, order: int, measures: Array, gradient: Vector, band: Band, terms: Array
+    ) -> float:
         """The kernel at q; infinite where a section or an edge has vanished or a shear angle has reached pi/2."""
-        return float(_assemble(q, self.parameters, order, gradient, band, terms))
+        return float(_assemble(q, _NOTHING, self.parameters, order, measures, gradient, band, terms))
+
+
+_NOTHING = np.empty(0)
 
 
 @njit(cache=True, error_model="numpy")
@@ -176,59 +181,148 @@ def _edge_block(
 
 
 @njit(cache=True, error_model="numpy")
-def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
-    """The energy and its terms, the couples' last; with order 1 also the gradient, with order 2 the Hessian too."""
+def _measure(q: Vector, strains: Array, units: Array) -> bool:
+    """Strains, (N, 4), and unit vectors, (N, 7), at q; False where the rod has collapsed.
+
+    Strains: |e| of edge K; of vertex K |d|, theta, and phi where it is an inner one.  Units: the tangent of edge K, the
+    chord at vertex K as its length and direction, and the direction of its director.
+    """
+    n = strains.shape[0]
+    sound = True
+    for K in range(n - 1):
+        e0, e1 = q[4 * K + 4] - q[4 * K], q[4 * K + 5] - q[4 * K + 1]
+        m = np.hypot(e0, e1)
+        strains[K, 0], units[K, 0], units[K, 1] = m, e0 / m, e1 / m
+        sound = sound and bool(m > 0.0)
+    for K in range(n):
+        low, high = max(K - 1, 0), min(K + 1, n - 1)  # eqs. (3.3.7)-(3.3.9)
+        b0, b1 = q[4 * high] - q[4 * low], q[4 * high + 1] - q[4 * low + 1]
+        c = np.hypot(b0, b1)
+        c0, c1 = b0 / c, b1 / c
+        r = np.hypot(q[4 * K + 2], q[4 * K + 3])
+        d0, d1 = q[4 * K + 2] / r, q[4 * K + 3] / r
+        upright = c0 * d1 - c1 * d0  # b . d, b = t x E1, eq. (3.3.25)
+        units[K, 2], units[K, 3], units[K, 4], units[K, 5], units[K, 6] = c, c0, c1, d0, d1
+        strains[K, 1] = r
+        strains[K, 2] = np.arctan2(-c0 * d0 - c1 * d1, upright)  # eqs. (3.3.24), (3.3.26)
+        if 0 < K < n - 1:
+            turn = units[K - 1, 0] * units[K, 1] - units[K - 1, 1] * units[K, 0]
+            along = units[K - 1, 0] * units[K, 0] + units[K - 1, 1] * units[K, 1]
+            strains[K, 3] = np.arctan2(turn, along)  # eqs. (3.3.15), (3.3.18)
+        sound = sound and bool(upright > 0.0) and bool(r > 0.0)
+    return sound
+
+
+@njit(cache=True)
+def _work_of_couples(rod: Array, units: Array) -> float:
+    """What the couples have done, by the angles of the directors, counted on from the first."""
+    angle, done = np.arctan2(units[0, 6], units[0, 5]), 0.0
+    angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))
+    for K in range(rod.shape[0]):
+        if K > 0:
+            a0, a1, b0, b1 = units[K - 1, 5], units[K - 1, 6], units[K, 5], units[K, 6]
+            angle += np.arctan2(a0 * b1 - a1 * b0, a0 * b0 + a1 * b1)
+        done += rod[K, COUPLE] * (angle - rod[K, ANGLE])
+    return done
+
+
+@njit(cache=True, error_model="numpy")
+def _energies(rod: Array, strains: Array, terms: Array) -> None:
+    """The seven terms of eq. (3.4.11) by the strains."""
+    n = rod.shape[0]
+    for K in range(n):
+        E, L, m, r, theta = rod[K, EDGE], rod[K, VORONOI], strains[K, 0], strains[K, 1], strains[K, 2]
+        terms[1] += rod[K, K2] / 2 * stretching(r / rod[K, DIRECTOR])[0] * L
+        terms[3] += rod[K, K4] / 2 * squared_tangent(theta, 0.0)[0] * L
+        if n - 1 > K:
+            terms[0] += rod[K, K1] / 2 * stretching(m / E)[0] * E  # eq. (3.3.19)
+            jump = strains[K + 1, 2] - theta
+            terms[4] += rod[K, K5] / 2 * jump * jump / E
+            jump = strains[K + 1, 1] / rod[K + 1, DIRECTOR] - r / rod[K, DIRECTOR]
+            terms[5] += rod[K, K6] / 2 * jump * jump / E
+        if 0 < K < n - 1:  # bending and the Poisson effect: interior vertices only
+            # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23), less the intrinsic K of the reference
+            terms[2] += 2 * rod[K, K3] / L * squared_tangent(strains[K, 3] / 2, rod[K, INTRINSIC])[0]
+            # excess = (mu - 1) L, eqs. (3.3.13), (3.3.20)
+            excess = ((strains[K - 1, 0] - rod[K - 1, EDGE]) + (m - E)) / 2
+            terms[6] += rod[K, K7] * (r - rod[K, DIRECTOR]) / rod[K, DIRECTOR] * excess
+
+
+@njit(cache=True, error_model="numpy")
+def _assemble(
+    q: Vector,
+    after: Vector,
+    rod: Array,
+    order: int,
+    measures: Array,
+    gradient: Vector,
+    band: Band,
+    terms: Array,
+) -> float:
+    """The energy and its terms, the couples' last, as `stepping.KERNEL` says."""
     n = rod.shape[0]
     gradient[:] = 0.0
     band[:, :] = 0.0
     terms[:] = 0.0
 
     # First pass: strains.  Edge K: length m, tangent t.  Chord K and director K: length and unit vector.
-    m, t0, t1 = np.empty(n - 1), np.empty(n - 1), np.empty(n - 1)
-    for K in range(n - 1):
-        e0, e1 = q[4 * K + 4] - q[4 * K], q[4 * K + 5] - q[4 * K + 1]
-        m[K] = np.hypot(e0, e1)
-        t0[K], t1[K] = e0 / m[K], e1 / m[K]
-    r, d0, d1, c, c0, c1 = np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n)
-    theta = np.empty(n)
-    collapsed = bool(m.min() <= 0.0)
-    for K in range(n):
-        low, high = max(K - 1, 0), min(K + 1, n - 1)  # eqs. (3.3.7)-(3.3.9)
-        b0, b1 = q[4 * high] - q[4 * low], q[4 * high + 1] - q[4 * low + 1]
-        c[K] = np.hypot(b0, b1)
-        c0[K], c1[K] = b0 / c[K], b1 / c[K]
-        r[K] = np.hypot(q[4 * K + 2], q[4 * K + 3])
-        d0[K], d1[K] = q[4 * K + 2] / r[K], q[4 * K + 3] / r[K]
-        upright = c0[K] * d1[K] - c1[K] * d0[K]  # b . d, b = t x E1, eq. (3.3.25)
-        theta[K] = np.arctan2(-c0[K] * d0[K] - c1[K] * d1[K], upright)  # eqs. (3.3.24), (3.3.26)
-        collapsed = collapsed or bool(not upright > 0.0) or bool(not r[K] > 0.0)
-    if collapsed:
+    strains, units = np.zeros((n, 4)), np.empty((n, 7))
+    if not _measure(q, strains, units):
         return np.inf
+    if order == 3:
+        measures[:, :] = strains
+    ends, end_units = strains, units
+    if after.size > 0:  # stresses are those of the mean of both ends
+        ends, end_units = np.zeros((n, 4)), np.empty((n, 7))
+        if not _measure(after, ends, end_units):
+            return np.inf
+        for K in range(n):
+            for k in range(4):
+                strains[K, k] = (measures[K, k] + ends[K, k]) / 2
+    _energies(rod, ends, terms)
+    if rod[:, COUPLE].any():
+        terms[7] = -_work_of_couples(rod, end_units)
+    total: float = terms.sum()
+    if order in (0, 3):
+        return total
+    t0, t1, c, c0, c1, d0, d1 = (
+        units[:, 0],
+        units[:, 1],
+        units[:, 2],
+        units[:, 3],
+        units[:, 4],
+        units[:, 5],
+        units[:, 6],
+    )
+    m, r, theta = np.empty(n), np.empty(n), strains[:, 2]  # lengths where the gradients are taken
+    for K in range(n):
+        r[K] = np.hypot(q[4 * K + 2], q[4 * K + 3])
+        if n - 1 > K:
+            m[K] = np.hypot(q[4 * K + 4] - q[4 * K], q[4 * K + 5] - q[4 * K + 1])
 
-    # Second pass: eq. (3.4.11) and its derivatives by each strain s: W_s, W_ss, and W_s_next with the
-    # same strain of the next vertex.
+    # Second pass: derivatives of eq. (3.4.11) by each strain s: W_s, W_ss, and W_s_next with the same strain of the
+    # next vertex.
     W_m, W_mm = np.zeros(n - 1), np.zeros(n - 1)
     W_phi, W_phiphi = np.zeros(n), np.zeros(n)
     W_theta, W_thetatheta, W_theta_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
     W_lam, W_lamlam, W_lam_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
-    lam = r / rod[:, DIRECTOR]  # eq. (3.3.21)
+    lam = strains[:, 1] / rod[:, DIRECTOR]  # eq. (3.3.21)
     for K in range(n - 1):
         E = rod[K, EDGE]
-        value, first, second = stretching(m[K] / E)  # eq. (3.3.19)
-        terms[0] += rod[K, K1] / 2 * value * E
+        _, first, second = stretching(strains[K, 0] / E)
+        if order == 2 and after.size > 0:
+            first = max(first, stretching(measures[K, 0] / E)[1])
         W_m[K] += rod[K, K1] / 2 * first
         W_mm[K] += rod[K, K1] / 2 * second / E
 
         jump = theta[K + 1] - theta[K]
-        terms[4] += rod[K, K5] / 2 * jump * jump / E
         W_theta[K] -= rod[K, K5] * jump / E
         W_theta[K + 1] += rod[K, K5] * jump / E
         W_thetatheta[K] += rod[K, K5] / E
         W_thetatheta[K + 1] += rod[K, K5] / E
         W_theta_next[K] -= rod[K, K5] / E
 
-        jump = r[K + 1] / rod[K + 1, DIRECTOR] - r[K] / rod[K, DIRECTOR]
-        terms[5] += rod[K, K6] / 2 * jump * jump / E
+        jump = lam[K + 1] - lam[K]
         W_lam[K] -= rod[K, K6] * jump / E
         W_lam[K + 1] += rod[K, K6] * jump / E
         W_lamlam[K] += rod[K, K6] / E
@@ -236,48 +330,25 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
         W_lam_next[K] -= rod[K, K6] / E
     for K in range(n):
         L = rod[K, VORONOI]
-        value, first, second = stretching(lam[K])
-        terms[1] += rod[K, K2] / 2 * value * L
+        _, first, second = stretching(lam[K])
         W_lam[K] += rod[K, K2] / 2 * first * L
         W_lamlam[K] += rod[K, K2] / 2 * second * L
 
-        value, first, second = squared_tangent(theta[K], 0.0)
-        terms[3] += rod[K, K4] / 2 * value * L
+        _, first, second = squared_tangent(theta[K], 0.0)
         W_theta[K] += rod[K, K4] / 2 * first * L
         W_thetatheta[K] += rod[K, K4] / 2 * second * L
     for K in range(1, n - 1):  # bending and the Poisson effect: interior vertices only
         L = rod[K, VORONOI]
-        turn = t0[K - 1] * t1[K] - t1[K - 1] * t0[K]
-        phi = np.arctan2(turn, t0[K - 1] * t0[K] + t1[K - 1] * t1[K])  # eqs. (3.3.15), (3.3.18)
-        # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23), less the intrinsic K of the reference
-        value, first, second = squared_tangent(phi / 2, rod[K, INTRINSIC])
-        terms[2] += 2 * rod[K, K3] / L * value
+        _, first, second = squared_tangent(strains[K, 3] / 2, rod[K, INTRINSIC])
         W_phi[K] = rod[K, K3] / L * first
         W_phiphi[K] = rod[K, K3] / (2 * L) * second
 
-        stretch = (r[K] - rod[K, DIRECTOR]) / rod[K, DIRECTOR]
-        # excess = (mu - 1) L, eqs. (3.3.13), (3.3.20)
-        excess = ((m[K - 1] - rod[K - 1, EDGE]) + (m[K] - rod[K, EDGE])) / 2
-        terms[6] += rod[K, K7] * stretch * excess
+        stretch = (strains[K, 1] - rod[K, DIRECTOR]) / rod[K, DIRECTOR]
+        excess = ((strains[K - 1, 0] - rod[K - 1, EDGE]) + (strains[K, 0] - rod[K, EDGE])) / 2
         W_lam[K] += rod[K, K7] * excess
         W_m[K - 1] += rod[K, K7] / 2 * stretch
         W_m[K] += rod[K, K7] / 2 * stretch
     W_turn = W_theta - rod[:, COUPLE]  # of the directors alone: a couple does the work of a couple
-    if rod[:, COUPLE].any():
-        angle = np.arctan2(d1[0], d0[0])
-        angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))  # counted on from there
-        for K in range(n):
-            if K > 0:
-                before, across = (
-                    d0[K - 1] * d0[K] + d1[K - 1] * d1[K],
-                    d0[K - 1] * d1[K] - d1[K - 1] * d0[K],
-                )
-                angle += np.arctan2(across, before)
-            terms[7] -= rod[K, COUPLE] * (angle - rod[K, ANGLE])
-
-    total: float = terms.sum()
-    if order == 0:
-        return total
 
     # Third pass: the chain rule.  First what each edge, chord and director feels by itself ...
     for K in range(n - 1):
@@ -351,9 +422,18 @@ def _assemble(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, t
     return total
 
 
-def _energy(q: Vector, rod: Array, order: int, gradient: Vector, band: Band, terms: Array) -> float:
+def _energy(
+    q: Vector,
+    after: Vector,
+    rod: Array,
+    order: int,
+    measures: Array,
+    gradient: Vector,
+    band: Band,
+    terms: Array,
+) -> float:
     """The same, as a function that compiled solvers can be handed."""
-    return _assemble(q, rod, order, gradient, band, terms)
+    return _assemble(q, after, rod, order, measures, gradient, band, terms)
 
 
 @functools.cache

@@ -124,6 +124,11 @@ class Rod(Parameters):
         return (0.5 - self.centreline) / (1 - self.centreline)
 
     @property
+    def below(self) -> float:
+        """What lies below the centreline, as a share of the directors, which reach the upper surface [1]."""
+        return self.centreline / (1 - self.centreline)
+
+    @property
     def second_inertia(self) -> float:
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
         return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2

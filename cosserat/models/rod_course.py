@@ -3,22 +3,33 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.errors import CosseratError, DivergedError, NotConvergedError
+from cosserat.errors import CosseratError, CrossingError, DivergedError, NotConvergedError
 from cosserat.models.planar_rod import UNKNOWNS, Geometry
+from cosserat.models.resolution import (
+    FAST,
+    UNBALANCED,
+    UNRESOLVED,
+    coarse,
+    refuse_crossing,
+    unresolved_energy,
+)
 from cosserat.models.rod import RodBody
 from cosserat.models.rod_motion import RodMotion, reference, rigid_fields
 from cosserat.outcome import Outcome
 from cosserat.solvers.banded import band_product
 from cosserat.solvers.motion import (
+    DAMPED,
     State,
     System,
     advance,
     body_at,
+    highest_frequency,
     kinetic_energy,
     refuse_unstable_step,
     stable_step,
@@ -29,6 +40,8 @@ Array = NDArray[np.float64]
 
 FRAMES_PER_PART = 50
 """Most frames in one stored part of a run."""
+JUDGED = 100
+"""Most states of a motion that are asked for modes its step does not follow."""
 WORK_PER_PART = 5e5
 """Most vertices times implicit steps in one part: a second, at some two microseconds each (`cosserat speed`)."""
 
@@ -84,7 +97,15 @@ class Course:
         for stop in range(first + 1, last + 1):
             try:
                 state, done = advance(self.system, state, leg, self.problem.integrator, self.name)
-            except (NotConvergedError, DivergedError) as error:
+                q = state.q.reshape(-1, len(UNKNOWNS))
+                refuse_crossing(
+                    self.geometry,
+                    q[:, :2],
+                    q[:, 2:],
+                    self.problem.rod.below,
+                    f"{self.name}, {state.time:.4g} s",
+                )
+            except (NotConvergedError, DivergedError, CrossingError) as error:
                 stopped = error
                 break
             # the time that is stored: a run that goes on from it must not differ by rounding
@@ -93,7 +114,82 @@ class Course:
             steps += done
         rod = self.problem.rod.body(self.geometry)
         fields = _fields(self.geometry, self.system, rod, states) if states else {}
-        return Outcome(fields, {"steps": steps}), state, stopped
+        return Outcome(fields, {"steps": steps, **self._judged(states)}), state, stopped
+
+    @property
+    def step(self) -> float:
+        """The time step of a method that takes equal ones; zero if it chooses them [s]."""
+        if self.problem.integrator.method == "rk45":
+            return 0.0
+        leg = self.problem.between_frames / self.legs
+        return leg / step_count(leg, self.problem.integrator)
+
+    def _judged(self, states: list[State]) -> dict[str, float]:
+        """Kinetic energy of some states, and what of it is in modes that the step does not follow [J]."""
+        system, kinetic, unresolved = self.system, 0.0, 0.0
+        apart = -(-self.problem.frames * self.legs // JUDGED)
+        n = system.held.size
+        gradient, band = np.empty(n), np.empty((n, system.body.half_bandwidth + 1))
+        for state in states:
+            stop = round(state.time / self.problem.between_frames * self.legs)
+            if not self.step or stop % apart:
+                continue
+            body_at(system, state).assemble(state.q, gradient, band)
+            kinetic += kinetic_energy(system, state)
+            unresolved += unresolved_energy(band, system.mass, system.held, state.v, self.step)
+        return {"judged_kinetic_J": kinetic, "unresolved_kinetic_J": unresolved}
+
+    def warnings(self, whole: Outcome) -> tuple[str, ...]:
+        """What a whole motion does not resolve."""
+        return (
+            *self._unbalanced(whole.fields),
+            *self._unresolved(whole.statistics),
+            *self._too_fast(whole.fields),
+            *coarse(whole.fields["d"]),
+            *self._damped_beyond(),
+        )
+
+    def _unbalanced(self, fields: Mapping[str, Array]) -> Iterator[str]:
+        energy = fields["kinetic_energy"] + fields["strain_energy"]
+        given = fields["support_work"] - fields["dissipated_energy"] - fields["load_potential"]
+        missing = np.abs(energy - given - (energy - given)[0])
+        size = max(float(np.abs(energy).max()), float(np.abs(given - given[0]).max()))
+        if missing.max() > UNBALANCED * size:
+            worst = int(missing.argmax())
+            yield (
+                f"energy balance: at {fields['time'][worst]:.4g} s, {100 * missing[worst] / size:.2g} % of the energy "
+                "is not accounted for; take a shorter 'integrator.step'"
+            )
+
+    def _unresolved(self, statistics: Mapping[str, float]) -> Iterator[str]:
+        kinetic, share = statistics["judged_kinetic_J"], statistics["unresolved_kinetic_J"]
+        if share > UNRESOLVED * kinetic:
+            yield (
+                f"unresolved modes: {100 * share / kinetic:.2g} % of the kinetic energy is in modes too fast for the "
+                f"step of {self.step:.3g} s (omega h > 1), which keep their energy but not their phase; take a shorter "
+                "'integrator.step' if they matter, or a start that does not set them off"
+            )
+
+    def _too_fast(self, fields: Mapping[str, Array]) -> Iterator[str]:
+        d, rate = fields["d"], fields["d_rate"]
+        turning = (d[..., 0] * rate[..., 1] - d[..., 1] * rate[..., 0]) / (d**2).sum(axis=-1)
+        fastest = float(np.abs(turning).max()) * self.step
+        if fastest > FAST:
+            yield (
+                f"fast turning: a section turns by up to {fastest:.2g} rad in a step of {self.step:.3g} s; "
+                "take a shorter 'integrator.step'"
+            )
+
+    def _damped_beyond(self) -> Iterator[str]:
+        c, h = self.system.drag, self.step
+        if self.problem.integrator.method != "implicit" or not c:
+            return
+        highest = highest_frequency(self.system, reference(self.geometry))
+        if c * highest * h**2 > DAMPED:
+            yield (
+                f"damping: modes faster than {DAMPED / (c * h**2):.3g} rad/s (the fastest has {highest:.3g}) lose "
+                f"energy at another rate than the drag of {c:.3g} 1/s says; take a shorter 'integrator.step'"
+            )
 
 
 def resumed(fields: dict[str, Array]) -> State:
@@ -103,6 +199,8 @@ def resumed(fields: dict[str, Array]) -> State:
         np.hstack([fields["x_rate"][-1], fields["d_rate"][-1]]).ravel(),
         float(fields["time"][-1]),
         float(fields["first_angle"][-1]),
+        float(fields["dissipated_energy"][-1]),
+        float(fields["support_work"][-1]),
     )
 
 
@@ -136,6 +234,8 @@ def _fields(geometry: Geometry, system: System, rod: RodBody, states: list[State
         "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
         "strain_energy": strain,
         "load_potential": np.array(loaded) - strain,
+        "dissipated_energy": np.array([state.dissipated for state in states]),
+        "support_work": np.array([state.driven for state in states]),
         "momentum": momenta[:, :2],
         "angular_momentum": momenta[:, 2],
     }

@@ -127,7 +127,7 @@ class RodMotion(RodProblem):
             turn = np.arctan(self.start.amplitude * slope)
             X[:, 1] += self.start.amplitude * shape
             D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
-            if self.body(geometry).averaged >= 0:
+            if self.body(geometry).stiff_volume:
                 D = keeping_volume(geometry, X, D, self.rod.section)
         q = np.where(self.held(), np.hstack([geometry.X, geometry.D]), np.hstack([X, D]))
         v = np.zeros_like(q)

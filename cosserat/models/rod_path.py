@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.errors import NotConvergedError
+from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.models.planar_rod import Geometry
+from cosserat.models.resolution import coarse, refuse_crossing
 from cosserat.models.rod_problem import RodProblem
 from cosserat.models.rod_statics import refuse_rigid_motion
 from cosserat.outcome import Outcome
@@ -76,15 +77,19 @@ class RodPath(RodProblem):
         )
         points: list[Point] = []
         try:
-            points.extend(follow(climb, unloaded(climb, np.zeros(start.size)), arc))
-        except NotConvergedError as error:
+            for point in follow(climb, unloaded(climb, np.zeros(start.size)), arc):
+                q = start + point.q.reshape(start.shape)
+                where = f"{name}, {point.factor:.4g} of the load"
+                refuse_crossing(geometry, q[:, :2], q[:, 2:], self.rod.below, where)
+                points.append(point)
+        except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _outcome(geometry, start, points, climb.iterations)
+                error.reached = _outcome(geometry, start, points, climb)
             raise
-        return _outcome(geometry, start, points, climb.iterations)
+        return _outcome(geometry, start, points, climb)
 
 
-def _outcome(geometry: Geometry, start: Array, points: list[Point], iterations: int) -> Outcome:
+def _outcome(geometry: Geometry, start: Array, points: list[Point], climb: Climb) -> Outcome:
     q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
     fields = {
         "load_factor": np.array([point.factor for point in points]),
@@ -98,8 +103,13 @@ def _outcome(geometry: Geometry, start: Array, points: list[Point], iterations: 
     }
     statistics = {
         "points": len(points),
-        "iterations": iterations,
+        "iterations": climb.iterations,
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    return Outcome(fields, statistics, along="point")
+    warnings = [*climb.remarks(), *coarse(fields["d"])]
+    if not points[-1].stable:
+        warnings.append(
+            "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"
+        )
+    return Outcome(fields, statistics, along="point", warnings=tuple(warnings))

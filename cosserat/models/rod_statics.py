@@ -12,6 +12,7 @@ from pydantic_core import PydanticCustomError
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.models.consistent import ConsistentRod
 from cosserat.models.planar_rod import AXES, Geometry, edge_shear, free_motions, strains
+from cosserat.models.resolution import coarse, refuse_crossing
 from cosserat.models.rod import RodBody
 from cosserat.models.rod_problem import RodProblem
 from cosserat.outcome import Outcome
@@ -47,11 +48,14 @@ class RodStatics(RodProblem):
         ------
         UnsupportedRodError : a rigid motion is left free.
         NotConvergedError : no equilibrium within the tolerance.
+        CrossingError : neighbouring sections of the equilibrium cross.
         """
         geometry = self.rod.geometry()
         body, load = self.body(geometry), self.loads(geometry)
-        state = self.equilibrium(geometry, body, load, name)
-        return Outcome(_fields(geometry, body, state, load), _statistics(state))
+        state, warnings = self.led_to(geometry, body, load, name)
+        fields = _fields(geometry, body, state, load)
+        refuse_crossing(geometry, fields["x"], fields["d"], self.rod.below, name)
+        return Outcome(fields, _statistics(state), warnings=(*warnings, *coarse(fields["d"])))
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
         """The lowest natural frequencies and shapes of small motions about the equilibrium.
@@ -63,19 +67,22 @@ class RodStatics(RodProblem):
         """
         geometry = self.rod.geometry()
         body, load = self.body(geometry), self.loads(geometry)
-        at_rest = self.equilibrium(geometry, body, load, name).q
+        at_rest = self.led_to(geometry, body, load, name)[0].q
         system = System(
             body, self.mass(geometry), load.ravel(), self.held().ravel(), 0.0, np.empty((0, load.size))
         )
         return modes(system, at_rest, count, name, anchored=True)
 
-    def equilibrium(self, geometry: Geometry, body: RodBody, load: Array, name: str) -> Equilibrium:
-        """The equilibrium that the loads lead to as they grow together."""
+    def led_to(
+        self, geometry: Geometry, body: RodBody, load: Array, name: str
+    ) -> tuple[Equilibrium, tuple[str, ...]]:
+        """The equilibrium that the loads lead to as they grow together, and what is to be said of the way there."""
         reference = np.hstack([geometry.X, geometry.D])
         refuse_rigid_motion(reference, self.held(), name)
         climb = Climb(self.loaded(geometry), self.newton, name)
         try:
-            return _as_equilibrium(climb, lead(climb, np.zeros(reference.size)), reference.ravel())
+            found = lead(climb, np.zeros(reference.size))
+            return _as_equilibrium(climb, found, reference.ravel()), tuple(climb.remarks())
         except NotConvergedError as error:
             if error.state is not None:
                 last = climb.at(error.state, error.factor)

@@ -7,6 +7,7 @@ much of a step that is.  Nothing here knows what the unknowns mean.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -123,6 +124,19 @@ class Climb:
             "the path may turn back there: follow it with kind = 'rod path', raise 'newton.max_iterations' if it is "
             "small, or check supports and loads"
         )
+
+    def remarks(self) -> Iterator[str]:
+        """What is to be said of an answer: where its side was open, and whether it lies beyond a limit load."""
+        for factor in self.undecided:
+            yield (
+                f"bifurcation: at {factor:.4g} of the load the body is so symmetric that it may buckle to either side; "
+                "this is one of two answers, and a small load or an imperfection decides between them"
+            )
+        if self.turned_back:
+            yield (
+                "limit load: no stable path leads to the full load; a body under it jumps, and this is where the path "
+                "arrives beyond its unstable part: see it with kind = 'rod path'"
+            )
 
     def at(self, q: Vector, factor: float, *, share: float | None = None) -> Point | None:
         """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.

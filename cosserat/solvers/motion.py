@@ -21,6 +21,8 @@ from cosserat.solvers.stepping import MAX_ITERATIONS, TOLERANCE, counted_on, mar
 if TYPE_CHECKING:
     from scipy.sparse import dia_array
 
+DAMPED = 8.0
+"""Largest c omega h^2 at which the implicit method takes energy from a mode of frequency omega at the rate c."""
 _FEW = 8  # unknowns of which all eigenvalues are sought, as an iteration needs more than it seeks
 _EXACT = 1e-9  # a duration that is so near to a whole number of steps is one
 
@@ -39,10 +41,6 @@ class Body(Protocol):
     @property
     def parameters(self) -> NDArray[np.float64]:
         """What the kernel takes besides the unknowns."""
-
-    @property
-    def averaged(self) -> int:
-        """Column of the parameters that shifts the measures of order 3, or -1 where there are none."""
 
     def counted_near(self, angle: float) -> Body:
         """The same body, the angle of its first director counted within half a turn of this one [rad]."""
@@ -98,12 +96,15 @@ class State:
     """Positions q and velocities v, each (n,), at a time.
 
     angle : of the first director, counted through whole turns [rad]; None: within half a turn of the reference.
+    dissipated, driven : energy that the drag has taken and that moved supports have given since the start [J].
     """
 
     q: Vector
     v: Vector
     time: float = 0.0
     angle: float | None = None
+    dissipated: float = 0.0
+    driven: float = 0.0
 
 
 def body_at(system: System, state: State) -> Body:
@@ -177,6 +178,7 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
         for number in range(count + 1):
             place, rate, _ = system.drive(state.time + number * h)
             path[:, number] = place[moved], rate[moved]
+    books = np.array([state.dissipated, state.driven])
     done = march()(
         system.body.kernel,
         parameters,
@@ -191,7 +193,7 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
         system.drag,
         h,
         system.body.half_bandwidth,
-        system.body.averaged,
+        books,
     )
     if done < count:
         raise NotConvergedError(
@@ -199,7 +201,7 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
             iterations=MAX_ITERATIONS,
             tolerance=TOLERANCE,
         )
-    return State(q, v, state.time + count * h, float(parameters[0, -1]))
+    return State(q, v, state.time + count * h, float(parameters[0, -1]), *books.tolist())
 
 
 def stable_step(system: System, q: Vector) -> float:
@@ -282,21 +284,32 @@ class _Rk4:
     """The classical Runge-Kutta method with a fixed step."""
 
     def __init__(self, system: System) -> None:
-        self.rate = _Acceleration(system)
+        self.rate = _Rates(system)
 
     def step(self, state: State, h: float) -> State:
-        y = np.concatenate([state.q, state.v])
-        t = state.time
+        y, t = _packed(state), state.time
         k1 = self.rate(t, y)
         k2 = self.rate(t + h / 2, y + h / 2 * k1)
         k3 = self.rate(t + h / 2, y + h / 2 * k2)
         k4 = self.rate(t + h, y + h * k3)
-        q, v = np.split(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), 2)
-        return State(q, v, t + h, state.angle)
+        return _unpacked(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), t + h, state.angle)
 
 
-class _Acceleration:
-    """Rates of (q, v): velocities, and M^-1 (load - gradient - M (a + drag v) of what is moved) - drag v."""
+def _packed(state: State) -> Vector:
+    """Positions, velocities, and what drag and supports have taken and given, (2 n + 2,)."""
+    return np.concatenate([state.q, state.v, [state.dissipated, state.driven]])
+
+
+def _unpacked(y: Vector, time: float, angle: float | None) -> State:
+    q, v = np.split(y[:-2], 2)
+    return State(q, v, time, angle, float(y[-2]), float(y[-1]))
+
+
+class _Rates:
+    """Rates of what `_packed` holds.
+
+    The acceleration is M^-1 (load - gradient - M (a + drag v) of what is moved) - drag v.
+    """
 
     def __init__(self, system: System) -> None:
         self.system = system
@@ -305,19 +318,22 @@ class _Acceleration:
         hold(self.mass, system.held)
 
     def __call__(self, time: float, y: Vector) -> Vector:
-        q, v = np.split(y, 2)
-        self.system.body.differentiate(q, self.gradient)
-        force = self.system.load - self.gradient
-        if self.system.drive is not None:
-            _, given, gaining = self.system.drive(time)
-            v = np.where(self.system.held, given, v)
-            force -= band_product(self.system.mass, gaining + self.system.drag * given)
-        force[self.system.held] = 0.0
+        system = self.system
+        q, v = np.split(y[:-2], 2)
+        system.body.differentiate(q, self.gradient)
+        force, gaining = system.load - self.gradient, np.zeros_like(v)
+        if system.drive is not None:
+            _, given, gaining = system.drive(time)
+            v = np.where(system.held, given, v)
+            force -= band_product(system.mass, gaining + system.drag * given)
+        force[system.held] = 0.0
         acceleration = solve_positive(self.mass, force)
         assert acceleration is not None  # a mass is positive
-        slowing = np.where(self.system.held, 0.0, acceleration - self.system.drag * v)
-        rate = np.concatenate([v, slowing])
-        return rate
+        slowing = np.where(system.held, 0.0, acceleration - system.drag * v)
+        momentum = band_product(system.mass, v)
+        taken = system.drag * float((v * momentum)[~system.held].sum())
+        pushed = band_product(system.mass, slowing + gaining) + self.gradient - system.load
+        return np.concatenate([v, slowing, [taken, float((v * pushed)[system.held].sum())]])
 
 
 def _adaptive(
@@ -325,23 +341,23 @@ def _adaptive(
 ) -> tuple[State, int]:
     from scipy.integrate import solve_ivp
 
-    start = np.concatenate([state.q, state.v])
     size = np.concatenate([np.abs(state.q), np.full(state.v.size, float(np.abs(state.v).max()))])
+    allowed = np.full(size.size + 2, settings.tolerance * max(float(size.max()), 1e-300))
+    allowed[-2:] = np.inf  # the books follow the motion
     done = solve_ivp(
-        _Acceleration(system),
+        _Rates(system),
         (state.time, state.time + duration),
-        start,
+        _packed(state),
         method="RK45",
         max_step=settings.step,
         rtol=settings.tolerance,
-        atol=settings.tolerance * max(float(size.max()), 1e-300),
+        atol=allowed,
     )
     if not done.success:
         raise DivergedError(f"{name}: the explicit integrator stopped ({done.message}); {_REMEDY}")
     after = state
     for y in done.y.T:  # every step, so that no turn is missed
-        q, v = np.split(y, 2)
-        after = _counted(State(q, v, state.time + duration, after.angle))
+        after = _counted(_unpacked(y, state.time + duration, after.angle))
     _refuse_divergence(system, after, settings, name)
     return _driven(system, state, after), int(done.nfev)
 

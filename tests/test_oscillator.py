@@ -1,0 +1,115 @@
+"""The implicit method on an oscillator, which is no rod: a drag takes energy at its own rate, resolved or not."""
+
+import numpy as np
+import pytest
+from numba import cfunc
+
+from cosserat.solvers import motion
+from cosserat.solvers.stepping import KERNEL
+
+
+def spring(q, after, parameters, order, measures, gradient, band, terms):
+    """Half the stiffness times the square of the first number; the other three are held."""
+    gradient[:] = 0.0
+    band[:, :] = 0.0
+    stiffness, x, end = parameters[0, 0], q[0], q[0]
+    if order == 3:
+        measures[0, 0] = x
+    if after.size > 0:
+        end = after[0]
+        x = (measures[0, 0] + end) / 2
+    if 0 < order < 3:
+        gradient[0] = stiffness * x
+    if order == 2:
+        band[0, 0] = stiffness
+    return stiffness * end * end / 2
+
+
+class Spring:
+    """A body of four numbers, of which one moves."""
+
+    half_bandwidth = 3
+    kernel = cfunc(KERNEL)(spring)
+
+    def __init__(self, omega):
+        self.omega = omega
+        self.parameters = np.array([[omega**2, 0.0]])
+
+    def counted_near(self, angle):
+        return self
+
+    def energy(self, q):
+        return self.omega**2 * q[0] ** 2 / 2
+
+    def differentiate(self, q, gradient):
+        gradient[:] = 0.0
+        gradient[0] = self.omega**2 * q[0]
+        return self.energy(q)
+
+
+def oscillator(omega, drag):
+    held = np.array([False, True, True, True])
+    mass = np.zeros((4, 1))
+    mass[:, 0] = 1.0
+    return motion.System(Spring(omega), mass, np.zeros(4), held, drag, np.empty((0, 4)))
+
+
+def exact(omega, c, t):
+    """Displacement and velocity of x'' + c x' + omega^2 x = 0 from x = 1 at rest."""
+    root = np.emath.sqrt(c**2 / 4 - omega**2 + 0j)
+    x = np.exp(-c * t / 2) * (np.cosh(root * t) + c / 2 * np.sinh(root * t) / root)
+    v = -np.exp(-c * t / 2) * omega**2 * np.sinh(root * t) / root
+    return x.real, v.real
+
+
+def rate_of_decay(omega, drag, h):
+    """Minus the slope of log energy over a fall of six powers of ten, of the motion and of the exact one."""
+    system = oscillator(omega, drag)
+    state = motion.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
+    steps = int(6 * np.log(10) / (drag * h)) + 1
+    times, logs = [], []
+    each = max(1, steps // 2000)
+    for _ in range(0, steps, each):
+        state, _ = motion.advance(system, state, each * h, motion.IntegratorSettings(step=h), "spring")
+        times.append(state.time)
+        logs.append(np.log(system.body.energy(state.q) + motion.kinetic_energy(system, state)))
+    x, v = exact(omega, drag, np.array(times))
+    ideal = np.log(omega**2 * x**2 / 2 + v**2 / 2)
+    return -np.polyfit(times, logs, 1)[0], -np.polyfit(times, ideal, 1)[0]
+
+
+@pytest.mark.parametrize("omega_h", [0.01, 0.1, 1.0, 10.0, 100.0])
+@pytest.mark.parametrize("drag_h", [0.01, 0.001])
+def test_a_drag_takes_energy_at_its_rate_whether_or_not_the_step_resolves_the_period(omega_h, drag_h):
+    found, right = rate_of_decay(omega_h, drag_h, 1.0)
+    assert found == pytest.approx(right, rel=1e-2)
+    assert right == pytest.approx(drag_h, rel=1e-2)
+
+
+def test_beyond_the_stated_limit_the_rate_is_another():
+    """c omega h^2 = 20 where 8 is the limit: the slow turning of an unresolved phase comes to a standstill."""
+    found, right = rate_of_decay(2000.0, 0.01, 1.0)
+    assert abs(found / right - 1) > 0.2
+
+
+@pytest.mark.parametrize(("omega", "drag"), [(1.0, 0.1), (1.0, 1.0), (1.0, 2.5), (1.0, 10.0)])
+def test_a_resolved_damped_oscillator_is_followed_to_second_order(omega, drag):
+    """Under-damped, nearly critical and over-damped."""
+    system, errors = oscillator(omega, drag), []
+    for h in (0.04, 0.02, 0.01):
+        state = motion.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
+        state, _ = motion.advance(system, state, 4.0, motion.IntegratorSettings(step=h), "spring")
+        errors.append(np.abs(np.array([state.q[0], state.v[0]]) - exact(omega, drag, 4.0)).max())
+    np.testing.assert_allclose(np.diff(np.log2(errors)), -2, atol=0.1)
+
+
+def test_what_the_drag_took_is_what_is_missing():
+    system = oscillator(30.0, 0.5)
+    state = motion.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
+    start = system.body.energy(state.q)
+    for method in ("implicit", "rk4", "rk45"):
+        settings = motion.IntegratorSettings(method=method, step=1e-3, tolerance=1e-10)
+        after, _ = motion.advance(system, state, 2.0, settings, "spring")
+        left = system.body.energy(after.q) + motion.kinetic_energy(system, after)
+        assert left + after.dissipated == pytest.approx(start, rel=1e-7), method
+        assert 0.5 * start < after.dissipated < 0.7 * start
