@@ -216,7 +216,8 @@ def test_forces_turn_with_the_rod_and_its_energy_stays(seed):
 
 
 @given(st.integers(0, 10_000))
-def test_the_energy_grows_by_the_power_of_the_forces_1_3_11(seed):
+def test_the_energy_grows_by_the_power_of_the_forces(seed):
+    """(1.3.11) along a random motion."""
     d, d_prime = state(seed)
     rate, rate_prime = np.random.default_rng(seed + 1).uniform(-1, 1, (2, 3, 3))
 
