@@ -9,7 +9,7 @@ import cosserat
 from cosserat.models.constrained_rod import INCOMPRESSIBLE
 from cosserat.models.directed_rod import Section, integrated_stiffnesses, internal_forces, strain_energy
 from cosserat.models.muscle_regions import Instant, Region
-from cosserat.models.peristaltic_rod import Compressible, Crawler, Groups
+from cosserat.models.peristaltic_rod import Compressible, Crawler, Groups, Incompressible
 from cosserat.solvers.regions import RegionSettings
 
 WORM, ROBOT = (cosserat.case(name).problem for name in ("worm", "soft_robot"))
@@ -33,6 +33,14 @@ def test_compliance_of_the_compressible_rod_is_2_6_2():
     assert pulled[0] / pulled[2] == pytest.approx(-POISSON)
     lame = YOUNG * BODY.area / ((1 + POISSON) * (1 - 2 * POISSON))
     assert (k_s, k_p) == pytest.approx(((1 - POISSON) * lame, POISSON * lame))
+
+
+def test_stiffnesses_of_the_incompressible_rod_are_the_limit_of_the_compressible():
+    """(2.6.17) and (2.6.22) from (2.6.20) as nu tends to 1/2."""
+    almost = BODY.replace(material=Compressible(young=YOUNG, poisson=0.5 - 1e-7))
+    k_s, k_p, k_g = almost.stiffnesses
+    limit = BODY.replace(material=Incompressible(young=YOUNG)).incompressible_stiffnesses
+    assert limit == pytest.approx((k_s - k_p, k_g), rel=1e-6)
 
 
 def energy_2_6_18(mu, slope):

@@ -113,6 +113,18 @@ def test_counts_are_those_of_the_thesis():
     assert [len(LISTED.numbered.names(kind)) for kind in KINDS] == [399, 29, 3]
 
 
+def test_places_are_written_as_the_thesis_cites_them():
+    item = LeftOut(
+        what="x",
+        why="y",
+        equations=("1.1.1-1.1.3", "1.2.4"),
+        figures=("1.1-1.4", "2.1"),
+        sections=("3.1",),
+    )
+    assert item.where == "(1.1.1)-(1.1.3), (1.2.4), Figs. 1.1-1.4, Fig. 2.1, section 3.1"
+    assert item.names("figures") == ["1.1", "1.2", "1.3", "1.4", "2.1"]
+
+
 @pytest.mark.parametrize("text", ["1", "1.2.9-1.2.3", "1.2.3-1.3.9", "a", "1.2.3 "])
 def test_ranges_that_are_none_are_refused(text):
     with pytest.raises(InputError, match="is no number or range"):

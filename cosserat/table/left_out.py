@@ -48,9 +48,9 @@ class LeftOut(Parameters):
 
     @property
     def where(self) -> str:
-        """The same as a line: "(1.1.1)-(1.1.34), Fig. 2.10, section 3.1"."""
+        """The same as a line: "(1.1.1)-(1.1.34), Figs. 1.1-1.4, section 3.1"."""
         parts = ["-".join(f"({name})" for name in text.split("-")) for text in self.equations]
-        parts += [f"Fig. {text}" for text in self.figures]
+        parts += [f"Fig{'s' * ('-' in text)}. {text}" for text in self.figures]
         parts += [f"Table {text}" for text in self.tables]
         return ", ".join([*parts, *(f"section {text}" for text in self.sections)])
 
