@@ -13,19 +13,26 @@ from cosserat.table.left_out import KINDS, LeftOut, read_left_out
 LISTED = read_left_out(ROOT / "results/left_out.toml")
 OWN = ("left_out.py", "test_left_out.py")  # the list and its test cite what they do not use
 
-EQUATION = r"(?<![\d.])(?P<section>[123]\.\d)\.(?P<number>\d{1,3})(?![\d.]*\d)"
+NUMBER = r"([123]\.\d\.\d{1,3})"
+FORMS = {
+    "cosserat": r'"' + NUMBER + r'"',  # of a parameter or a variable
+    "chapters": r"\\tag\{" + NUMBER + r"\}",
+    "results": r"(?<=,)" + NUMBER + r"(?=[,\n])",  # of a row
+}
+"""How a folder cites an equation, besides (1.2.3)."""
 RANGE = r"\((?P<section>[123]\.\d)\.(?P<first>\d{1,3})\)(?:_?\d)?(?:-|\s+to\s+)\((?P=section)\.(?P<last>\d{1,3})\)"
 TABLE = r"Table (\d\.\d+)"
 
 
-def cited(text):
-    """Equations of a text: (1.2.3), eqs. (1.2.3)-(1.2.7) with all between, and the "1.2.3" of a parameter."""
+def cited(text, folder="tests"):
+    """Equations of a text of this folder: (1.2.3), eqs. (1.2.3)-(1.2.7) with all between, and its own form."""
     ranges = {
         f"{match['section']}.{number}"
         for match in re.finditer(RANGE, text)
         for number in range(int(match["first"]), int(match["last"]) + 1)
     }
-    return ranges | {f"{m['section']}.{m['number']}" for m in re.finditer(EQUATION, text)}
+    own = re.findall(FORMS[folder], text) if folder in FORMS else []
+    return ranges | {*re.findall(r"\(" + NUMBER + r"\)", text), *own}
 
 
 def sources():
@@ -44,29 +51,32 @@ def sources():
 
 def used():
     """What is used, by kind."""
-    texts = [file.read_text(encoding="utf-8") for file in sources()]
+    texts = {file: file.read_text(encoding="utf-8") for file in sources()}
     drawn = (re.match(r"Fig\. (\d\.\d+):", entry.title) for entry in FIGURES.values())
     return {
-        "equations": set().union(*map(cited, texts)),
+        "equations": set().union(
+            *(cited(text, file.relative_to(ROOT).parts[0]) for file, text in texts.items())
+        ),
         "figures": {match[1] for match in drawn if match},
-        "tables": {name for text in texts for name in re.findall(TABLE, text)},
+        "tables": {name for text in texts.values() for name in re.findall(TABLE, text)},
     }
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("folder", "text", "found"),
     [
-        ("eq. (1.2.3)", {"1.2.3"}),
-        ("eqs. (1.2.9)-(1.2.11), (1.3.4)", {"1.2.9", "1.2.10", "1.2.11", "1.3.4"}),
-        ("(3.3.36)_4 to (3.3.38)", {"3.3.36", "3.3.37", "3.3.38"}),
-        ('Quantity("m", "L", "2.3.4")', {"2.3.4"}),
-        (r"\\tag{3.4.11}", {"3.4.11"}),
-        ("ends with (2.2.7).", {"2.2.7"}),
-        ("pip 23.0.1, 1.2.3.4, 0.1.2, test_of_1_2_94", set()),
+        ("tests", "eq. (1.2.3)", {"1.2.3"}),
+        ("tests", "eqs. (1.2.9)-(1.2.11), (1.3.4)", {"1.2.9", "1.2.10", "1.2.11", "1.3.4"}),
+        ("tests", "(3.3.36)_4 to (3.3.38).", {"3.3.36", "3.3.37", "3.3.38"}),
+        ("cosserat", 'Quantity("m", "L", "2.3.4")', {"2.3.4"}),
+        ("tests", 'Quantity("m", "L", "2.3.4")', set()),
+        ("chapters", r"\tag{3.4.11}", {"3.4.11"}),
+        ("results", "tip,0.1,m,2.8.4,why\nend,1,m,2.8.6\n", {"2.8.4", "2.8.6"}),
+        ("cosserat", "pip 23.0.1, 1.2.3.4, 0.1.2, 1.2.3, test_of_1_2_94", set()),
     ],
 )
-def test_citations_are_read(text, found):
-    assert cited(text) == found
+def test_citations_are_read(folder, text, found):
+    assert cited(text, folder) == found
 
 
 @pytest.fixture(scope="module")

@@ -20,6 +20,7 @@ from cosserat.models.directed_rod import energy_gradient, forces, measures
 Array = NDArray[np.float64]
 
 _BALANCED = 1e-12  # largest force left over, as a share of the largest stiffness
+_TRIALS = 60  # of directors and multiplier; a rod that is not turned too much takes a dozen
 _LEAST = 0.1  # volume of a section over that at rest below which it counts as collapsed
 
 
@@ -127,7 +128,9 @@ def uniform_state(
         return np.append(left / scale, [constraint.value(d), turned])
 
     start = np.append(np.eye(3).ravel(), 0.0)
-    found = least_squares(unbalanced, start, jac="cs", xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    found = least_squares(
+        unbalanced, start, jac="cs", xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=_TRIALS
+    )
     d, residual = found.x[:9].reshape(3, 3), float(np.abs(found.fun).max())
     asked = f"a uniform rod that turns by {turn} per metre under {pull:g} N"
     if not residual < _BALANCED:
