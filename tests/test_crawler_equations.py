@@ -190,3 +190,22 @@ def test_the_contact_force_goes_on_through_both_junctions():
     at = np.array([0.3 - 1e-9, 0.3 + 1e-9, 0.7 - 1e-9, 0.7 + 1e-9])
     mu, _, _, multiplier = profile.at(at)
     np.testing.assert_allclose(multiplier * mu.prod(axis=1), -posed.groups.force, rtol=1e-12)
+
+
+def test_fronts_of_the_soft_robot_are_those_of_2_7():
+    """gamma by (2.7.1) from the end of the pause on, eta by (2.7.2), both at the speed and with T of Fig. 2.8."""
+    gait, length, speed, pause, share = ROBOT.gait, ROBOT.crawler.length, 0.0254, 5.0, 0.25
+    crossing = length / speed
+    later = pause + crossing * (1 - share)
+    for phase in np.linspace(0.05, 3.95, 40):
+        t = gait.time(phase)
+        expected = []
+        if pause < t < later + crossing:
+            expected = [((length - speed * (t - later)) / length, "eta")] if t > later else []
+            expected += (
+                [((length - speed * (t - pause)) / length, "gamma")] if t < pause + crossing else []
+            )
+        found = gait.fronts(phase)
+        assert [kind for _, kind in found] == [kind for _, kind in sorted(expected)]
+        assert [at for at, _ in found] == pytest.approx([at for at, _ in sorted(expected)], abs=1e-12)
+    assert gait.duration == pytest.approx(pause + crossing * (2 - share))
