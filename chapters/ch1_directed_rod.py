@@ -203,8 +203,8 @@ print(f"the first term is up to {largest:.1e} N, the sum of all three {left:.0e}
 assert left < 1e-13 * largest
 
 # %% [markdown]
-# Tests compare the forces with exact differences of the energy, turn them with the rod, and, for small deformations, find
-# them as integrals of the stress over a rectangle.
+# Tests compare the forces with exact differences of the energy, turn them with the rod, find that in any motion the energy
+# grows by their power (1.3.11), and, for small deformations, that they are integrals of the stress over a rectangle.
 #
 # Where the energy is a function of stretches alone, the forces follow from
 #
