@@ -34,7 +34,7 @@ K = adjusted_stiffnesses(YOUNG, 0.3, CIRCLE, 0.9)
 STIFF = YOUNG * CIRCLE.area
 TWIST, BEND, OBLIQUE = np.array([0, 0, 30.0]), np.array([0, 30.0, 0]), np.array([0, 20.0, 20.0])
 LOADS = {"twisted and pulled": (TWIST, 0.2 * STIFF), "twisted and pushed": (TWIST, -0.05 * STIFF)}
-LOADS |= {"bent": (BEND, 0.0), "wound": (OBLIQUE, 0.03 * STIFF)}
+LOADS |= {"bent": (BEND, 0.0), "twisted about a slanted axis": (OBLIQUE, 0.03 * STIFF)}
 
 
 def on_the_surface(name, seed):
