@@ -114,6 +114,7 @@ rule chapter:
         "results/report.csv",
         "results/tolerances.csv",
         "results/errata.toml",
+        "results/left_out.toml",
         expand("results/cases/{case}.nc", case=CASES),
         expand("results/figures/{figure}.svg", figure=FIGURES),
         measured=lambda wildcards: (

@@ -34,6 +34,7 @@
 # ch5_peers
 # results_table
 # errata
+# left_out
 # ```
 
 # %% tags=["remove-input"]

@@ -4,11 +4,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from cosserat.models.directed_rod import (
+    Inertia,
     Offset,
     Section,
     adjusted_stiffnesses,
+    couple,
+    energy_gradient,
+    forces,
     integrated_stiffnesses,
     internal_forces,
     lame,
@@ -17,6 +22,7 @@ from cosserat.models.directed_rod import (
     strain_energy,
     stretch_gradients,
     stretches,
+    unbalanced_couple,
 )
 
 YOUNG, POISSON = 3.0, 0.3
@@ -38,15 +44,32 @@ def rectangle(width, height, centre=(0.0, 0.0), turn=0.0):
 
 
 def three_dimensional_energy(delta, kappa, places, area):
-    """Linear elasticity over a section with the strains (1.2.24)."""
+    """Linear elasticity (1.1.71) over a section, eq. (1.2.92)."""
     first, shear = lame(YOUNG, POISSON)
     total = 0.0
     for x, da in zip(places, area, strict=True):
-        gradient = delta.T.copy()  # u_i,j: column j is the displacement of director j
-        gradient[:, 2] += x @ kappa
-        strain = (gradient + gradient.T) / 2
+        strain = small_strain(delta, kappa, x)
         total += (first / 2 * np.trace(strain) ** 2 + shear * (strain**2).sum()) * da
     return total
+
+
+def small_strain(delta, kappa, x):
+    """The strains (1.2.24) at a point x of the section, from (1.2.22) and (1.2.23)."""
+    gradient = delta.T.copy()  # u_i,j: column j is the displacement of director j
+    gradient[:, 2] += x @ kappa
+    return (gradient + gradient.T) / 2
+
+
+def resultants(delta, kappa, places, area):
+    """n, k^alpha and m^alpha by the integrals (1.2.66), (1.2.78) and (1.2.77) of the stress (1.1.72)."""
+    first, shear = lame(YOUNG, POISSON)
+    by_d, m = np.zeros((3, 3)), np.zeros((2, 3))
+    for x, da in zip(places, area, strict=True):
+        strain = small_strain(delta, kappa, x)
+        stress = first * np.trace(strain) * np.eye(3) + 2 * shear * strain
+        by_d += stress.T * da  # row i is the traction on the plane with the normal E_i
+        m += np.outer(x, stress[:, 2]) * da
+    return by_d[2], by_d[:2], m
 
 
 @given(st.integers(0, 10_000))
@@ -114,6 +137,147 @@ def test_forces_are_the_gradient_of_an_energy_of_the_stretches_1_3_20(seed):
     np.testing.assert_allclose(np.cross(across, m), 0, atol=1e-12)
 
 
+SHAPE = Section(0.28, 0.0037, 0.0114, 0.009)
+ADJUSTED = adjusted_stiffnesses(YOUNG, POISSON, SHAPE, 5 / 6)
+
+
+def forces_at(d, d_prime, k=ADJUSTED):
+    """n, k^alpha, m^alpha of the energy (1.2.97)."""
+    return forces(d, d_prime, *energy_gradient(k, *measures(d, d_prime)))
+
+
+def differences(energy, x):
+    """Gradient of a function that is a polynomial of fourth degree along every axis: exact but for rounding."""
+    h = 0.25
+
+    def slope(e):
+        near, far = energy(x + h * e) - energy(x - h * e), energy(x + 2 * h * e) - energy(x - 2 * h * e)
+        return (8 * near - far) / (12 * h)
+
+    return np.array([slope(e) for e in np.eye(x.size)])
+
+
+@given(st.integers(0, 10_000))
+def test_forces_of_the_energy_1_2_97_are_its_gradient_1_3_18(seed):
+    d, d_prime = state(seed, 0.8)
+
+    def energy(x):
+        return strain_energy(ADJUSTED, *measures(x[:9].reshape(3, 3), x[9:].reshape(2, 3)))
+
+    n, k, m = forces_at(d, d_prime)
+    found = differences(energy, np.concatenate([d.ravel(), d_prime.ravel()]))
+    np.testing.assert_allclose(
+        found, np.concatenate([k.ravel(), n, m.ravel()]), atol=1e-13 * np.abs(found).max()
+    )
+
+
+@given(st.integers(0, 10_000))
+def test_forces_of_a_little_deformed_section_are_resultants_of_the_stress(seed):
+    """Half the difference of the forces at two opposite small states, against the integrals over a rectangle."""
+    width, height = 0.7, 0.4
+    section = Section(width * height, width * height**3 / 12, height * width**3 / 12, np.nan)
+    k = integrated_stiffnesses(YOUNG, POISSON, section)
+    rng = np.random.default_rng(seed)
+    delta, kappa = rng.uniform(-1, 1, (3, 3)), rng.uniform(-1, 1, (2, 3))
+    h = 1e-5
+    ahead, behind = (forces_at(np.eye(3) + s * delta, s * kappa, k) for s in (h, -h))
+    for one, other, exact in zip(
+        ahead, behind, resultants(delta, kappa, *rectangle(width, height)), strict=True
+    ):
+        np.testing.assert_allclose((one - other) / (2 * h), exact, atol=1e-8)
+
+
+@given(st.integers(0, 10_000))
+def test_angular_momentum_is_balanced_1_2_91(seed):
+    """Of both energies, to rounding at any state; not of forces that lack their part from the bending measures."""
+    d, d_prime = state(seed, 0.8)
+    _, by_mu, by_slope = an_energy_of_stretches(*stretches(d, d_prime))
+    of_stretches = internal_forces(d, d_prime, by_mu, by_slope)
+    of_measures = forces_at(d, d_prime)
+    for n, k, m in (of_stretches, of_measures):
+        scale = max(np.abs(n).max(), np.abs(k).max(), np.abs(m).max())
+        assert np.abs(unbalanced_couple(d, d_prime, n, k, m)).max() < 1e-14 * scale
+    by_gamma, _ = energy_gradient(ADJUSTED, *measures(d, d_prime))
+    n, k = 2 * by_gamma[2] @ d, 2 * by_gamma[:2] @ d
+    assert np.abs(unbalanced_couple(d, d_prime, n, k, of_measures[2])).max() > 1e-7
+
+
+@given(st.integers(0, 10_000))
+def test_forces_turn_with_the_rod_and_its_energy_stays(seed):
+    d, d_prime = state(seed, 0.8)
+    turn = Rotation.random(random_state=seed).as_matrix()
+    energies = [
+        strain_energy(ADJUSTED, *measures(*turned))
+        for turned in ((d, d_prime), (d @ turn, d_prime @ turn))
+    ]
+    assert energies[1] == pytest.approx(energies[0], rel=1e-13)
+    for here, there in zip(forces_at(d, d_prime), forces_at(d @ turn, d_prime @ turn), strict=True):
+        np.testing.assert_allclose(here @ turn, there, atol=1e-13 * max(1, np.abs(here).max()))
+
+
+@given(st.integers(0, 10_000))
+def test_the_energy_grows_by_the_power_of_the_forces(seed):
+    """(1.3.11) along a random motion."""
+    d, d_prime = state(seed)
+    rate, rate_prime = np.random.default_rng(seed + 1).uniform(-1, 1, (2, 3, 3))
+
+    def energy(t):
+        return strain_energy(ADJUSTED, *measures(d + t[0] * rate, d_prime + t[0] * rate_prime[:2]))
+
+    n, k, m = forces_at(d, d_prime)
+    power = n @ rate[2] + (k * rate[:2]).sum() + (m * rate_prime[:2]).sum()
+    assert power == pytest.approx(differences(energy, np.zeros(1))[0], abs=1e-12)
+
+
+def test_a_twisted_circle_carries_the_couple_of_torsion_theory():
+    """The couple (1.2.89) on a section; with the printed sign of D in (1.2.98), E1.1, there would be none."""
+    circle = Section.circle(0.3)
+    _, shear = lame(YOUNG, POISSON)
+    twist = 1e-3
+    d_prime = twist * np.array([[0, 1.0, 0], [-1.0, 0, 0]])
+    _, _, m = forces_at(np.eye(3), d_prime, adjusted_stiffnesses(YOUNG, POISSON, circle, 5 / 6))
+    np.testing.assert_allclose(
+        couple(np.eye(3), m), [0, 0, twist * shear * circle.torsion_constant], atol=1e-15
+    )
+
+
+# ---------------------------------------------------------------- inertia
+
+
+def moving(seed):
+    """A section off its centre and out of its axes: its places, their masses, its inertia, and a motion of it."""
+    rng = np.random.default_rng(seed)
+    x, area = rectangle(0.7, 0.4, centre=rng.uniform(0.1, 0.5, 2), turn=rng.uniform(0.1, 1.4))
+    second = np.einsum("ka,kb,k->ab", x, x, area)
+    section = Section(area.sum(), second[1, 1], second[0, 0], np.nan)
+    inertia = Inertia.homogeneous(2.5, section, Offset(area @ x, second[0, 1]))
+    return x, 2.5 * area, inertia, rng.uniform(-1, 1, 3), rng.uniform(-1, 1, (2, 3))
+
+
+@given(st.integers(0, 10_000))
+def test_momenta_and_kinetic_energy_are_sums_over_the_section(seed):
+    """(1.2.39), (1.2.41), (1.2.43) and (1.2.45) against the points of the section with their velocities (1.2.11)."""
+    x, mass, inertia, v, w = moving(seed)
+    r, d = np.array([0.3, -0.2, 1.1]), state(seed)[0]
+    velocity, place = v + x @ w, r + x @ d[:2]
+    linear, director = inertia.momenta(v, w)
+    np.testing.assert_allclose(linear, mass @ velocity, atol=1e-13)
+    np.testing.assert_allclose(director, (mass[:, None] * x).T @ velocity, atol=1e-13)
+    assert inertia.kinetic_energy(v, w) == pytest.approx((mass @ velocity**2).sum() / 2, rel=1e-13)
+    np.testing.assert_allclose(
+        inertia.angular_momentum(r, d, v, w), mass @ np.cross(place, velocity), atol=1e-13
+    )
+
+
+@given(st.integers(0, 10_000))
+def test_a_section_that_turns_rigidly_has_the_moment_of_inertia_1_2_34(seed):
+    _, _, inertia, omega, _ = moving(seed)
+    w = np.cross(omega, np.eye(3)[:2])
+    turning = inertia.angular_momentum(np.zeros(3), np.eye(3), np.zeros(3), w)
+    np.testing.assert_allclose(turning, inertia.tensor @ omega, atol=1e-14)
+    assert inertia.kinetic_energy(np.zeros(3), w) == pytest.approx(omega @ inertia.tensor @ omega / 2)
+
+
 @given(st.integers(0, 10_000))
 def test_gradients_of_the_stretches_1_3_19(seed):
     d, d_prime = state(seed)
@@ -145,8 +309,6 @@ def test_gradients_of_the_stretches_1_3_19(seed):
 
 
 def test_the_measures_vanish_in_the_reference_and_under_rotation():
-    from scipy.spatial.transform import Rotation
-
     for rotation in (np.eye(3), Rotation.from_rotvec([0.3, -1.1, 0.7]).as_matrix()):
         gamma, kappa = measures(rotation, np.zeros((2, 3)))
         assert np.abs(gamma).max() < 1e-15
@@ -202,16 +364,16 @@ def test_E1_3_current_inertias_need_the_density():
     angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
     x_1 = r[:, None] * np.cos(angle)
     dA = np.outer(w * r, np.full(16, np.pi / 8))
-    rho_0 = density_0 * dA.sum()
+    rho_0 = density_0 * dA.sum()  # (1.2.30)
     y_0 = (x_1**2 * density_0 * dA).sum() / rho_0  # (1.2.32)
     mu = np.linalg.norm(d, axis=1)
     e = d / mu[:, None]
     jacobian = np.linalg.det(d)
-    density = density_0 / jacobian  # rho_0* = rho* J
+    density = density_0 / jacobian  # (1.1.35)
     triple, da = np.linalg.det(e), mu[0] * mu[1] * dA
     rho = triple * (density * da).sum()  # (1.2.48)
     integral = triple * (x_1**2 * density * da).sum()  # the right side of (1.2.61)
-    assert mu[2] * rho == pytest.approx(rho_0)
+    assert mu[2] * rho == pytest.approx(rho_0)  # (1.2.52)
     assert mu[2] * integral == pytest.approx(
         rho_0 * y_0
     )  # so the left side of (1.2.61) is rho y, and y = y_0

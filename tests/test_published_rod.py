@@ -120,7 +120,7 @@ def test_half_bandwidth_is_reached_and_not_exceeded():
 
 
 def test_energy_terms_are_those_of_3_4_11_written_out():
-    """Eq. (3.4.11), corrected by E3.1 and E3.2, from the strains as `strains` measures them."""
+    """Eq. (3.4.11), corrected by E3.1 and E3.2, from the strains as `strains` measures them: that is (3.4.12)."""
     rod = make_rod(vertices=7)
     geometry = rod.geometry()
     body = rod.body(geometry)

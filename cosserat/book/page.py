@@ -20,6 +20,7 @@ from cosserat.data.dataset import load
 from cosserat.errors import InputError, OutOfToleranceError
 from cosserat.figures.catalogue import entry
 from cosserat.table.errata import Erratum, read_errata
+from cosserat.table.left_out import LeftOutList, read_left_out
 from cosserat.table.tolerances import read_report
 
 
@@ -113,6 +114,11 @@ def errata(*standings: str) -> dict[str, Erratum]:
     """The entries of the errata table with one of the standings, or all."""
     known = read_errata(results() / "errata.toml")
     return {name: item for name, item in known.items() if not standings or item.standing in standings}
+
+
+def left_out() -> LeftOutList:
+    """What of the thesis is not here, with the reasons."""
+    return read_left_out(results() / "left_out.toml")
 
 
 def source(thing: Any) -> Markdown:

@@ -1,6 +1,7 @@
-"""The directed rod of Green and Naghdi, Chapter 1: measures, stiffnesses from three-dimensional elasticity, gradients.
+"""The directed rod of Green and Naghdi, Chapter 1: measures, energies, their gradients, inertia.
 
-A section is known by its directors d_1, d_2, by d_3 = r' and by d_1', d_2'.  Index 0 stands for 1 of the thesis.
+A section is known by its directors d_1, d_2, by d_3 = r', eq. (1.2.10), and by d_1', d_2'.  Index 0 stands for 1 of the
+thesis.  Stiffnesses come from three-dimensional elasticity.
 """
 
 from __future__ import annotations
@@ -52,8 +53,9 @@ def lame(young: float, poisson: float) -> tuple[float, float]:
 
 
 def measures(d: Array, d_prime: Array) -> tuple[Array, Array]:
-    """gamma_ij, shape (3, 3), and kappa_alpha_i, shape (2, 3), of eq. (1.2.19) for a straight reference.
+    """gamma_ij, shape (3, 3), and kappa_alpha_i, shape (2, 3), of eq. (1.2.19).
 
+    The reference is straight, eq. (1.3.1), and its directors are the unit vectors E_i, eq. (1.3.2).
     d : (3, 3) the directors d_1, d_2, d_3 as rows.  d_prime : (2, 3) d_1', d_2' [1/m].
     """
     return d @ d.T - np.eye(3), d_prime @ d.T
@@ -112,6 +114,24 @@ def strain_energy(k: Mapping[int, float], gamma: Array, kappa: Array) -> float:
     return float(sum(value * squares[number] for number, value in k.items()) / 2)
 
 
+def energy_gradient(k: Mapping[int, float], gamma: Array, kappa: Array) -> tuple[Array, Array]:
+    """Derivatives of `strain_energy` by the measures: Gamma, shape (3, 3), and K, shape (2, 3) [N, N m].
+
+    The change of the energy is the sum of Gamma_ij times that of gamma_ij over all nine, with Gamma symmetric.
+    """
+    by_gamma = np.zeros_like(gamma)
+    by_gamma[0, 0] = k[1] * gamma[0, 0] + (k[7] * gamma[1, 1] + k[8] * gamma[2, 2]) / 2
+    by_gamma[1, 1] = k[2] * gamma[1, 1] + (k[7] * gamma[0, 0] + k[9] * gamma[2, 2]) / 2
+    by_gamma[2, 2] = k[3] * gamma[2, 2] + (k[8] * gamma[0, 0] + k[9] * gamma[1, 1]) / 2
+    by_gamma[0, 1] = by_gamma[1, 0] = k[4] * (gamma[0, 1] + gamma[1, 0]) / 4
+    by_gamma[0, 2] = by_gamma[2, 0] = k[5] * gamma[0, 2] / 2
+    by_gamma[1, 2] = by_gamma[2, 1] = k[6] * gamma[1, 2] / 2
+    by_kappa = np.array([[k[10], k[12], k[14]], [k[13], k[11], k[15]]]) * kappa
+    by_kappa[0, 1] += k.get(16, 0.0) * kappa[1, 0] / 2
+    by_kappa[1, 0] += k.get(16, 0.0) * kappa[0, 1] / 2
+    return by_gamma, by_kappa
+
+
 def offset_energy(
     young: float, poisson: float, section: Section, offset: Offset, gamma: Array, kappa: Array
 ) -> float:
@@ -156,3 +176,68 @@ def internal_forces(
     along, turned, across = stretch_gradients(d, d_prime)
     intrinsic = by_stretch[:2, None] * along[:2] + by_slope[:, None] * turned
     return by_stretch[2] * along[2], intrinsic, by_slope[:, None] * across
+
+
+def forces(d: Array, d_prime: Array, by_gamma: Array, by_kappa: Array) -> tuple[Array, Array, Array]:
+    """n, shape (3,), k^alpha and m^alpha, shape (2, 3), of eq. (1.3.18), for an energy of the measures (1.2.19).
+
+    derived: a change of gamma_ij is d_i . d(d_j) + d_j . d(d_i), one of kappa_alpha i is
+    d_i . d(d_alpha') + d_alpha' . d(d_i).
+
+    by_gamma : (3, 3) its derivatives by gamma_ij, symmetric [N].  by_kappa : (2, 3) those by kappa_alpha i [N m].
+    """
+    by_d = 2 * by_gamma @ d + by_kappa.T @ d_prime
+    return by_d[2], by_d[:2], by_kappa @ d
+
+
+def unbalanced_couple(d: Array, d_prime: Array, n: Array, k: Array, m: Array) -> Array:
+    """r' x n + d_alpha x k^alpha + d_alpha' x m^alpha, shape (3,), which eq. (1.2.91) says is zero [N]."""
+    return np.asarray(np.cross(d[2], n) + couple(d, k) + np.cross(d_prime, m).sum(axis=0))
+
+
+def couple(d: Array, director_forces: Array) -> Array:
+    """d_alpha x f^alpha, shape (3,), of forces f^alpha, shape (2, 3): with m^alpha eq. (1.2.89) [N m]."""
+    return np.asarray(np.cross(d[:2], director_forces).sum(axis=0))
+
+
+@dataclass(frozen=True)
+class Inertia:
+    """What moves with a section, per reference length, eqs. (1.2.30)-(1.2.32).
+
+    mass : rho_0 [kg/m].  first : (2,) rho_0 y_0^0alpha [kg].  second : (2, 2) rho_0 y_0^alpha beta [kg m].
+    """
+
+    mass: float
+    first: Array
+    second: Array
+
+    @classmethod
+    def homogeneous(cls, density: float, section: Section, offset: Offset) -> Inertia:
+        """Of one density [kg/m^3], eqs. (1.2.35), (1.2.37): I^11 = I_2, I^22 = I_1."""
+        i1, i2 = section.second_moment_1, section.second_moment_2
+        area = np.array([[i2, offset.product], [offset.product, i1]])
+        return cls(density * section.area, density * offset.first, density * area)
+
+    @property
+    def tensor(self) -> Array:
+        """J_0 of eq. (1.2.34) about the centreline for D_alpha = E_alpha, shape (3, 3) [kg m]."""
+        spread = np.zeros((3, 3))
+        spread[:2, :2] = self.second
+        return np.asarray(np.trace(spread) * np.eye(3) - spread)
+
+    def momenta(self, v: Array, w: Array) -> tuple[Array, Array]:
+        """G, shape (3,), and L^alpha, shape (2, 3), of eqs. (1.2.39), (1.2.41), the first two of (1.3.8).
+
+        v : (3,) velocity of the centreline, w : (2, 3) of the directors, eq. (1.3.5) [m/s, 1/s].
+        """
+        return self.mass * v + self.first @ w, np.outer(self.first, v) + self.second @ w
+
+    def kinetic_energy(self, v: Array, w: Array) -> float:
+        """T of eq. (1.2.43) [J/m]."""
+        linear, director = self.momenta(v, w)
+        return float(linear @ v + (director * w).sum()) / 2
+
+    def angular_momentum(self, r: Array, d: Array, v: Array, w: Array) -> Array:
+        """H_O of eq. (1.2.45), shape (3,), of a section at r with directors d, shape (3, 3) [N s]."""
+        linear, director = self.momenta(v, w)
+        return np.asarray(np.cross(r, linear) + couple(d, director))

@@ -98,7 +98,10 @@ class Geometry:
 
 
 def to_vertices(edge_lengths: Array) -> Array:
-    """Voronoi lengths of a polygon from its edge lengths: (N - 1,) -> (N,), eqs. (3.3.10)-(3.3.14)."""
+    """Voronoi lengths of a polygon from its edge lengths: (N - 1,) -> (N,), eqs. (3.3.10)-(3.3.14).
+
+    They add up to the length of the polygon, eq. (3.3.12).
+    """
     vertex = np.zeros(edge_lengths.size + 1)
     vertex[:-1] += edge_lengths / 2
     vertex[1:] += edge_lengths / 2
@@ -131,7 +134,8 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     tangent = vertex_tangents(x)
     bishop = np.column_stack([-tangent[:, 1], tangent[:, 0]])  # b = t x E1, eq. (3.3.25)
     voronoi = to_vertices(length)
-    # eqs. (3.3.16)-(3.3.17): the turning angles of the ends are between vertex tangents
+    # between edges, whose angle is that of their unit tangents (3.3.5); at the ends between the tangents of the
+    # vertices, eqs. (3.3.16)-(3.3.17)
     before = np.vstack([tangent[:1], e])
     after = np.vstack([e, tangent[-1:]])
     before[0], after[0] = tangent[0], tangent[1]
@@ -170,7 +174,7 @@ def counted_angles(d: Array) -> Array:
 
 
 def edge_shear(x: Array, d: Array) -> Array:
-    """Angle of each edge against the normal of the mean of its two directors, shape (N - 1,) [rad]."""
+    """Angle of each edge against the normal of the mean of its two unit directors (3.3.6), shape (N - 1,) [rad]."""
     unit = d / np.linalg.norm(d, axis=1)[:, None]
     m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
     angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])

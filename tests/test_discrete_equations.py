@@ -1,0 +1,167 @@
+"""Chapter 3, equation by equation: what no solved case would notice if it were wrong."""
+
+import itertools
+
+import numpy as np
+import pytest
+from conftest import make_rod
+from hypothesis import given
+from hypothesis import strategies as st
+
+import cosserat
+from cosserat.analytic import Beam, first_beam_mode, first_frequency
+from cosserat.models.planar_rod import Geometry, lengths, strains, to_vertices, vertex_tangents
+from cosserat.solvers.banded import to_dense
+
+SEEDS = st.integers(0, 10_000)
+
+
+def polygon(seed, n=7):
+    """Vertices (n, 2) of a line that turns to and fro, with edges of every length."""
+    rng = np.random.default_rng(seed)
+    angles = np.cumsum(rng.uniform(-1, 1, n - 1))
+    steps = rng.uniform(0.5, 1.5, n - 1)[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
+
+
+@given(SEEDS)
+def test_voronoi_lengths_add_up_to_the_length_of_the_polygon_3_3_12(seed):
+    edges = lengths(np.diff(polygon(seed), axis=0))
+    parts = to_vertices(edges)
+    assert parts.sum() == pytest.approx(edges.sum(), rel=1e-14)
+    assert parts[0] == edges[0] / 2  # (3.3.11); with whole edges at the ends the sum would be too long
+    assert parts[-1] == edges[-1] / 2
+
+
+def angles_of(x):
+    """phi by (3.3.15)-(3.3.18) as printed: arccos of unit tangents (3.3.5), (3.3.7)-(3.3.9), and a sign."""
+    e = np.diff(x, axis=0)
+    edge = e / lengths(e)[:, None]
+    vertex = np.vstack([edge[:1], (x[2:] - x[:-2]) / lengths(e[:-1] + e[1:])[:, None], edge[-1:]])
+    np.testing.assert_allclose(vertex, vertex_tangents(x), atol=1e-15)
+    pairs = [(vertex[0], vertex[1]), *itertools.pairwise(edge), (vertex[-2], vertex[-1])]
+    signs = [np.sign(a[0] * b[1] - a[1] * b[0]) for a, b in pairs]
+    return np.array([s * np.arccos(a @ b) for s, (a, b) in zip(signs, pairs, strict=True)])
+
+
+@given(SEEDS)
+def test_turning_angles_are_those_of_the_page_also_at_the_ends(seed):
+    """(3.3.16), (3.3.17): between the tangents of the vertices, not of the edges, which would be twice as large."""
+    x = polygon(seed)
+    found = strains(Geometry.straight(x.shape[0], 6.0, 0.25), x, np.ones(x.shape))
+    np.testing.assert_allclose(found.phi, angles_of(x), atol=1e-7)  # of the arccos
+    parts = to_vertices(lengths(np.diff(x, axis=0)))
+    np.testing.assert_allclose(found.kappa, 2 / parts * np.tan(angles_of(x) / 2), atol=1e-6)  # (3.3.23)
+
+
+def test_the_ends_of_a_regular_polygon_turn_by_half_its_angle():
+    """So that their curvature, over half the length, is that of the others to second order."""
+    turn, n = 0.4, 9
+    angles = turn * np.arange(n - 1)
+    x = np.vstack([np.zeros(2), np.cumsum(np.column_stack([np.cos(angles), np.sin(angles)]), axis=0)])
+    found = strains(Geometry.straight(n, 8.0, 0.25), x, np.ones(x.shape))
+    np.testing.assert_allclose(found.phi, [turn / 2, *[turn] * (n - 2), turn / 2], rtol=1e-13)
+    np.testing.assert_allclose(found.kappa[[0, -1]], 4 * np.tan(turn / 4), rtol=1e-13)
+
+
+@given(SEEDS)
+def test_kinetic_energy_and_momenta_are_those_of_the_points_of_the_sections(seed):
+    """(3.3.27) by quadrature over r* = x + X d of (3.2.2), against (3.3.29)-(3.3.33) and the mass matrix (3.3.43).
+
+    M q' is the array of the momenta of the parts, whose masses are constant: (3.3.36)_4 and (3.3.36)_5 are (3.3.46).
+    """
+    case = cosserat.case("vibration_c4_20").vary("offset", rod={"centreline": 0.3, "vertices": 5})
+    problem = case.problem
+    rod, geometry = problem.rod, problem.rod.geometry()
+    rng = np.random.default_rng(seed)
+    x, d, v, w = rng.uniform(-1, 1, (4, rod.vertices, 2))
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    place = (nodes / 2 + 0.5 - rod.centreline) * rod.height / geometry.director_length[0]  # X
+    mass = rod.line_density * geometry.voronoi_length[:, None] * weights / 2  # of each part and node
+    at = x[:, None] + place[:, None] * d[:, None]
+    velocity = v[:, None] + place[:, None] * w[:, None]
+    matrix, rate = to_dense(problem.mass(geometry)), np.hstack([v, w]).ravel()
+    momenta = (matrix @ rate).reshape(-1, 4)
+    np.testing.assert_allclose(momenta[:, :2], np.einsum("kp,kpa->ka", mass, velocity), atol=1e-12)
+    np.testing.assert_allclose(
+        momenta[:, 2:], np.einsum("kp,p,kpa->ka", mass, place, velocity), atol=1e-12
+    )
+    twice = (mass * (velocity**2).sum(axis=2)).sum()
+    assert rate @ matrix @ rate == pytest.approx(twice, rel=1e-12)
+
+    def turning(a, b):
+        return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+    own = turning(x, momenta[:, :2]) + turning(d, momenta[:, 2:])  # (3.3.32)
+    assert own.sum() == pytest.approx((mass * turning(at, velocity)).sum(), rel=1e-12, abs=1e-12)
+
+
+def test_bending_of_a_curved_rod_costs_as_eulers_elastica():
+    """EI (kappa - kappa_0)^2 / 2, eq. (3.2.3), on the inner parts, for arcs with the curvatures of (3.3.23)."""
+    rod = make_rod(vertices=9, curvature=0.1)
+    geometry = rod.geometry()
+    body = rod.body(geometry)
+    edge = geometry.edge_length[0]
+    bent = Geometry.arc(9, rod.length, geometry.director_length, 0.25)
+
+    def curvature(arc):
+        return 2 / edge * np.tan(np.arcsin(arc * edge / 2))
+
+    energy = body.stiffness.k3[1:-1] * edge * (curvature(0.25) - curvature(0.1)) ** 2 / 2
+    found = body.energy_terms(np.hstack([bent.X, bent.D]).ravel())
+    assert found[2] == pytest.approx(energy.sum(), rel=1e-12)
+    assert np.abs(found[[0, 1, 3]]).max() < 1e-9 * found[2]  # neither stretched nor sheared
+
+
+@given(SEEDS)
+def test_gradients_of_unit_vectors_3_4_15(seed):
+    """(3.4.15) by differences, with the projection (3.4.16): the force lists (3.4.17)-(3.4.19) are made of them."""
+    a, b, c = np.random.default_rng(seed).uniform(-1, 1, (3, 2))
+    b, c = b + np.array([3, 0]), c - np.array([0, 3])  # apart from each other
+
+    def across(unit, vector):
+        return vector - (vector @ unit) * unit
+
+    def unit(vector):
+        return vector / np.linalg.norm(vector)
+
+    def slope(function):
+        h = 1e-4
+        return [(function(a + h * e) - function(a - h * e)) / (2 * h) for e in np.eye(2)]
+
+    one, two = np.linalg.norm(a - b), np.linalg.norm(c - a)
+    first = across(unit(a - b), c) / one
+    np.testing.assert_allclose(slope(lambda p: c @ unit(p - b)), first, atol=1e-8)
+    second = across(unit(a - b), c - a) / (two * one) - across(unit(c - a), a - b) / (one * two)
+    np.testing.assert_allclose(slope(lambda p: unit(p - b) @ unit(c - p)), second, atol=1e-8)
+
+
+def test_the_first_mode_solves_the_equation_of_the_beam():
+    """w = W cos(omega t) of (3.5.11) in (3.5.10), by differences; clamped at one end, free at the other."""
+    beam = Beam(
+        length=2.0,
+        area=0.5,
+        second_moment=0.3,
+        young=10.0,
+        poisson=0.3,
+        line_density=0.7,
+        shear_correction=5 / 6,
+    )
+    omega, h = first_frequency(beam), 0.02
+
+    def shape(xi):
+        return first_beam_mode(beam.length, np.asarray(xi))[0]
+
+    xi = np.linspace(0.2, 1.8, 9)
+    weights = {0: 28 / 3, 1: -6.5, 2: 2.0, 3: -1 / 6}  # of a fourth derivative, to fourth order
+    fourth = weights[0] * shape(xi)
+    for k in (1, 2, 3):
+        fourth += weights[k] * (shape(xi + k * h) + shape(xi - k * h))
+    residual = beam.bending_stiffness * fourth / h**4 - beam.line_density * omega**2 * shape(xi)
+    assert np.abs(residual).max() < 1e-5 * beam.line_density * omega**2
+    value, slope = first_beam_mode(beam.length, np.array([0.0, beam.length]))
+    assert value == pytest.approx([0, 1], abs=1e-14)
+    assert slope[0] == pytest.approx(0, abs=1e-14)
+    inside = beam.length - h * np.arange(5)
+    bending = np.array([35, -104, 114, -56, 11]) / 12 @ shape(inside)
+    assert abs(bending / h**2) < 1e-3
