@@ -279,6 +279,20 @@ def toggle():
 
 
 @check(quick=True)
+def drawn():
+    """Linear elasticity of a bar whose sections may narrow, and of one that keeps its width."""
+    nu, strain = 0.3, 1e-6
+    for section, along, across in (
+        ("free", 1.0, nu),
+        ("plane strain", 1 - nu**2, nu * (1 + nu)),
+    ):
+        data = run("drawn", rod={"section": section})
+        yield Row(f"stretch, {section}", along * strain, last(data, "E3") - 1, 1e-5 * strain, "Hooke")
+        narrowed = float(data.lam.isel(vertex=10)) - 1
+        yield Row(f"narrowing, {section}", -across * strain, narrowed, 1e-5 * strain, "Hooke")
+
+
+@check(quick=True)
 def flag_at_rest():
     """CSM1 and CSM2 of Turek and Hron (2006), published; the clamp on the cylinder begins between 0.350 and 0.351 m."""
     for name, printed in (("flag_1", (-7.187e-3, -66.10e-3)), ("flag_2", (-0.469e-3, -16.97e-3))):
@@ -418,3 +432,60 @@ def swung():
         data = run("swung", rod={"vertices": n})
         found.append(float(np.arctan2(*data.x.isel(time=-1, vertex=-1).to_numpy()[::-1])))
     yield from converging("angle after 2 s [rad]", right, found, 1e-3, "rigid rod")
+
+
+@check()
+def falling():
+    chord = np.diff(run("falling").x.isel(vertex=[0, -1]).to_numpy(), axis=1)[:, 0]
+    turned = float(np.degrees(np.abs(np.arctan2(chord[:, 1], chord[:, 0])).max()))
+    yield Row("turned in half a second [deg]", 0.0, turned, 1e-10, "uniform gravity")
+
+
+# ---------------------------------------------------------------- what jumps inside an edge
+
+
+@check()
+def mass_inside():
+    parts = [
+        piece("mass_inside").part(0.4995),
+        piece("mass_inside", line_density=0.27 * 1001).part(5e-4),
+    ]
+    right = timoshenko.frequencies(parts, 1)[0]
+    found = [frequencies("mass_inside", 1, rod={"vertices": n})[0] for n in (21, 81)]
+    yield Row("frequency 1 [Hz]", right, found[-1], 2e-4 * right, "transfer matrix")
+    order = float(np.log2((found[0] - right) / (found[1] - right)) / 2)
+    yield Row("order of frequency 1", 2.0, order, ORDER, "theory")
+
+
+@check()
+def joint():
+    """Meshes of 20, 40 and 80 edges meet the joint at other shares of an edge; of 10 and 40 at 13/30 m at the same."""
+    rod, at = rectangle("joint"), 13 / 30
+
+    def tip(at):
+        return closed.cantilever_tip(
+            1e-3,
+            1.0,
+            lambda s: rod.EI * (1 if s < at else 0.3),
+            lambda s: rod.GA * (1 if s < at else 0.3),
+            [at],
+        )
+
+    for n in (21, 41, 81):
+        found = last(run("joint", rod={"vertices": n}))
+        yield Row(
+            f"tip across, N = {n} [m]",
+            tip(0.52),
+            found,
+            1.5 / (n - 1) ** 2 * tip(0.52),
+            "beam with shear",
+        )
+    stations = [{"at": at}, {"at": at, "young": 0.3}]
+    errors = [
+        abs(last(run("joint", rod={"vertices": n, "stations": stations})) - tip(at)) for n in (11, 41)
+    ]
+    order = float(np.log2(errors[0] / errors[1]) / 2)
+    yield Row("order of tip across, joint at 13/30 m", 2.0, order, ORDER, "theory")
+    stretched = closed.pulled(1.0, 1.0, lambda s: rod.EA * (1 if s < 0.52 else 0.3), [0.52])
+    found = last(run("joint_pulled"), "E3") - 1
+    yield Row("stretch when pulled [m]", stretched, found, 1e-9 * stretched, "bar")
