@@ -1,0 +1,81 @@
+"""Closed forms: beams that statics alone determines, bars, bodies under pressure, a rigid pendulum."""
+
+import itertools
+
+import numpy as np
+from scipy.integrate import quad
+
+GAUSS = np.polynomial.legendre.leggauss(8)
+
+
+def overhanging_tip(length, hinge, q, EI, GA):
+    """Sag of the free end of a beam on hinges at 0 and `hinge` under q across it [m], and both reactions [N].
+
+    By a unit force at the end: integral of M m / EI and of Q v / GA.
+    """
+    right = q * length**2 / 2 / hinge
+    left = q * length - right
+    nodes, weights = GAUSS
+    sag = 0.0
+    for a, b in ((0, hinge), (hinge, length)):
+        s = (a + b) / 2 + (b - a) / 2 * nodes
+        if a == 0:
+            M, Q = left * s - q * s**2 / 2, left - q * s
+            unit = 1 - length / hinge  # reaction at 0 of a unit force down at the end
+            m, v = unit * s, unit
+        else:
+            M, Q = -q * (length - s) ** 2 / 2, q * (length - s)
+            m, v = -(length - s), 1.0
+        sag += (b - a) / 2 * weights @ (M * m / EI + Q * v / GA)
+    return sag, left, right
+
+
+def couple_at_middle(length, moment, EI, GA):
+    """Reactions of a simple beam under a couple at its middle (first, last) [N] and the turn there [rad]."""
+    return (
+        moment / length,
+        -moment / length,
+        moment * length / (12 * EI) + moment / (GA * length),
+    )
+
+
+def toggle(length, angle, down, EA):
+    """Force that holds the apex of an inclined linear bar moved down by `down` [N], positive down."""
+    base, height = length * np.cos(angle), length * np.sin(angle) - down
+    now = np.hypot(base, height)
+    return EA * (1 - now / length) * height / now
+
+
+def struck_bar(length, force, EA, speed, t):
+    """Displacement of the end of a bar held at the other, under a force that begins at t = 0 (D'Alembert)."""
+    phase = np.mod(t * speed / length, 4.0)
+    return force * length / EA * (2 - np.abs(phase - 2))
+
+
+def squeezed(pressure, young, poisson):
+    """Strains of a body under pressure on its sides alone: along it and across it (Lame)."""
+    return 2 * poisson * pressure / young, -(1 - poisson) * pressure / young
+
+
+def swung(length, line_density, height, torque, t):
+    """Angle of a rigid rod that turns about its first end under a torque [rad]."""
+    J = line_density * (length**3 / 3 + length * height**2 / 12)
+    return torque * t**2 / (2 * J)
+
+
+def cantilever_tip(force, length, EI, GA=lambda s: np.inf, breaks=()):
+    """Tip of a clamped beam whose stiffnesses vary under a force across its end."""
+    points = sorted({0.0, length, *breaks})
+    return sum(
+        quad(lambda s: force * ((length - s) ** 2 / EI(s) + 1 / GA(s)), a, b, epsabs=0, epsrel=1e-12)[0]
+        for a, b in itertools.pairwise(points)
+    )
+
+
+def pulled(force, length, EA, breaks=()):
+    """Stretch of a bar whose stiffness varies."""
+    points = sorted({0.0, length, *breaks})
+    return sum(
+        quad(lambda s: force / EA(s), a, b, epsabs=0, epsrel=1e-12)[0]
+        for a, b in itertools.pairwise(points)
+    )

@@ -1,0 +1,110 @@
+"""Which way a slender body goes: to the side that the growing load leads to, however little decides it.
+
+Right values: the boundary value problem of `reissner`, the load grown with a strong push to the same side which is then
+taken away, or, of the ribbon, its weight put on first.  `python -m tests.outside.sides` finds them anew, in a minute.
+"""
+
+import numpy as np
+import pytest
+
+import cosserat
+
+from .cases import inputs, last, rectangle
+from .sides import BOWS, EULER, MULTIPLES, PUSHED, RIBBONS, SIDES
+
+MESH = 3e-3
+"""Of the length: what 40 edges leave at twelve times the critical load, where the rod is bent to a loop."""
+
+
+@pytest.mark.parametrize("steps", [1, 3, 10])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_pushed_bar_goes_where_it_is_pushed(steps, side):
+    forces = [
+        {"at": "last", "along": "-E3", "force": 980665.0},
+        {"at": "last", "along": "E2", "force": side * 1000.0},
+    ]
+    data = cosserat.run(inputs()["pushed_bar"].vary("x", forces=forces, newton={"load_steps": steps}))
+    assert last(data) == pytest.approx(side * PUSHED[1], abs=2e-3)
+    assert last(data, "E3") == pytest.approx(PUSHED[0], abs=4e-3)
+
+
+@pytest.mark.parametrize("steps", [1, 3, 10, 30])
+def test_the_ribbon_sags_the_way_of_its_weight_for_any_number_of_load_steps(steps):
+    data = cosserat.run(inputs()["ribbon"].vary("x", newton={"load_steps": steps}))
+    assert middle(data) == pytest.approx(RIBBONS[1e9, 0.1], abs=1e-3)
+
+
+def middle(data):
+    return float(data.x.sel(axis="E2").isel(vertex=20))
+
+
+@pytest.mark.parametrize(("young", "push"), RIBBONS)
+def test_a_ribbon_of_any_stiffness_sags_however_far_it_is_pushed_together(young, push):
+    moves = [{"at": "last", "unknown": "x3", "by": -push}]
+    data = cosserat.run(inputs()["ribbon"].vary("x", rod={"young": young}, moves=moves))
+    assert middle(data) == pytest.approx(RIBBONS[young, push], abs=1e-3)
+
+
+def test_and_upwards_where_its_weight_pulls_upwards():
+    data = cosserat.run(inputs()["ribbon"].vary("x", gravity={"g": 9.81, "along": "E2"}))
+    assert middle(data) == pytest.approx(-RIBBONS[1e9, 0.1], abs=1e-3)
+
+
+def column(multiple, aside=0.0, curvature=0.0, **more):
+    """The slender rod of `elastica` under a multiple of its critical load."""
+    forces = [
+        {"at": "last", "along": "-E3", "force": multiple * EULER},
+        {"at": "last", "along": "E2", "force": aside},
+    ]
+    return cosserat.case("elastica").vary("x", forces=forces, rod={"curvature": curvature}, **more)
+
+
+def stands_at(case, place, side):
+    data = cosserat.run(case)
+    assert last(data) == pytest.approx(side * place[1], abs=MESH)
+    assert last(data, "E3") == pytest.approx(place[0], abs=MESH)
+
+
+@pytest.mark.parametrize("multiple", MULTIPLES)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_at_any_multiple_of_the_critical_load_the_side_force_decides(multiple, side):
+    stands_at(column(multiple, side * 0.01), MULTIPLES[multiple], side)
+
+
+@pytest.mark.parametrize("aside", SIDES)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_side_force_of_any_size_decides(aside, side):
+    stands_at(column(4, side * aside), SIDES[aside], side)
+
+
+@pytest.mark.parametrize("bow", BOWS)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_bow_of_any_size_decides(bow, side):
+    stands_at(column(4, curvature=side * bow), BOWS[bow], side)
+
+
+@pytest.mark.parametrize("steps", [2, 7, 20])
+@pytest.mark.parametrize("multiple", [1.2, 4, 12])
+def test_for_any_number_of_load_steps(steps, multiple):
+    stands_at(column(multiple, -0.01, newton={"load_steps": steps}), MULTIPLES[multiple], -1.0)
+
+
+@pytest.mark.parametrize("share", [1e-9, 1e-6, 1e-3])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_path_does_not_jump_to_the_other_side(share, side):
+    """Every point beyond the critical load lies on the side of the force, and the last where the elastica stands."""
+    load = 2.3132
+    forces = [
+        {"at": "last", "along": "-E3", "force": load},
+        {"at": "last", "along": "E2", "force": side * share * load},
+    ]
+    path = cosserat.run(cosserat.case("column_path").vary("x", forces=forces))
+    assert float(path.load_factor[-1]) == 1
+    tip = side * path.x.sel(axis="E2").isel(vertex=-1).to_numpy()
+    assert (tip[1:] > 0).all()
+    assert tip[-1] == pytest.approx(MULTIPLES[2][1], abs=MESH)
+
+
+def test_the_inputs_are_those_that_the_right_values_were_found_for():
+    rod = rectangle("ribbon")
+    assert np.pi**2 * rod.EI / 4 == pytest.approx(EULER, rel=1e-12)
