@@ -22,6 +22,7 @@ CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 ROOMS = (
     "outcome",
     "errors",
+    "units",
     "parameters",
     "analytic",
     "elastica",
