@@ -132,13 +132,11 @@ rule chapter:
         "python -m cosserat chapter {input.source} --output {output} > {log} 2>&1"
 
 
-rule peers:  # its table is tracked, so it is the output of no rule and made only when asked for
+rule peers:  # its table is tracked, so it is the output of no rule, and measured whenever it is asked for
     params:
         packages="exudyn==1.13.6 pyelastica==1.0.0 scipy",
     log:
         "results/logs/peers.log",
-    benchmark:
-        "results/benchmarks/peers.tsv"
     threads: workflow.cores
     shell:
         "(python -m venv --clear .peers && .peers/bin/python -m pip install --quiet {params.packages} && "

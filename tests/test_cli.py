@@ -114,6 +114,8 @@ def test_bad_files_and_folders(capsys, tmp_path):
             "does not exist",
         ),
         (("chapter", tmp_path / "none.py", "-o", tmp_path / "n.ipynb"), "there is no chapter"),
+        (("chapter", ROOT / "chapters/index.py", "-o", tmp_path), "is a folder"),
+        (("peers", tmp_path / "python", "-o", tmp_path / "peers.csv"), "there is no Python"),
         (("book", tmp_path / "none.ipynb", "-o", tmp_path / "book"), "there is no notebook"),
     ]:
         code, out, err = call(capsys, *arguments)
@@ -130,7 +132,7 @@ def test_bad_files_and_folders(capsys, tmp_path):
         ("like = 3", "'like' stands outside a case"),
         ('[mine]\nkind = ["a"]', "'kind' is ['a']"),
         ('["../evil"]\nlike = "necking"', "cannot name a file"),
-        (MY + 'rod.length = "3,5 m"', "not a number with a unit"),
+        (MY + 'rod.length = "3,5 m"', "with a decimal comma"),
         (MY + 'rod.length = "m"', "not a number with a unit"),
         (MY + 'rod.length = "9**9**9**9 m"', "not a number with a unit"),
         (MY + 'rod.length = "3 +- 1 m"', "not a number with a unit"),
