@@ -156,7 +156,7 @@ def load(path: str | Path) -> xr.Dataset:
     try:
         with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
             read = dataset.load()
-            return read.swap_dims({_FRAME: "time"}) if _FRAME in read.dims else read
+            return read.swap_dims({_FRAME: "time"}) if _FRAME in read.dims and "time" in read else read
     except (OSError, ValueError, RuntimeError) as error:
         raise InputError(
             f"cannot read {path} as netCDF ({error}); delete it and run its case again"
