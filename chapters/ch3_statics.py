@@ -112,10 +112,10 @@ page.source(planar_rod.strains)
 #
 # \begin{equation*}
 # \begin{aligned}
-# 2\Pi_e &= \sum_{K=0}^{N-2} {}^K k_1 \left( {}^K\mu^2 - {}^K\mu + {}^K\mu^{-1} \right) \|{}^K\mathbf{E}\|
-#   + \sum_{K=0}^{N-1} {}_K k_2 \left( {}_K\lambda^2 - {}_K\lambda + {}_K\lambda^{-1} \right) {}_K L \\
-#  &+ \sum_{K=1}^{N-2} {}_K k_3 ({}_K\mu\, {}_K\kappa)^2\, {}_K L
-#   + \sum_{K=0}^{N-1} {}_K k_4 \tan^2 {}_K\vartheta\; {}_K L
+# 2\Pi_e &= \sum_{K=0}^{N-2} {}^K k_1 \left( {}^K\mu^2 - {}^K\mu + {}^K\mu^{-1} \right) \|{}^K\mathbf{E}\| \\
+#  &+ \sum_{K=0}^{N-1} {}_K k_2 \left( {}_K\lambda^2 - {}_K\lambda + {}_K\lambda^{-1} \right) {}_K L
+#   + \sum_{K=1}^{N-2} {}_K k_3 ({}_K\mu\, {}_K\kappa)^2\, {}_K L \\
+#  &+ \sum_{K=0}^{N-1} {}_K k_4 \tan^2 {}_K\vartheta\; {}_K L
 #   + \sum_{K=0}^{N-2} {}^K k_5 \frac{({}_{K+1}\vartheta - {}_K\vartheta)^2}{\|{}^K\mathbf{E}\|} \\
 #  &+ \sum_{K=0}^{N-2} {}^K k_6 \frac{({}_{K+1}\lambda - {}_K\lambda)^2}{\|{}^K\mathbf{E}\|}
 #   + \sum_{K=1}^{N-2} {}_K k_7 ({}_K\lambda - 1)({}_K\mu - 1)\, {}_K L .
@@ -140,9 +140,10 @@ page.excerpt(published._assemble, "# Second pass", "# Third pass")
 #
 # \begin{equation*}
 # \begin{aligned}
-# k_1 &= c_1 \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)}, & k_2 &= c_2 \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)}, & k_3 &= c_3 EI, \\
-# k_4 &= c_4\, k\, GA, & k_5 &= c_5 EI, & k_6 &= c_6 \frac{EI}{1+\nu}, \\
-# k_7 &= c_7 \frac{EA\nu}{(1+\nu)(1-2\nu)} . &&&&
+# k_1 &= c_1 \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)}, & k_2 &= c_2 \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)}, \\
+# k_3 &= c_3 EI, & k_4 &= c_4\, k\, GA, \\
+# k_5 &= c_5 EI, & k_6 &= c_6 \frac{EI}{1+\nu}, \\
+# k_7 &= c_7 \frac{EA\nu}{(1+\nu)(1-2\nu)} . &&
 # \end{aligned} \tag{3.4.13}
 # \end{equation*}
 

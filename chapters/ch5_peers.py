@@ -12,10 +12,10 @@
 # # Beside other packages
 #
 # `snakemake peers` makes an environment of its own with Exudyn and PyElastica, which needs a network, and solves the same
-# problems with them and with the consistent rod, in one run on one machine: (a) the clamped-free beam of section 3.5 under
+# problems with them and with the consistent rod, in one go on one machine: (a) the clamped-free beam of section 3.5 under
 # its weight; (b) a slender clamped rod under a dead force of ten $EI/L^2$ across its tip, from the straight rod; (c) a
 # fifth of a second of the vibrating beam in 800 implicit steps. Times are those of the solver alone, with the model built and
-# the kernels compiled, medians of five runs; errors are taken against the same exact answers for everyone.
+# the kernels compiled; the packages take turns, run by run. Errors are taken against the same exact answers for everyone.
 #
 # Exudyn's beam is the geometrically exact one with linear elements, its statics has five load steps in (b), which suit it
 # best, and one in (a),
@@ -27,7 +27,13 @@ import csv
 
 from cosserat.book import page
 
-file = page.results() / "peers.csv"
+with (page.results() / "peers.csv").open(newline="") as stream:
+    lines = list(csv.DictReader(stream))
+used = {line["package"]: line["versions"] for line in lines}
+runs, dates, processors = (
+    " and ".join(sorted({line[key] for line in lines})) for key in ("runs", "date", "processor")
+)
+load = max(float(line["load"]) for line in lines)
 
 
 def span(seconds):
@@ -37,25 +43,29 @@ def span(seconds):
 
 
 # %% tags=["remove-input"]
-if file.exists():
-    with file.open(newline="") as stream:
-        lines = list(csv.DictReader(stream))
-    shown = page.table(
-        [
-            (
-                line["problem"],
-                f"{line['package']} {line['version']}",
-                span(line["seconds"]),
-                f"{span(line['least'])} to {span(line['most'])}",
-                f"{float(line['error']):.1e}",
-            )
-            for line in sorted(lines, key=lambda line: line["problem"])
-        ],
-        ("problem", "package", "median", "range", "relative error"),
-    )
-else:
-    shown = page.say("*The table is not there yet: run* `snakemake peers`*, then* `snakemake all`*.*")
-shown
+page.table(
+    [
+        (
+            line["problem"],
+            line["package"],
+            span(line["seconds"]),
+            f"{span(line['least'])} to {span(line['most'])}",
+            f"{float(line['error']):.1e}",
+        )
+        for line in lines
+    ],
+    ("problem", "package", "median", "range", "relative error"),
+)
+
+# %% tags=["remove-input"]
+page.say(
+    f"Measured last on {dates}, processor {processors}; medians of {runs} runs, while up to {load:.1f} processes wanted "
+    "the machine. "
+    + ("That is a **busy machine**: compare ranges, not medians. " if load > 2 else "")
+    + "Versions: "
+    + "; ".join(f"{package} ({versions})" for package, versions in used.items())
+    + "."
+)
 
 # %% [markdown]
 # What bounds the consistent rod: in (a) and (b) the Newton iterations, some 35 microseconds each at 20 vertices, of which the

@@ -125,7 +125,11 @@ def _parser() -> argparse.ArgumentParser:
         "--references", type=Path, default=RESULTS / "reference", help="folder (%(default)s)"
     )
 
-    add("speed", _speed, "time the implicit integrator, and a stride of the worm by either solver")
+    add(
+        "speed",
+        _speed,
+        "time equilibria, the implicit integrator, and a stride of the worm by either solver",
+    )
 
     sub = add(
         "peers", _peers, "time the consistent rod beside other packages; 'snakemake peers' sets them up"
@@ -358,10 +362,9 @@ def _accept(options: argparse.Namespace) -> None:
 def _speed(_: argparse.Namespace) -> None:
     from cosserat import speed
 
-    for line in speed.integrator():
-        print(line)
-    for line in speed.stride():
-        print(line)
+    for lines in (speed.statics, speed.integrator, speed.stride):
+        for line in lines():
+            print(line)
 
 
 def _peers(options: argparse.Namespace) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +22,18 @@ class CosseratError(Exception):
 
 class InputError(CosseratError):
     """A case, a file or an argument is not what it has to be."""
+
+
+def path_of(given: object) -> Path:
+    """A path, given as one or as a text.
+
+    Raises
+    ------
+    InputError : it is neither.
+    """
+    if isinstance(given, str | os.PathLike):
+        return Path(given)
+    raise InputError(f"{given!r} names no file; give a path as a text or a pathlib.Path")
 
 
 class UnsupportedRodError(InputError):

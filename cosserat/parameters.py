@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import difflib
-import functools
 import inspect
 import itertools
 import math
@@ -17,76 +16,16 @@ import re
 import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, Self, get_args, get_origin
+from typing import Any, Literal, Self, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
 from pydantic_core import ErrorDetails, PydanticCustomError, core_schema
 
 from cosserat.errors import InputError
-
-if TYPE_CHECKING:
-    import pint
+from cosserat.units import how_to_write, to_si
 
 FROM_FILE = {"units": "required"}
 """Validation context of values that a person wrote: a number without its unit is refused."""
-
-
-@functools.cache
-def _units() -> pint.UnitRegistry[float]:
-    import pint  # 0.4 s: only where a text with a unit has to be read
-
-    return pint.UnitRegistry()
-
-
-_NUMBER = re.compile(
-    r"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?nan|[+-]?inf)"
-    r"(?:\s*/\s*(?P<divisor>\d+))?"
-    r"(?:\s*(?P<unit>[A-Za-zµ%°][A-Za-zµ%°0-9 ^*/()-]*))?\s*"
-)
-
-
-def to_si(value: object, unit: str, *, unit_required: bool) -> float:
-    """Read one value as a number in the SI unit `unit`: a number, or a text such as "2.5 mm", "1e3 kg/m" or "5/6".
-
-    Raises
-    ------
-    PydanticCustomError : not a number, not finite, or of another dimension than `unit`.
-    """
-    remedy = _how_to_write(unit)
-    if isinstance(value, str):
-        number = _read_text(value, unit, remedy)
-    elif isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise PydanticCustomError("type", f"is {value!r}, not a number; {remedy}")
-    elif unit_required and unit != "1":
-        raise PydanticCustomError("unit", f"is {value!r}, without a unit; {remedy}")
-    else:
-        number = float(value)
-    if not math.isfinite(number):
-        raise PydanticCustomError("finite", f"is {value!r}; it must be a finite number")
-    return number
-
-
-def _how_to_write(unit: str) -> str:
-    if unit == "1":
-        return "write a number, such as 0.3"
-    return f'write it with its unit, such as "2.5 {unit}"'
-
-
-def _read_text(text: str, unit: str, remedy: str) -> float:
-    import pint
-
-    found = _NUMBER.fullmatch(text)
-    if found is None or (found["divisor"] and not int(found["divisor"])):
-        raise PydanticCustomError("type", f'is "{text}", which is not a number with a unit; {remedy}')
-    number = float(found["number"]) / int(found["divisor"] or 1)
-    try:
-        read = _units().Quantity(number, (found["unit"] or "").strip())
-        return float(read.to("" if unit == "1" else unit).magnitude)
-    except pint.DimensionalityError:
-        shown = (found["unit"] or "").strip() or "no unit at all"
-        raise PydanticCustomError("unit", f'is "{text}", in {shown}; {remedy}') from None
-    except Exception:  # the unit parser raises errors of many kinds on text that is no unit
-        raise PydanticCustomError("type", f'is "{text}", whose unit is not known; {remedy}') from None
 
 
 @dataclass(frozen=True)
@@ -153,6 +92,14 @@ class Parameters(BaseModel):
     """Base of every parameter object: frozen, and no key passes unread."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __init__(self, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise InputError(explain(error, type(self), type(self).__name__)) from None
+
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined] # what is read from a file never comes here
 
     @classmethod
     def read(cls, values: Mapping[str, Any], name: str, *, units_required: bool = True) -> Self:
@@ -228,7 +175,7 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
             letter = re.sub(r"\\(?:mathbf|bar|tilde)|[\\{}]", "", about.symbol)
             meaning.append(" of ".join(filter(None, (letter, source))))
             least = f"write a whole number, {about.at_least} or more" if isinstance(about, Count) else ""
-            remedy = least or _how_to_write(getattr(about, "unit", "1"))
+            remedy = least or how_to_write(getattr(about, "unit", "1"))
     if tables:
         needed = [name for name, inner in tables[0].model_fields.items() if inner.is_required()]
         meaning.append(_first_sentence(tables[0].__doc__))
@@ -283,6 +230,6 @@ def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
 
 
 def nearest(word: str, known: list[str]) -> str:
-    """The clause that helps after a misspelt word: the nearest known one, or all of them."""
-    close = difflib.get_close_matches(word, known, n=1, cutoff=0.5)
+    """The clause that helps after a misspelt word: the known one that is a slip away, or all of them."""
+    close = difflib.get_close_matches(word, known, n=1, cutoff=0.8)
     return f"; did you mean '{close[0]}'?" if close else f"; known are: {', '.join(known)}"

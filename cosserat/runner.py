@@ -12,7 +12,7 @@ import xarray as xr
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.dataset import to_dataset
 from cosserat.data.parts import Parts
-from cosserat.errors import CrossingError, InputError, NotConvergedError
+from cosserat.errors import CrossingError, InputError, NotConvergedError, path_of
 from cosserat.models.peristalsis import Crawl
 from cosserat.models.rod_course import Course, resumed
 from cosserat.models.rod_motion import RodMotion
@@ -22,7 +22,9 @@ Progress = Callable[[float, str], None]
 """Told the share done, from 0 to 1, and a few words."""
 
 
-def run(case: Case | str, *, result: Path | None = None, progress: Progress | None = None) -> xr.Dataset:
+def run(
+    case: Case | str, *, result: str | Path | None = None, progress: Progress | None = None
+) -> xr.Dataset:
     """Solve a case, given itself or by the name of a published one.
 
     The Snakemake rule, a notebook and a script all come through here.
@@ -42,7 +44,7 @@ def run(case: Case | str, *, result: Path | None = None, progress: Progress | No
         raise InputError(f"run takes a case or the name of a published one, not {case!r}")
     name = f"case '{known.name}'"
     try:
-        outcome = _outcome_of(known, name, result, progress)
+        outcome = _outcome_of(known, name, None if result is None else path_of(result), progress)
     except (NotConvergedError, CrossingError) as error:
         if error.reached is not None:
             error.dataset = to_dataset(known, error.reached)

@@ -40,6 +40,60 @@ def test_python_takes_si_numbers_and_texts_alike():
     assert case.vary("a", rod={"length": 2}).problem == case.vary("a", rod={"length": "200 cm"}).problem
 
 
+def test_python_takes_paths_as_text(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my.toml").write_text(
+        '[mine]\nlike = "necking"\n[moving]\nlike = "vibration_consistent"\n'
+    )
+    assert list(cosserat.load_cases("my.toml")) == ["mine", "moving"]
+    data = cosserat.run(cosserat.case("mine", "my.toml"), result="a.nc")
+    cosserat.save(data, "a.nc")
+    assert cosserat.load("a.nc").identical(data)
+    moving = cosserat.case("moving", "my.toml").vary("brief", duration="5 ms")
+    assert cosserat.run(moving, result="b.nc").identical(cosserat.run(moving))
+    assert (tmp_path / "b.nc.parts").is_dir()
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda case: cosserat.load(5), "5 names no file; give a path as a text or a pathlib.Path"),
+        (lambda case: cosserat.save(None, None), "None names no file"),
+        (lambda case: cosserat.load_cases(["a"]), r"\['a'\] names no file"),
+        (lambda case: cosserat.run(case, result=3), "3 names no file"),
+        (
+            lambda case: cosserat.case(None),
+            "found by its name, a text such as 'clamped_free', not by None",
+        ),
+        (lambda case: cosserat.case(5), "not by 5"),
+        (lambda case: cosserat.case(["a"]), r"not by \['a'\]"),
+        (cosserat.case, r"not by <Case .*>|not by Case\("),
+        (lambda case: case.vary(5), "'name' is 5; it must be a text"),
+        (lambda case: case.vary("../x"), "'name' is '../x', which cannot name a file; use letters"),
+        (lambda case: case.vary(""), "'name' is '', which cannot name a file"),
+        (lambda case: cosserat.Case(), "'name' is missing.*'title' is missing.*'problem' is missing"),
+        (lambda case: cosserat.Case(name="x", title="x"), "Case: 'problem' is missing"),
+        (lambda case: type(case.problem.rod)(), "Rod: 'vertices' is missing"),
+    ],
+)
+def test_what_python_gives_amiss_is_answered_in_a_sentence(call, sentence):
+    with pytest.raises(InputError, match=sentence) as caught:
+        call(cosserat.case("necking"))
+    assert "\n" not in str(caught.value)
+
+
+def test_whole_numbers_of_numpy_name_vertices():
+    import numpy as np
+
+    case = cosserat.case("clamped_free")
+    force = {"at": np.int64(10), "along": "E2", "force": np.float64(3)}
+    bent = case.vary("a", forces=[force], rod={"vertices": np.int32(20)})
+    assert bent == case.vary("a", forces=[force | {"at": 10}])
+    assert parse(bent.model_dump_json()) == bent
+    with pytest.raises(InputError, match="'forces.0.at' is np.int64"):
+        case.vary("a", forces=[force | {"at": np.int64(-1)}])
+
+
 def test_vary_changes_nothing_else():
     case = cosserat.case("clamped_free")
     longer = case.vary("longer", rod={"length": 7})
@@ -52,16 +106,22 @@ def test_vary_changes_nothing_else():
     [
         ('rod.lenght = "5 m"', r"'rod\.lenght' is not a key; did you mean 'length'\?"),
         ("gravty = 3", r"'gravty' is not a key; did you mean 'gravity'\?"),
-        ("rod.calibration.c9 = 1", r"'rod\.calibration\.c9' is not a key; did you mean"),
+        ("rod.calibration.c9 = 1", r"'rod\.calibration\.c9' is not a key; known are: c1, c2"),
         ("rod.length = 5", r"'rod\.length' is 5, without a unit; write it with its unit"),
-        ('rod.length = "5 kg"', r"'rod\.length' is \"5 kg\", in kg; write it with its unit"),
+        (
+            'rod.length = "5 kg"',
+            r"'rod\.length' is \"5 kg\", in kg, a mass and not a length; write it with its unit",
+        ),
         ('rod.length = "5"', r"'rod\.length' is \"5\", in no unit at all"),
         ('rod.length = "five m"', r"'rod\.length' is \"five m\""),
         ("rod.length = true", r"'rod\.length' is True, not a number"),
         ('rod.length = "nan m"', r"'rod\.length' is 'nan m'; it must be a finite number"),
         ("rod.poisson = nan", r"'rod\.poisson' is nan; it must be a finite number"),
         ("rod.poisson = inf", r"'rod\.poisson' is inf; it must be a finite number"),
-        ('rod.poisson = "0.3 m"', r"'rod\.poisson' is \"0\.3 m\", in m; write a number"),
+        (
+            'rod.poisson = "0.3 m"',
+            r"'rod\.poisson' is \"0\.3 m\", in m, a length and not a ratio; write a number",
+        ),
         ("rod.poisson = 0.5", r"'rod\.poisson' is 0\.5; it must be below 0\.5"),
         ("rod.poisson = -1", r"'rod\.poisson' is -1; it must be above -1"),
         ('rod.length = "0 m"', r"'rod\.length' is 0 m; it must be above 0"),
@@ -80,6 +140,15 @@ def test_vary_changes_nothing_else():
         ('supports = [{ at = 20, hold = ["x3"] }]', r"'at' is 20, but the rod's vertices are 0 to 19"),
         ('supports = [{ hold = ["x3"] }]', r"'supports\.0\.at' is missing"),
         ('supports = "first"', r"'supports' is 'first'; it must be a list"),
+        ("masses = 3", r"'masses' is not a key; known are: rod, supports"),
+        ("elements = 3", r"'elements' is not a key; known are: rod, supports"),
+        ("rod.ground = 3", r"'rod\.ground' is not a key; known are: energy, vertices"),
+        (
+            'forces = [{ direction = "E2" }]',
+            r"'forces\.0\.direction' is not a key; known are: at, along",
+        ),
+        ("springs = []", r"'springs' is not a key; known are: rod, supports"),
+        ("title = 7", r"'title' is 7; it must be a text"),
         ('kind = "rod static"', r"'kind' is 'rod static'; did you mean 'rod statics'\?"),
         ('like = "clamped_fre"', r"'like' names no case: 'clamped_fre'; did you mean 'clamped_free'\?"),
         ('like = "mine"', r"'like' leads back to itself"),

@@ -102,6 +102,23 @@ def test_a_file_reads_back_as_it_was(tmp_path, solved):
     xr.testing.assert_identical(cosserat.load(tmp_path / "a.nc"), solved["necking"])
 
 
+def test_times_open_anywhere_as_plain_seconds_and_along_no_dimension_of_dates(tmp_path, solved):
+    """A dimension called `time` is one of dates to the tools of CF, which then ask for an epoch."""
+    for name in ("vibration_c4_20", "worm"):
+        data, path = solved[name], tmp_path / f"{name}.nc"
+        cosserat.save(data, path)
+        with xr.open_dataset(path) as plain:
+            assert "time" not in plain.sizes
+            assert plain.time.dims == ("frame",)
+            assert plain.time.dtype == np.float64
+            assert plain.time.attrs["units"] == "s"
+            assert "time" in plain.coords
+            np.testing.assert_array_equal(plain.time, data.time)
+        xr.testing.assert_identical(cosserat.load(path), data)
+        data.to_netcdf(path)  # as files had it before
+        assert cosserat.load(path).sizes == data.sizes
+
+
 def test_a_failed_write_leaves_the_old_file_and_no_rest(tmp_path, solved, monkeypatch):
     path = tmp_path / "a.nc"
     path.write_text("old")

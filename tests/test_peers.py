@@ -5,8 +5,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from conftest import ROOT
 
-from cosserat.errors import CosseratError
+from cosserat.errors import CosseratError, InputError
 from cosserat.peers import compare
 
 
@@ -18,23 +19,100 @@ def test_the_problems_are_the_same_for_everyone():
         assert problem.bending * 1e2 < problem.axial * problem.length**2
 
 
-def test_our_lines_and_the_table(tmp_path):
-    lines = []
-    for problem, ours in compare.problems().items():
-        if problem.elements < 30:
-            lines.append(compare._ours(problem, ours))
-    for line, allowed in zip(lines, (5e-4, 2e-4, 3e-4), strict=True):
-        assert line.error < allowed
-        assert 0 < line.least <= line.seconds <= line.most
-        assert line.runs == compare.RUNS >= 5
-    compare.write(lines, tmp_path / "peers.csv")
-    with (tmp_path / "peers.csv").open(newline="") as file:
-        assert [row["package"] for row in csv.DictReader(file)] == ["cosserat"] * 3
+FAKE = """
+import json, sys
+problem = json.loads(sys.argv[1])
+if problem["kind"] == "vibration":
+    print("{}")
+    raise SystemExit
+if problem["elements"] == 80:
+    raise SystemExit("the licence has run out")
+print(json.dumps({"python": "3", "fake": "1.2"}), flush=True)
+for line in sys.stdin:
+    with open(sys.argv[0][:-6] + "turns", "a") as log:
+        log.write(sys.argv[0][-6:-3] + " ")
+    print("a banner\\n" + json.dumps({"seconds": 2.0, "tip": 1.0, "profile": [1.0] * 20}), flush=True)
+"""
 
 
-def test_a_package_that_is_not_there_is_said_to_be_so():
-    problem = next(iter(compare.problems()))
+@pytest.fixture
+def fakes(tmp_path, monkeypatch):
+    """Two packages that take two seconds for everything and do not move."""
+    for name in ("one.py", "two.py"):
+        (tmp_path / name).write_text(FAKE)
+    monkeypatch.setattr(
+        compare, "SCRIPTS", {name: str(tmp_path / f"{name}.py") for name in ("one", "two")}
+    )
+    return tmp_path
+
+
+def some(monkeypatch, *kept):
+    posed = {p: ours for p, ours in compare.problems().items() if (p.kind, p.elements) in kept}
+    monkeypatch.setattr(compare, "problems", lambda: posed)
+
+
+def test_packages_take_turns_and_the_table_says_where_it_was_measured(fakes, monkeypatch):
+    some(monkeypatch, ("weight", 19), ("force", 20), ("vibration", 20))
+    solve, turns, said = compare._solve, fakes / "turns", []
+
+    def ours(*given):
+        with turns.open("a") as log:
+            log.write("our ")
+        return solve(*given)
+
+    monkeypatch.setattr(compare, "_solve", ours)
+    lines = list(compare.compare(Path(sys.executable), said.append, runs=3))
+    # one run of ours compiles
+    each = ["our", *["our", "one", "two"] * 3]
+    assert turns.read_text().split() == [*each, *each, *["our"] * 4]
+    assert "(a) clamped-free, 19 elements, run 3 of 3" in said
+    assert [line.package for line in lines] == [*["cosserat", "one", "two"] * 2, "cosserat"]
+    for line in lines:
+        assert line.runs == 3
+        if line.package == "cosserat":
+            assert 0 < line.least <= line.seconds <= line.most
+            assert line.error < 5e-4
+            assert {"cosserat", "python", "numpy", "scipy", "numba"} == {
+                used.split()[0] for used in line.versions.split(", ")
+            }
+        else:
+            assert (line.least, line.seconds, line.most) == (2, 2, 2)
+            assert line.error > 0.1
+            assert line.versions == "python 3, fake 1.2"
+        assert line.processor
+        assert line.load >= 0
+        assert len(line.date.split("-")) == 3
+    compare.write(lines, fakes / "peers.csv")
+    with (fakes / "peers.csv").open(newline="") as file:
+        assert [row["package"] for row in csv.DictReader(file)] == [line.package for line in lines]
+
+
+def test_a_package_that_is_not_there_or_fails_is_said_to_be_so(fakes, monkeypatch):
+    python = Path(sys.executable)
+    some(monkeypatch, ("force", 80))
     with pytest.raises(
-        CosseratError, match=r"with_exudyn.py failed on \(a\) .*No module named 'exudyn'"
+        CosseratError, match=r"one.py failed on \(b\) .*80 elements: the licence has run out"
     ):
-        compare._ask(Path(sys.executable), "with_exudyn.py", problem)
+        list(compare.compare(python, print))
+    monkeypatch.setattr(compare, "SCRIPTS", {"Exudyn": "with_exudyn.py"})
+    with pytest.raises(CosseratError, match=r"with_exudyn.py failed on .*No module named 'exudyn'"):
+        list(compare.compare(python, print))
+    with pytest.raises(InputError, match="there is no Python /none/python; make the environment with"):
+        list(compare.compare(Path("/none/python"), print))
+
+
+def test_the_table_that_was_measured_last_is_kept_and_whole():
+    """The chapter shows it; `snakemake peers` writes another."""
+    with (ROOT / "results" / "peers.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == list(compare.Line.__dataclass_fields__)
+    measured = {(row["problem"], row["package"]) for row in rows}
+    wanted = {
+        (p.name, package) for p in compare.problems() for package in ("cosserat", *compare.SCRIPTS)
+    }
+    assert wanted - measured == {("(c) vibration, 2000 elements", "PyElastica")}
+    assert measured <= wanted
+    for row in rows:
+        assert float(row["least"]) <= float(row["seconds"]) <= float(row["most"])
+        assert row["date"] >= "2026"
+        assert all(row[key] for key in row)

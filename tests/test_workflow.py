@@ -187,7 +187,8 @@ def test_every_rule_has_a_log_and_a_benchmark():
     assert len(rules) >= 6
     for rule in rules:
         assert "log:" in rule, rule
-        assert "benchmark:" in rule, rule
+        measured_anew = rule.startswith("rule peers:")  # a benchmark counts as an output that is there
+        assert ("benchmark:" in rule) != measured_anew, rule
 
 
 def test_lint_has_no_complaint_but_the_missing_conda_environments(checkout):

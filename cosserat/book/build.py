@@ -5,13 +5,16 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import io
-import os
 import shutil
 import tempfile
 from importlib import resources
 from pathlib import Path
 
+from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
+
+_WRITTEN = ".cosserat-book"
+"""File in a book that lists what was written into it."""
 
 _CONF = """
 project = "cosserat"
@@ -36,7 +39,11 @@ html_theme_options = {
     "navbar_persistent": [],
 }
 mathjax_path = "mathjax/tex-chtml-full.js"
-mathjax3_config = {"options": {"enableMenu": False}, "tex": {"tagSide": "right"}}
+mathjax3_config = {
+    "options": {"enableMenu": False},
+    "tex": {"tagSide": "right"},
+    "chtml": {"matchFontHeight": False},
+}
 """
 
 
@@ -45,7 +52,7 @@ def execute(chapter: Path, output: Path) -> None:
 
     Raises
     ------
-    InputError : the chapter or the folder of the notebook is missing.
+    InputError : the chapter is missing, or the notebook cannot be written.
     CosseratError : a cell failed; nothing is written.
     """
     import jupytext
@@ -57,10 +64,7 @@ def execute(chapter: Path, output: Path) -> None:
         raise InputError(
             f"there is no chapter {chapter}; chapters are the .py files of the folder chapters"
         )
-    if not output.parent.is_dir():
-        raise InputError(
-            f"the folder {output.parent} does not exist; make it first or choose another with --output"
-        )
+    check_destination(output, ".ipynb")
     notebook = jupytext.read(chapter)
     client = NotebookClient(
         notebook,
@@ -72,19 +76,18 @@ def execute(chapter: Path, output: Path) -> None:
         client.execute()
     except CellExecutionError as error:
         raise CosseratError(f"{chapter}: a cell failed: {error}") from None
-    temporary = output.with_name(f".{output.name}.part")
-    nbformat.write(notebook, temporary)
-    temporary.replace(output)
+    with whole_or_absent(output) as temporary:
+        nbformat.write(notebook, temporary)
 
 
 def render(notebooks: list[Path], output: Path) -> Path:
     """Build the book from executed notebooks, `index.ipynb` among them; returns its first page.
 
-    The folder is replaced only by a whole book.
+    The folder is replaced only by a whole book, and only if there is nothing in it but a book that this function wrote.
 
     Raises
     ------
-    InputError : a notebook is missing.
+    InputError : a notebook is missing, or the folder holds something else.
     CosseratError : Sphinx warned or failed; the old book stays.
     """
     missing = [str(path) for path in notebooks if not path.is_file()]
@@ -92,6 +95,7 @@ def render(notebooks: list[Path], output: Path) -> Path:
         raise InputError(
             f"there is no notebook {', '.join(missing)}; execute the chapters first ('cosserat chapter')"
         )
+    _refuse_what_is_not_ours(output)
     output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".book.") as scratch:
         pages, built = Path(scratch) / "pages", Path(scratch) / "built"
@@ -103,9 +107,52 @@ def render(notebooks: list[Path], output: Path) -> Path:
         (pages / "_static" / "book.css").write_text(style.read_text(encoding="utf-8"), encoding="utf-8")
         _copy_mathjax(pages / "_static" / "mathjax")
         _sphinx(pages, built, Path(scratch) / "doctrees")
-        shutil.rmtree(output, ignore_errors=True)
-        os.replace(built, output)
+        (built / _WRITTEN).write_text("\n".join([_WRITTEN, *_files(built)]), encoding="utf-8")
+        _refuse_what_is_not_ours(output)
+        if output.exists():
+            output.rename(Path(scratch) / "old")
+        built.rename(output)
     return output / "index.html"
+
+
+def _refuse_what_is_not_ours(output: Path) -> None:
+    """Raise InputError unless a folder is missing, empty, or holds no file but those that a book of ours has."""
+    remedy = "choose another with --output"
+    if output.is_symlink() or (output.exists() and not output.is_dir()):
+        raise InputError(f"{output} is no folder; {remedy}")
+    if Path.cwd().is_relative_to(output.resolve()):
+        raise InputError(f"{output} holds the folder you work in; {remedy}")
+    if not output.is_dir():
+        return
+    found, list_of_ours = _files(output), output / _WRITTEN
+    if list_of_ours.is_file():
+        ours = set(list_of_ours.read_text(encoding="utf-8").splitlines())
+    elif (output / "_static" / "book.css").is_file():  # a book from before there was a list
+        ours = {file for file in found if _looks_built(Path(file))}
+    else:
+        ours = set()
+    others = [file for file in found if file not in ours]
+    if others:
+        raise InputError(
+            f"{output} holds {others[0]}, which is not of a book that cosserat wrote; move it away or {remedy}"
+        )
+
+
+def _files(folder: Path) -> list[str]:
+    """Everything below a folder but plain folders with something in them, as paths from there."""
+    return sorted(
+        path.relative_to(folder).as_posix()
+        for path in folder.rglob("*")
+        if path.is_symlink() or not path.is_dir() or not any(path.iterdir())
+    )
+
+
+def _looks_built(file: Path) -> bool:
+    if file.parts[0] in ("_static", "_sources"):
+        return True
+    return len(file.parts) == 1 and (
+        file.suffix == ".html" or file.name in ("objects.inv", "searchindex.js")
+    )
 
 
 def _copy_mathjax(folder: Path) -> None:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import functools
 import re
+import reprlib
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, ValidationError
+from pydantic import AfterValidator, Field, ValidationError
+from pydantic_core import PydanticCustomError
 
-from cosserat.errors import InputError
+from cosserat.errors import InputError, path_of
 from cosserat.models.calibration import CalibrationProcedure
 from cosserat.models.convergence import Convergence
 from cosserat.models.earthworm import BodyMasses
@@ -41,10 +43,18 @@ KINDS: dict[str, type[Problem]] = {
 """Problems by the `kind` that a case names."""
 
 
+def _check_name(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
+        raise PydanticCustomError(
+            "name", f"is {name!r}, which cannot name a file; use letters, digits, '_' and '-'"
+        )
+    return name
+
+
 class Case(Parameters):
     """One computation: a name, a title, where in the thesis it stands, and the problem itself."""
 
-    name: str
+    name: Annotated[str, AfterValidator(_check_name)]
     title: str
     source: str = ""
     problem: Annotated[Problem, Field(discriminator="kind")]
@@ -60,7 +70,7 @@ class Case(Parameters):
         """
         table = _merge(self.problem.model_dump(), changes)
         problem = type(self.problem).read(table, f"case '{name}'", units_required=False)
-        return Case(name=name, title=name, problem=problem)
+        return Case.read({"name": name, "title": name, "problem": problem}, "case")
 
 
 @functools.cache
@@ -82,13 +92,17 @@ def titles() -> dict[str, str]:
     }
 
 
-def find(name: str, file: Path | None = None) -> Case:
+def find(name: str, file: str | Path | None = None) -> Case:
     """The case of that name: from `file` if one is given, else from the published ones.
 
     Raises
     ------
     InputError : no such case or file, or the case is not valid.
     """
+    if not isinstance(name, str):
+        raise InputError(
+            f"a case is found by its name, a text such as 'clamped_free', not by {reprlib.repr(name)}"
+        )
     if file is None and name in titles():
         return _published_case(name)
     if file is not None:
@@ -102,7 +116,7 @@ def find(name: str, file: Path | None = None) -> Case:
     return known[name]
 
 
-def load(file: Path) -> Mapping[str, Case]:
+def load(file: str | Path) -> Mapping[str, Case]:
     """All cases of a TOML file, by name; `like` may name a published case.
 
     Raises
@@ -113,8 +127,9 @@ def load(file: Path) -> Mapping[str, Case]:
     return _build_all(tables, _published_tables() | tables)
 
 
-def _read(file: Path) -> dict[str, Any]:
+def _read(file: str | Path) -> dict[str, Any]:
     """The tables of a case file."""
+    file = path_of(file)
     try:
         tables = tomllib.loads(file.read_text(encoding="utf-8-sig"))
     except OSError as error:
@@ -165,8 +180,6 @@ def _build_all(asked: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, 
 
 
 def _build(name: str, known: Mapping[str, Any]) -> Case:
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
-        raise InputError(f"the case name {name!r} cannot name a file; use letters, digits, '_' and '-'")
     table = _inherit(name, known, ())
     own = known[name]
     title, source = (own.get(key, "") for key in ("title", "source"))  # a title is not inherited
@@ -174,7 +187,8 @@ def _build(name: str, known: Mapping[str, Any]) -> Case:
     if not isinstance(kind, str) or kind not in KINDS:
         raise InputError(f"case '{name}': 'kind' is {kind!r}{nearest(str(kind), list(KINDS))}")
     problem = KINDS[kind].read(table, f"case '{name}'")
-    return Case(name=name, title=str(title) or name, source=str(source), problem=problem)
+    about = {"name": name, "title": title or name, "source": source, "problem": problem}
+    return Case.read(about, f"case '{name}'")
 
 
 def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:

@@ -13,10 +13,13 @@ from cosserat.cases.catalogue import Case, parse
 from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
-from cosserat.errors import InputError
+from cosserat.errors import InputError, path_of
 from cosserat.outcome import Outcome
 
 P = TypeVar("P")
+_FRAME = "frame"
+"""Name of a file's dimension of instants, with `time` along it: a dimension named `time` is, to the tools of CF, one of
+dates, and theirs alone may have it.  Here times count from the start, in plain seconds."""
 THESIS = "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
 
 
@@ -121,15 +124,17 @@ def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
         ) from None
 
 
-def save(dataset: xr.Dataset, path: Path) -> None:
+def save(dataset: xr.Dataset, path: str | Path) -> None:
     """Write a netCDF file under a temporary name and rename it, so that no half-written file is ever seen.
 
-    The same Dataset gives the same bytes.
+    The same Dataset gives the same bytes.  Instants are along the dimension `frame` of the file, with `time` as their
+    coordinate in plain seconds.
 
     Raises
     ------
     InputError : the destination cannot be written.
     """
+    path = path_of(path)
     check_destination(path, ".nc")
     encoding = {
         str(name): {"_FillValue": None}
@@ -137,16 +142,18 @@ def save(dataset: xr.Dataset, path: Path) -> None:
         if variable.dtype.kind == "f"
     }
     with whole_or_absent(path) as temporary, uninterrupted():
-        dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        written = dataset.rename_dims(time=_FRAME) if "time" in dataset.dims else dataset
+        written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
 
-def load(path: Path) -> xr.Dataset:
+def load(path: str | Path) -> xr.Dataset:
     """Read a netCDF file whole into memory.
 
     Raises
     ------
     InputError : the file is missing or cannot be read as netCDF.
     """
+    path = path_of(path)
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the name of a netCDF file")
     if not path.is_file():
@@ -155,7 +162,8 @@ def load(path: Path) -> xr.Dataset:
         )
     try:
         with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
-            return dataset.load()
+            read = dataset.load()
+            return read.swap_dims({_FRAME: "time"}) if _FRAME in read.dims and "time" in read else read
     except (OSError, ValueError, RuntimeError) as error:
         raise InputError(
             f"cannot read {path} as netCDF ({error}); delete it and run its case again"

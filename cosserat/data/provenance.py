@@ -12,6 +12,7 @@ _PACKAGE = Path(__file__).parents[1]
 _COMPUTING = (
     "errors.py",
     "outcome.py",
+    "units.py",
     "parameters.py",
     "analytic.py",
     "elastica.py",

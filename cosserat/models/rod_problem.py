@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
@@ -29,11 +30,11 @@ class _VertexName:
         """Read one name of a vertex."""
         if isinstance(value, str) and value in ("first", "last"):
             return value
-        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 0:
             raise PydanticCustomError(
                 "type", f"is {value!r}; it must be 'first', 'last' or the index of a vertex"
             )
-        return value
+        return int(value)
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

@@ -1,27 +1,34 @@
 """Time and error of the consistent rod and of other packages on shared problems, in one run on one machine.
 
-The other packages live in another environment: each has a script beside this file, which is given the problems as JSON
-and answers with what it measured.  Errors are taken here, against the same exact answers for everyone.
+The other packages live in another environment: each has a script beside this file, which is given a problem as JSON and
+answers, each time it is asked, with what it measured.  Runs of the packages alternate, so that what else the machine
+does falls on all of them.  Errors are taken here, against the same exact answers for everyone.
 """
 
 from __future__ import annotations
 
+import contextlib
 import csv
+import datetime
 import json
+import os
+import platform
 import statistics
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, Self
 
 import numpy as np
 
 from cosserat import analytic, elastica
 from cosserat.cases.catalogue import find
 from cosserat.data.files import whole_or_absent
-from cosserat.errors import CosseratError
+from cosserat.data.provenance import environment, source
+from cosserat.errors import CosseratError, InputError
 from cosserat.models.calibration import beam_of
 from cosserat.models.rod_motion import RodMotion
 from cosserat.models.rod_problem import PointForce
@@ -59,16 +66,22 @@ class Problem:
 
 @dataclass(frozen=True)
 class Line:
-    """One line of the table: median, least and most seconds of several runs, and the relative error."""
+    """One line of the table: median, least and most seconds of several runs, the relative error, and where it was run.
+
+    versions : of the package and of what it computes with.  load : processes that wanted the machine just before.
+    """
 
     problem: str
     package: str
-    version: str
     runs: int
     seconds: float
     least: float
     most: float
     error: float
+    versions: str
+    date: str
+    processor: str
+    load: float
 
 
 def problems() -> dict[Problem, RodStatics | RodMotion]:
@@ -118,49 +131,145 @@ def _problem(name: str, kind: str, elements: int, posed: RodStatics | RodMotion,
     )
 
 
-def compare(python: Path, progress: Callable[[str], None]) -> Iterator[Line]:
-    """Lines of the table, ours first; `python` is that of the other packages' environment.
+def compare(python: Path, progress: Callable[[str], None], runs: int = RUNS) -> Iterator[Line]:
+    """Lines of the table, ours first of each problem; `python` is that of the other packages' environment.
 
     Raises
     ------
+    InputError : there is no such Python.
     CosseratError : a package could not be run.
     """
-    posed = problems()
-    for problem, ours in posed.items():
-        progress(f"{problem.name}, cosserat")
-        yield _ours(problem, ours)
-    for package, script in SCRIPTS.items():
-        for problem, ours in posed.items():
-            progress(f"{problem.name}, {package}")
-            answer = _ask(python, script, problem)
-            if answer:
-                yield _line(
-                    problem, package, answer["version"], answer["seconds"], _error(problem, ours, answer)
-                )
+    if not python.is_file():
+        raise InputError(f"there is no Python {python}; make the environment with 'snakemake peers'")
+    for problem, ours in problems().items():
+        with contextlib.ExitStack() as running:
+            packages: list[_Ours | _Peer] = [_Ours(problem, ours)]
+            for package, script in SCRIPTS.items():
+                progress(f"{problem.name}, {package} starts")
+                peer = running.enter_context(_Peer.started(package, python, script, problem))
+                packages += [peer] if peer.versions else []
+            yield from _in_turns(problem, ours, packages, runs, progress)
 
 
-def _ours(problem: Problem, posed: RodStatics | RodMotion) -> Line:
-    from cosserat.data.provenance import source
+def _in_turns(
+    problem: Problem,
+    ours: RodStatics | RodMotion,
+    packages: list[_Ours | _Peer],
+    runs: int,
+    progress: Callable[[str], None],
+) -> Iterator[Line]:
+    """Run 1 of every package, then run 2 of every package, and so on; one line for each."""
+    load = os.getloadavg()[0]
+    answers: list[list[dict[str, Any]]] = [[] for _ in packages]
+    for run in range(runs):
+        progress(f"{problem.name}, run {run + 1} of {runs}")
+        for package, given in zip(packages, answers, strict=True):
+            given.append(package.run())
+    for package, given in zip(packages, answers, strict=True):
+        seconds = [float(answer["seconds"]) for answer in given]
+        yield Line(
+            problem.name,
+            package.name,
+            runs,
+            statistics.median(seconds),
+            min(seconds),
+            max(seconds),
+            _error(problem, ours, given[-1]),
+            ", ".join(f"{name} {version}" for name, version in package.versions.items()),
+            datetime.date.today().isoformat(),
+            processor(),
+            load,
+        )
 
-    seconds: list[float] = []
-    answer: dict[str, Any] = {}
-    for run in range(RUNS + 1):
-        answer, taken = _solve(problem, posed)
-        if run:  # the first has compiled what was not
-            seconds.append(taken)
-    return _line(
-        problem, "cosserat", source().split(",")[0].split()[1], seconds, _error(problem, posed, answer)
-    )
+
+def processor() -> str:
+    """The model of this machine's processor."""
+    with contextlib.suppress(OSError), Path("/proc/cpuinfo").open(encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()
 
 
-def _solve(problem: Problem, posed: RodStatics | RodMotion) -> tuple[dict[str, Any], float]:
+class _Ours:
+    """The consistent rod on one problem, its kernels compiled."""
+
+    name = "cosserat"
+
+    def __init__(self, problem: Problem, posed: RodStatics | RodMotion) -> None:
+        self.problem, self.posed = problem, posed
+        self.versions = {"cosserat": source().split(",")[0].split()[1], **environment()}
+        self.run()
+
+    def run(self) -> dict[str, Any]:
+        """One run."""
+        return _solve(self.problem, self.posed)
+
+
+@dataclass
+class _Peer:
+    """Another package on one problem, in a process of its own that waits between its runs."""
+
+    name: str
+    script: str
+    problem: Problem
+    process: subprocess.Popen[str]
+    complaints: IO[str]
+    versions: dict[str, str]
+
+    @classmethod
+    @contextlib.contextmanager
+    def started(cls, name: str, python: Path, script: str, problem: Problem) -> Iterator[Self]:
+        """The package, ready to run; without versions where the problem is too large for it."""
+        command = [str(python), str(Path(__file__).parent / script), json.dumps(asdict(problem))]
+        with (
+            tempfile.TemporaryFile("w+", encoding="utf-8") as complaints,
+            subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=complaints,
+                text=True,
+                env={"OMP_NUM_THREADS": "1", "PATH": ""},
+            ) as process,
+        ):
+            peer = cls(name, script, problem, process, complaints, {})
+            try:
+                peer.versions = peer._answer()
+                yield peer
+            finally:
+                process.kill()
+
+    def run(self) -> dict[str, Any]:
+        """One run."""
+        assert self.process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):
+            self.process.stdin.write("\n")
+            self.process.stdin.flush()
+        return self._answer()
+
+    def _answer(self) -> dict[str, Any]:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            if line.startswith("{"):  # whatever else a package prints
+                answer: dict[str, Any] = json.loads(line)
+                return answer
+        self.process.wait()
+        self.complaints.seek(0)
+        last = (self.complaints.read().strip().splitlines() or ["no message"])[-1]
+        raise CosseratError(
+            f"{self.script} failed on {self.problem.name}: {last}; make the environment with 'snakemake peers'"
+        )
+
+
+def _solve(problem: Problem, posed: RodStatics | RodMotion) -> dict[str, Any]:
     if isinstance(posed, RodStatics):  # as for the others, the model is built before
         loaded = posed.loaded(posed.rod.geometry())
         start = time.perf_counter()
         found = lead(Climb(loaded, posed.newton, problem.name), np.zeros(loaded.held.size))
         taken = time.perf_counter() - start
         u = found.q.reshape(-1, 4)[:, 1]
-        return {"profile": u.tolist(), "tip": float(u[-1])}, taken
+        return {"seconds": taken, "profile": u.tolist(), "tip": float(u[-1])}
     small = posed.replace(start=posed.start.replace(amplitude=problem.load))
     system, state = small.system(small.rod.geometry()), small.begin()
     settings = IntegratorSettings(step=problem.duration / problem.steps)
@@ -172,7 +281,7 @@ def _solve(problem: Problem, posed: RodStatics | RodMotion) -> tuple[dict[str, A
         state, _done = advance(system, state, 4 * settings.step, settings, problem.name)
         times.append(state.time)
         tips.append(float(state.q[-3]))
-    return {"times": times, "tips": tips}, taken
+    return {"seconds": taken, "times": times, "tips": tips}
 
 
 def _error(problem: Problem, posed: RodStatics | RodMotion, answer: dict[str, Any]) -> float:
@@ -191,36 +300,6 @@ def _error(problem: Problem, posed: RodStatics | RodMotion, answer: dict[str, An
         return abs(float(answer["tip"]) / problem.length / exact_tip - 1)
     exact_period = 2 * np.pi / elastica.timoshenko_frequencies(beam_of(posed), 1)[0]
     return abs(period(np.array(answer["times"]), np.array(answer["tips"])) / float(exact_period) - 1)
-
-
-def _ask(python: Path, script: str, problem: Problem) -> dict[str, Any]:
-    done = subprocess.run(
-        [str(python), str(Path(__file__).with_name(script)), json.dumps(asdict(problem)), str(RUNS)],
-        capture_output=True,
-        text=True,
-        check=False,
-        env={"OMP_NUM_THREADS": "1", "PATH": ""},
-    )
-    if done.returncode:
-        last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        raise CosseratError(
-            f"{script} failed on {problem.name}: {last}; make the environment with 'snakemake peers'"
-        )
-    answer: dict[str, Any] = json.loads(done.stdout.strip().splitlines()[-1])
-    return answer
-
-
-def _line(problem: Problem, package: str, version: str, seconds: list[float], error: float) -> Line:
-    return Line(
-        problem.name,
-        package,
-        version,
-        len(seconds),
-        statistics.median(seconds),
-        min(seconds),
-        max(seconds),
-        error,
-    )
 
 
 def write(lines: list[Line], path: Path) -> None:

@@ -1,4 +1,6 @@
-"""Exudyn's geometrically exact linear beam on one problem: `python with_exudyn.py PROBLEM RUNS` prints a JSON answer.
+"""Exudyn's geometrically exact linear beam on one problem.
+
+`python with_exudyn.py PROBLEM` prints, as JSON, the versions it uses, then an answer for each line of its input.
 
 Static problems by its Newton solver, with five load steps where the deflection is large, which suited it best; motion
 by its implicit trapezoidal rule with a modified Newton method.
@@ -6,6 +8,7 @@ by its implicit trapezoidal rule with a modified Newton method.
 
 # mypy: ignore-errors
 import json
+import platform
 import sys
 import time
 from importlib.metadata import version
@@ -93,32 +96,33 @@ def settings(problem):
     return chosen
 
 
+def solve(problem):
+    """One run: seconds of the solver alone, the model built before, and what came out."""
+    system, nodes, sensor = build(problem)
+    chosen = settings(problem)
+    moving = problem["kind"] == "vibration"
+    start = time.perf_counter()
+    done = (
+        system.SolveDynamic(chosen) if moving else system.SolveStatic(chosen, updateInitialValues=True)
+    )
+    seconds = time.perf_counter() - start
+    if not done:
+        raise SystemExit("the solver reports no success")
+    if moving:
+        record = system.GetSensorStoredData(sensor)
+        return {"seconds": seconds, "times": record[:, 0].tolist(), "tips": record[:, 2].tolist()}
+    position = exu.OutputVariableType.Position
+    places = np.array([system.GetNodeOutput(node, position) for node in nodes])
+    return {"seconds": seconds, "profile": places[:, 1].tolist(), "tip": float(places[-1, 1])}
+
+
 def main():
-    """Time the solver alone, the model built before each run."""
-    problem, runs = json.loads(sys.argv[1]), int(sys.argv[2])
-    seconds, answer = [], {}
-    for _ in range(runs):
-        system, nodes, sensor = build(problem)
-        chosen = settings(problem)
-        start = time.perf_counter()
-        moving = problem["kind"] == "vibration"
-        done = (
-            system.SolveDynamic(chosen)
-            if moving
-            else system.SolveStatic(chosen, updateInitialValues=True)
-        )
-        seconds.append(time.perf_counter() - start)
-        if not done:
-            raise SystemExit("the solver reports no success")
-        if moving:
-            record = system.GetSensorStoredData(sensor)
-            answer = {"times": record[:, 0].tolist(), "tips": record[:, 2].tolist()}
-        else:
-            position = exu.OutputVariableType.Position
-            places = np.array([system.GetNodeOutput(node, position) for node in nodes])
-            answer = {"profile": places[:, 1].tolist(), "tip": float(places[-1, 1])}
-    sys.stdout.flush()
-    print("\n" + json.dumps({"version": version("exudyn"), "seconds": seconds, **answer}))
+    """Say what is used, then run once for every line that comes in."""
+    problem = json.loads(sys.argv[1])
+    used = {"python": platform.python_version()} | {name: version(name) for name in ("exudyn", "numpy")}
+    print(json.dumps(used), flush=True)
+    for _ in sys.stdin:
+        print("\n" + json.dumps(solve(problem)), flush=True)
 
 
 main()

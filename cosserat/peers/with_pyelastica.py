@@ -1,12 +1,13 @@
-"""PyElastica on one problem: `python with_pyelastica.py PROBLEM RUNS` prints a JSON answer.
+"""PyElastica on one problem: `python with_pyelastica.py PROBLEM` prints, as JSON, the versions it uses, then an answer
+for each line of its input.
 
-That is {} where it would take too long.
 It has no static solver: equilibria are reached by relaxation with the critical damping of the first mode.  Its first
 element straddles the wall, which is what makes its clamp second order.  Its step is nine tenths of the stable one.
 """
 
 # mypy: ignore-errors
 import json
+import platform
 import sys
 import time
 from importlib.metadata import version
@@ -107,36 +108,43 @@ def build(problem):
     return world, rod, step, 14 / first
 
 
-def main():
-    """Time the stepping alone, kernels warm."""
-    problem, runs = json.loads(sys.argv[1]), int(sys.argv[2])
-    if problem["kind"] == "vibration" and problem["elements"] > _MOST_ELEMENTS:
-        print("{}")
-        return
-    seconds, answer = [], {}
-    for run in range(runs + 1):
-        world, rod, step, duration = build(problem)
-        count = 2 if run == 0 else int(np.ceil(duration / step))
-        stepper, now, times, tips = ea.PositionVerlet(), 0.0, [], []
-        start = time.perf_counter()
-        for k in range(count):
-            now = stepper.step(world, now, duration / max(count, 3))
-            if k % max(1, count // 400) == 0:
-                times.append(float(now))
-                tips.append(float(rod.position_collection[1, -1]))
-        if run:
-            seconds.append(time.perf_counter() - start)
+def solve(problem, steps=None):
+    """One run: seconds of the stepping alone, and what came out; or so many steps of it, which compiles the kernels."""
+    world, rod, step, duration = build(problem)
+    count = steps or int(np.ceil(duration / step))
+    stepper, now, times, tips = ea.PositionVerlet(), 0.0, [], []
+    start = time.perf_counter()
+    for k in range(count):
+        now = stepper.step(world, now, duration / max(count, 3))
+        if k % max(1, count // 400) == 0:
+            times.append(float(now))
+            tips.append(float(rod.position_collection[1, -1]))
+    seconds = time.perf_counter() - start
     kept = rod.position_collection[0] >= 0
     edge = problem["length"] / (problem["elements"] - 0.5)
     places = (np.arange(problem["elements"] + 1) - 0.5) * edge
-    answer = {
+    return {
+        "seconds": seconds,
         "times": times,
         "tips": tips,
         "tip": float(rod.position_collection[1, -1]),
         "profile": rod.position_collection[1][kept].tolist(),
         "places": places[kept].tolist(),
     }
-    print(json.dumps({"version": version("pyelastica"), "seconds": seconds, **answer}))
+
+
+def main():
+    """Say what is used, or {} of a problem that would take too long; then run once for every line that comes in."""
+    problem = json.loads(sys.argv[1])
+    if problem["kind"] == "vibration" and problem["elements"] > _MOST_ELEMENTS:
+        print("{}")
+        return
+    solve(problem, steps=2)
+    names = ("pyelastica", "numpy", "numba")
+    used = {"python": platform.python_version()} | {name: version(name) for name in names}
+    print(json.dumps(used), flush=True)
+    for _ in sys.stdin:
+        print(json.dumps(solve(problem)), flush=True)
 
 
 main()

@@ -15,8 +15,9 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.data.files import whole_or_absent
 from cosserat.errors import InputError
-from cosserat.parameters import Parameters, Quantity, to_si
+from cosserat.parameters import Parameters, Quantity
 from cosserat.table.readouts import READOUTS
+from cosserat.units import to_si
 
 Standing = Literal["reproduced", "erratum", "assumption", "not attempted"]
 Kind = Literal["printed", "analytic", "in words", "literature"]

@@ -1,0 +1,164 @@
+"""Numbers with units as people write them, read by pint: "2.5 mm", "1_000 MPa", "10^9 N/mm²", "5 Nm", "9.81 m s-2"."""
+
+from __future__ import annotations
+
+import functools
+import math
+import numbers
+import re
+from typing import TYPE_CHECKING, Any
+
+from pydantic_core import PydanticCustomError
+
+if TYPE_CHECKING:
+    import pint
+
+_KINDS = {
+    "1": "a ratio",
+    "m": "a length",
+    "m^2": "an area",
+    "m^3": "a volume",
+    "m^-1": "a curvature",
+    "kg": "a mass",
+    "kg/m": "a mass per length",
+    "kg/m^3": "a density",
+    "s": "a time",
+    "Hz": "a frequency",
+    "m/s": "a speed",
+    "m/s^2": "an acceleration",
+    "N": "a force",
+    "N/m": "a force per length",
+    "N*m": "a moment",
+    "Pa": "a pressure",
+    "rad": "an angle",
+    "rad/s": "an angular speed",
+}
+"""What a number in a unit is; of the units without a word, the unit itself is said."""
+
+_ALIKE = {"m^-1": "rad/m"}
+"""Units that may be written for another, though pint's own rule, that an angle is a number, holds nowhere else."""
+
+_PREFIXES = ("", "k", "M", "G", "m", "c", "µ", "n")
+_CHARACTERS = str.maketrans(
+    {**dict.fromkeys("·⋅∙•×", "*"), **dict.fromkeys("−‐‑", "-"), "μ": "µ", "º": "°", "π": "pi"}
+    | dict.fromkeys("\u00a0\u2007\u2009\u202f", " ")
+)
+_SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+_NUMBER = re.compile(
+    r"\s*(?P<number>[+-]?(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b|[+-]?(?=pi\b))"
+    r"(?:\s*\*?\s*(?P<pi>pi)\b)?(?:\s*/\s*(?P<divisor>\d{1,9}))?"
+)
+_BEGINS_A_UNIT = re.compile(r"[^\W\d]|[%°(/\"']|1\s*/|$")
+_UNIT = re.compile(r"(?:1 */)?(?:[^\W\d]\w*|[%°()*/ ]|\^ *\(?[+-]?\d{1,2}\)?(?! *\^))*")
+
+
+@functools.cache
+def _units() -> pint.UnitRegistry[float]:
+    import pint  # 0.4 s: only where a text with a unit has to be read
+
+    return pint.UnitRegistry()
+
+
+def to_si(value: object, unit: str, *, unit_required: bool) -> float:
+    """Read one value as a number in the SI unit `unit`: a number, or a text such as "2.5 mm", "1e3 kg/m" or "5/6".
+
+    Raises
+    ------
+    PydanticCustomError : not a number, not finite, or of another dimension than `unit`.
+    """
+    if isinstance(value, str):
+        number = _read_text(value, unit)
+    elif isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise PydanticCustomError(
+            "type", f"is {_shown(repr(value))}, not a number; {how_to_write(unit)}"
+        )
+    elif unit_required and unit != "1":
+        raise PydanticCustomError("unit", f"is {value!r}, without a unit; {how_to_write(unit)}")
+    else:
+        number = float(value)
+    if not math.isfinite(number):
+        raise PydanticCustomError("finite", f"is {_shown(repr(value))}; it must be a finite number")
+    return number
+
+
+def how_to_write(unit: str) -> str:
+    """What to do about a value that cannot be read."""
+    if unit == "1":
+        return "write a number, such as 0.3"
+    return f'write it with its unit, such as "2.5 {unit}"'
+
+
+def _read_text(text: str, unit: str) -> float:
+    def refused(kind: str, why: str, remedy: str = "") -> PydanticCustomError:
+        return PydanticCustomError(kind, f'is "{_shown(text)}", {why}; {remedy or how_to_write(unit)}')
+
+    if "," in text:
+        raise refused(
+            "type", "with a decimal comma", "write a decimal point, and between thousands nothing"
+        )
+    plain = _in_plain_characters(text)
+    found = _NUMBER.match(plain)
+    rest = plain[found.end() :].strip() if found else ""
+    if found and re.match(r"\d(?!\s*/\s*\D)", rest):
+        raise refused("type", "with a blank inside the number", "write 1000 or 1_000")
+    if found is None or not _BEGINS_A_UNIT.match(rest) or not int(found["divisor"] or 1):
+        raise refused("type", "which is not a number with a unit")
+    sign_or_number = found["number"] if found["number"].strip("+-") else f"{found['number']}1"
+    number = float(sign_or_number) * (math.pi if found["pi"] else 1) / int(found["divisor"] or 1)
+    try:
+        written = _as_pint_writes(rest)
+        read = _units().Quantity(number, written)
+        root = _root(read.units)
+    except Exception:  # the unit parser raises errors of many kinds on text that is no unit
+        raise refused("type", "whose unit is not known", _meant(rest, unit)) from None
+    wanted = "" if unit == "1" else unit
+    if root not in (_root(wanted), _root(_ALIKE.get(unit, wanted))):
+        why = f"in {rest}{_instead(root, unit)}" if rest else "in no unit at all"
+        raise refused("unit", why, _meant(written, unit))
+    return float(read.to(wanted).magnitude)
+
+
+def _in_plain_characters(text: str) -> str:
+    """The text with '*', '^', '-', blanks and powers of ten as a program writes them."""
+    text = re.sub(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS), text)
+    text = text.translate(_CHARACTERS).replace("**", "^")
+    ten = r"(?:(?<=[\d.])(\s*[*x]\s*)|(?<![\w.^]))10\^([+-]?\d{1,3})(?!\d)"
+    return re.sub(ten, lambda m: ("e" if m[1] else "1e") + m[2], text)
+
+
+def _as_pint_writes(unit: str) -> str:
+    """'Nm', 'N.m' and 'N-m' as N*m, 'm s-2' and 'm/s2' with '^', '/m' as 1/m.
+
+    Raises
+    ------
+    ValueError : it holds a number that is no exponent, which no unit does, or powers of powers.
+    """
+    unit = re.sub(r"\b([a-zA-Zµ]?N)(mm|cm|m)\b", r"\1*\2", unit)  # pint's Nm numbers yarn
+    unit = re.sub(r"(?<=[\w)])\.(?=[^\W\d])|(?<=[^\W\d])-(?=[^\W\d])", "*", unit)
+    unit = re.sub(r"(?<=[^\W\d_])([+-]?[1-9])(?!\w)", r"^\1", unit)
+    unit = f"1{unit}" if unit.startswith("/") else unit
+    if not _UNIT.fullmatch(unit):
+        raise ValueError(unit)
+    return unit
+
+
+def _root(unit: Any) -> object:
+    """A unit in those that pint takes for the simplest, of which the radian is one."""
+    return _units().Quantity(1.0, unit).to_root_units().units
+
+
+def _instead(root: object, unit: str) -> str:
+    """What was given and what is wanted, if there are words for both."""
+    given = [words for known, words in _KINDS.items() if _root("" if known == "1" else known) == root]
+    return f", {given[0]} and not {_KINDS[unit]}" if given and unit in _KINDS else ""
+
+
+def _meant(written: str, unit: str) -> str:
+    """The question that helps where a spelling is wrong in its capitals alone."""
+    likely = [prefix + unit for prefix in _PREFIXES if (prefix + unit).casefold() == written.casefold()]
+    return f"did you mean {' or '.join(map(repr, likely))}?" if likely else ""
+
+
+def _shown(text: str) -> str:
+    """A text as a sentence may repeat it."""
+    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -1,0 +1,148 @@
+"""The book: pages whose equations can be read, and a folder from which nothing is removed that is not of a book."""
+
+import re
+import shutil
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from cosserat.book.build import render
+from cosserat.errors import CosseratError, InputError
+
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::DeprecationWarning", "ignore::PendingDeprecationWarning"
+)
+
+
+@pytest.fixture(scope="module")
+def notebooks(tmp_path_factory):
+    """Two pages, the first with a numbered equation."""
+    folder = tmp_path_factory.mktemp("notebooks")
+    toctree = "```{toctree}\nother\n```"
+    for name, text in (
+        ("index", f"# Index\n\n$$ a = b \\tag{{1.2.3}} $$\n\n{toctree}"),
+        ("other", "# Other"),
+    ):
+        cells = [nbformat.v4.new_markdown_cell(text)]
+        nbformat.write(nbformat.v4.new_notebook(cells=cells), folder / f"{name}.ipynb")
+    return [folder / "index.ipynb", folder / "other.ipynb"]
+
+
+@pytest.fixture(scope="module")
+def built(notebooks, tmp_path_factory):
+    book = tmp_path_factory.mktemp("book") / "book"
+    assert render(notebooks, book) == book / "index.html"
+    return book
+
+
+@pytest.fixture
+def book(built, tmp_path):
+    return shutil.copytree(built, tmp_path / "book")
+
+
+def contents(folder):
+    return {
+        str(path.relative_to(folder)): path.read_bytes() if path.is_file() else b""
+        for path in folder.rglob("*")
+    }
+
+
+def rules(book):
+    """Declarations of the stylesheet by selector."""
+    text = (book / "_static" / "book.css").read_text()
+    return {
+        selector.strip(): block
+        for selectors, block in re.findall(r"([^{}]+)\{([^}]*)\}", text)
+        for selector in selectors.split(",")
+    }
+
+
+def test_wide_equations_scroll_from_their_left_end_and_are_no_larger_than_the_text(built):
+    page = (built / "index.html").read_text()
+    assert "_static/book.css" in page
+    assert 'class="math notranslate nohighlight"' in page
+    assert re.search(r'"chtml": \{"matchFontHeight": false\}', page)
+    style = rules(built)["div.math"]
+    assert "display: block" in style
+    assert "overflow-x: auto" in style
+    assert "overflow-x: hidden" not in style
+
+
+def test_pictures_and_animations_keep_within_the_column(built):
+    for selector in ("figure.plot img", "figure.plot svg"):
+        assert "max-width: 100%" in rules(built)[selector]
+        assert "background: #fff" in rules(built)[selector]
+    assert "overflow-wrap: anywhere" in rules(built)["code .pre"]
+
+
+def test_dark_captions_stand_on_the_ground_of_the_page(built):
+    """The theme puts outputs on a pale card; its selector counts five classes and three elements."""
+    (selector,) = (key for key in rules(built) if key.endswith(".output.text_html"))
+    assert 'html[data-theme="dark"]' in selector
+    assert len(re.findall(r"[.\[]", selector)) > 5
+    assert "background: none; color: inherit" in rules(built)[selector]
+
+
+def test_a_book_replaces_a_book_and_an_empty_folder(notebooks, book, tmp_path):
+    (book / "other.html").write_text("old")
+    (book / "index.html").unlink()  # a rule's output, which Snakemake takes away first
+    assert render(notebooks, book).is_file()
+    assert "Other" in (book / "other.html").read_text()
+    (tmp_path / "empty").mkdir()
+    assert render(notebooks, tmp_path / "empty").is_file()
+    (book / ".cosserat-book").unlink()  # as books were before
+    assert render(notebooks, book).is_file()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["book", "empty"]
+
+
+@pytest.mark.parametrize(
+    "name", ["thesis.tex", "mine.html", "_static/mine.css", "sub/mine.txt", "empty/"]
+)
+def test_a_file_of_the_user_in_a_book_stays_and_is_named(notebooks, book, name):
+    path = book / name
+    path.parent.mkdir(exist_ok=True)
+    path.mkdir() if name.endswith("/") else path.write_text("mine")
+    before = contents(book)
+    with pytest.raises(InputError, match=rf"holds {name.rstrip('/')}, which is not of a book"):
+        render(notebooks, book)
+    assert contents(book) == before
+
+
+def test_folders_of_the_user_stay(notebooks, tmp_path, monkeypatch):
+    mine = tmp_path / "mine"
+    (mine / "work" / "here").mkdir(parents=True)
+    (mine / "thesis.tex").write_text("mine")
+    (mine / "index.html").write_text("mine")
+    (tmp_path / "link").symlink_to(mine)
+    (tmp_path / "nowhere").symlink_to(tmp_path / "none")
+    monkeypatch.chdir(mine / "work")
+    before = contents(tmp_path)
+    for output, sentence in [
+        (mine, "holds the folder you work in"),
+        (mine / "work", "holds the folder you work in"),
+        (mine / "work" / "here" / "..", "holds the folder you work in"),
+        (tmp_path, "holds the folder you work in"),
+        (tmp_path / "link", "link is no folder"),
+        (tmp_path / "nowhere", "nowhere is no folder"),
+        (mine / "thesis.tex", "thesis.tex is no folder"),
+    ]:
+        with pytest.raises(InputError, match=sentence):
+            render(notebooks, output)
+    for relative in (".", "..", "../..", "here/.."):
+        with pytest.raises(InputError, match="holds the folder you work in"):
+            render(notebooks, Path(relative))
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match="holds index.html, which is not of a book"):
+        render(notebooks, mine)
+    assert contents(tmp_path) == before
+
+
+def test_a_book_that_cannot_be_built_leaves_the_old_one(notebooks, book, tmp_path):
+    bad = tmp_path / "index.ipynb"
+    cell = nbformat.v4.new_markdown_cell("# Index\n\n[nowhere](none.md)")
+    nbformat.write(nbformat.v4.new_notebook(cells=[cell]), bad)
+    before = contents(book)
+    with pytest.raises(CosseratError, match="could not be built"):
+        render([bad, notebooks[1]], book)
+    assert contents(book) == before
