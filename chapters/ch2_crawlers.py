@@ -97,7 +97,7 @@ page.table(lines, ("soft robot", "displacement in a cycle"))
 # times come from the scalings of Table 2.1:
 
 # %% tags=["remove-input"]
-page.rows("T2.1", "2.8-duration", "2.8-circumference", "2.8.2", "2.8.3")
+page.rows("T2.1", "2.8-circumference", "2.8.2", "2.8.3")
 
 # %% tags=["remove-input"]
 page.animation("anim_worm", "Two strides in real time. Segment 50 is black, the triangle is the anchor.")

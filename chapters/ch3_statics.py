@@ -195,7 +195,7 @@ page.source(analytic.hanging_bar_displacement)
 page.figure("fig_3_9", "Left, displacement; right, computed less analytic in millionths of the tip.")
 
 # %% tags=["remove-input"]
-page.rows("3.4.14-c1", "F3.9")
+page.rows("F3.9")
 
 # %% [markdown]
 # The weights lumped at the vertices give the linear solution exactly at every $N$. What remains is the energy itself:

@@ -327,12 +327,11 @@ def _plot(options: argparse.Namespace) -> None:
 def _measure(options: argparse.Namespace) -> None:
     from cosserat.data.files import check_destination
     from cosserat.table.measure import measure, summary
-    from cosserat.table.tolerances import read_table, write_report
+    from cosserat.table.tolerances import read_report, read_table, write_report
 
     check_destination(options.output)
-    judged = measure(read_table(options.table), options.cases)
-    write_report(judged, options.output)
-    print(summary([item.verdict for item in judged], [item.row.standing for item in judged]))
+    write_report(measure(read_table(options.table), options.cases), options.output)
+    print(summary(read_report(options.output)))
     print(f"wrote {options.output}")
 
 

@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 import cosserat
 from cosserat import analytic
 from cosserat.figures.calibration import limit
-from cosserat.models.calibration import ASSIGNED
+from cosserat.models.calibration import ASSIGNED, beam_of
 from cosserat.table import readouts
 
 
@@ -127,6 +127,6 @@ def test_necking_wants_a_stiffer_gradient_in_the_limit(fitted):
     rod = problem.rod
     stiff = rod.replace(vertices=9).body(rod.replace(vertices=9).geometry()).stiffness
     k1, k2, k7, k6 = 2 * stiff.k1[0], 2 * stiff.k2[1], stiff.k7[1], stiff.k6[0]
-    beta = analytic.necking_decay(readouts.beam_of(problem), "printed")
+    beta = analytic.necking_decay(beam_of(problem), "printed")
     wanted = (k2 - k7**2 / k1) / beta**2 / (k6 / rod.calibration.c6)
     assert wanted == pytest.approx(found, rel=2e-2)

@@ -6,6 +6,7 @@ from conftest import assembled, make_rod, random_state
 
 import cosserat
 from cosserat import analytic
+from cosserat.models.calibration import beam_of
 from cosserat.models.planar_rod import rigid_motions, signed_angle, strains, vertex_tangents
 from cosserat.models.published import PublishedRod, stretching
 from cosserat.table import readouts
@@ -44,13 +45,21 @@ def test_E3_1_missing_half_doubles_the_axial_stiffness():
     assert c1 * EA * curvature / 2 == pytest.approx(EA)
 
 
-def test_E3_2_printed_poisson_coupling_misses_its_own_calibration(solved):
+def test_E3_2_half_the_coupling_and_half_the_coefficient_are_the_same_rod(solved):
+    """Each gives 1.008 of eq. (3.5.8), where coupling and coefficient as printed give 3.57."""
+    halved = {"poisson_coupling": "printed", "calibration": {"c7": 1.66 / 2}}
+    runs = {
+        "half the coupling": solved["necking"],
+        "half the coefficient": cosserat.run(cosserat.case("necking").vary("c7_halved", rod=halved)),
+        "as printed": solved["necking_printed"],
+    }
     ratios = {}
-    for name in ("necking", "necking_printed"):
-        reading = readouts.at_midspan(readouts.necking_curve(solved[name]))
+    for name, data in runs.items():
+        reading = readouts.at_midspan(readouts.necking_curve(data))
         ratios[name] = reading.measured / reading.expected
-    assert abs(ratios["necking"] - 1) < 0.01
-    assert abs(ratios["necking_printed"] - 1) > 2.5
+    assert ratios["half the coupling"] == pytest.approx(1.0084, abs=1e-4)
+    assert ratios["half the coefficient"] == pytest.approx(ratios["half the coupling"], rel=1e-12)
+    assert ratios["as printed"] == pytest.approx(3.57, abs=0.01)
 
 
 @pytest.mark.parametrize(("poisson", "definite"), [(0.37, True), (0.38, False)])
@@ -67,7 +76,8 @@ def test_full_coupling_of_one_contracts_as_plane_strain_does():
     full = {"poisson_coupling": "printed", "calibration": {"c7": 1.0}}
     for poisson in (0.2, 0.3):
         case = cosserat.case("necking").vary("plane_strain", rod={**full, "poisson": poisson})
-        reading = readouts.at_midspan(readouts.necking_curve(cosserat.run(case)))
+        curves = readouts.necking_curve(cosserat.run(case), beam=beam_of(case.problem))
+        reading = readouts.at_midspan(curves)
         assert reading.measured / reading.expected == pytest.approx(1 + poisson, abs=1e-4)
 
 
@@ -285,7 +295,7 @@ def test_E3_13_printed_decay_does_not_balance_the_director_forces(theory):
 
 def test_E3_14_printed_necking_curve_loses_its_digits():
     problem = cosserat.case("necking").problem
-    beam = readouts.beam_of(problem)
+    beam = beam_of(problem)
     beta = analytic.necking_decay(beam, "printed")
     xi = np.linspace(0, beam.length, 101)
     printed, ours = (

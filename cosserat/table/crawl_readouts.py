@@ -9,16 +9,7 @@ import xarray as xr
 
 from cosserat import analytic
 from cosserat.data.dataset import problem_of
-from cosserat.models.earthworm import (
-    SEGMENT_50,
-    circumference,
-    peak_force,
-    peak_pressure,
-    protrusion_time,
-    resting_diameter,
-    resting_length,
-    stance_time,
-)
+from cosserat.models.earthworm import SEGMENT_50
 from cosserat.models.peristalsis import Crawl
 from cosserat.table.reading import Reading
 
@@ -112,37 +103,8 @@ def _cycle_displacement(data: xr.Dataset) -> Reading:
     )
 
 
-def _robot_cycle(data: xr.Dataset) -> Reading:
-    """Duration of the gait, and by eq. (2.7.2) with t_pause = 5 s, v = 2.54 cm/s and T = 0.25."""
-    problem = crawl(data)
-    expected = 5.0 + problem.crawler.length / 2.54e-2 * (2 - 0.25)
-    return Reading(problem.gait.duration, expected)
-
-
-def _worm_cycle(data: xr.Dataset) -> Reading:
-    """Duration of the gait, and t_p + t_s by Table 2.1."""
-    mass = _mass(data)
-    return Reading(crawl(data).gait.duration, stance_time(mass) + protrusion_time(mass))
-
-
-def _diameter(data: xr.Dataset) -> float:
-    return 2 * crawl(data).crawler.radius
-
-
-def _mass(data: xr.Dataset) -> float:
-    mass = crawl(data).crawler.mass
-    assert mass is not None
-    return mass
-
-
 READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "stride": lambda data: Reading(float(strides(data)[-1])),
-    "stride_scaling": lambda data: Reading(1e-3 * 15 * (1e3 * _mass(data)) ** 0.4),
-    "robot_cycle": _robot_cycle,
-    "worm_cycle": _worm_cycle,
-    "circumference": lambda data: Reading(circumference(_diameter(data))),
-    "peak_force": lambda data: Reading(peak_force(_diameter(data))),
-    "peak_pressure": lambda data: Reading(peak_pressure(_diameter(data))),
     "cycle_displacement": _cycle_displacement,
     "rest_pressure": _rest_pressure,
     "mu_1_circular": _at("mu_1", CIRCULAR),
@@ -153,10 +115,6 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "p_longitudinal": _at("p_coelom", LONGITUDINAL),
     "mu_1_ratio": _ratio("mu_1"),
     "mu_3_ratio": _ratio("mu_3"),
-    "stance_time": lambda data: Reading(stance_time(_mass(data))),
-    "protrusion_time": lambda data: Reading(protrusion_time(_mass(data))),
-    "resting_length": lambda data: Reading(resting_length(_mass(data))),
-    "resting_diameter": lambda data: Reading(resting_diameter(_mass(data))),
     "stride_slope": _slope("stride"),
     "speed_slope": _slope("speed"),
     "frequency_slope": _slope("frequency"),

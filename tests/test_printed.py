@@ -1,0 +1,119 @@
+"""Every case that claims to be the thesis's has the inputs that the thesis prints."""
+
+import re
+
+import pytest
+from conftest import ROOT
+
+import cosserat
+from cosserat.table import printed
+from cosserat.table.errata import read_errata
+
+CHAPTER_3 = re.findall(
+    r"^\[([a-z]\w*)\]", (ROOT / "cosserat/cases/chapter3.toml").read_text(), flags=re.MULTILINE
+)
+OURS = {
+    "bent_rod": "a shape to draw Figs. 3.1, 3.4 and 3.6 from, which have no numbers",
+    "calibration": "its four problems are held below",
+    "convergence": "our own rod",
+    "hanging_bar_consistent": "our own rod",
+    "clamped_free_consistent": "our own rod",
+    "clamped_clamped_consistent": "our own rod",
+    "necking_consistent": "our own rod",
+    "necking_plane_strain": "our own rod",
+    "vibration_consistent": "our own rod",
+    "tumbling": "our own rod",
+    "elastica": "our own rod",
+    "roll_up": "our own rod",
+    "column_path": "our own rod",
+    "arch_path": "our own rod",
+}
+"""Cases of Chapter 3 that do not claim to be the thesis's, and what they are."""
+
+
+def at(table, place):
+    """What a case holds at a place such as "forces.0.force"."""
+    for key in place.split("."):
+        table = table[int(key)] if isinstance(table, list | tuple) else table[key]
+    return table
+
+
+def plain(value):
+    """Tuples as lists, as TOML has them."""
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    return {key: plain(item) for key, item in value.items()} if isinstance(value, dict) else value
+
+
+def flat(table, defaults, prefix=""):
+    """Places of a case that are not at their default, down to numbers."""
+    for key, value in table.items():
+        field = defaults.get(key)
+        if field is not None and not field.is_required() and value == plain(field.default):
+            continue
+        if isinstance(value, dict):
+            inner = getattr(field.annotation, "model_fields", {}) if field is not None else {}
+            yield from flat(value, inner, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}"
+
+
+def holds(held, value):
+    """A number to rounding; of a table only the keys that the page gives."""
+    if isinstance(held, float):
+        return value == pytest.approx(held, rel=1e-12)
+    if isinstance(held, dict):
+        return all(value[key] == inner for key, inner in held.items())
+    return value == held
+
+
+@pytest.mark.parametrize(
+    ("name", "place"), [(n, p) for n, held in printed.PRINTED.items() for p in held]
+)
+def test_a_case_has_the_printed_input(name, place):
+    held = printed.PRINTED[name][place]
+    value = plain(at(cosserat.case(name).problem.model_dump(), place))
+    assert holds(held.plain, value), f"{name}: {place} is {value}, {held.where} prints {held.value}"
+
+
+@pytest.mark.parametrize("name", printed.CHAPTER_3)
+def test_nothing_else_in_a_case_of_the_thesis_departs_from_its_default(name):
+    """What a case says beyond the page would be an input that nobody holds to anything."""
+    problem = cosserat.case(name).problem
+    table = plain(problem.model_dump())
+    said = [
+        place
+        for place in flat(table, type(problem).model_fields)
+        if place != "kind" and place.split(".")[0] not in printed.OURS
+    ]
+    held = printed.PRINTED[name]
+    assert [p for p in said if not any(h == p or h.startswith(f"{p}.") for h in held)] == []
+
+
+def test_every_case_of_chapter_3_is_held_or_says_why_not():
+    assert set(printed.CHAPTER_3) | set(OURS) == set(CHAPTER_3)
+    assert not set(printed.CHAPTER_3) & set(OURS)
+
+
+def test_the_calibration_is_of_the_four_problems_at_the_published_mesh():
+    procedure = cosserat.case("calibration").problem
+    for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking"):
+        assert getattr(procedure, name) == cosserat.case(name).problem
+    assert procedure.meshes[0] == printed.number("necking", "rod.vertices")
+
+
+def test_what_is_assumed_is_an_assumption_or_a_question_of_the_errata():
+    errata = read_errata(ROOT / "results/errata.toml")
+    for held in printed.PRINTED.values():
+        for place, given in held.items():
+            if given.assumed:
+                standing = errata[given.assumed].standing
+                assert standing in ("assumption", "question"), f"{place}: {given.assumed} is {standing}"
+
+
+def test_the_closed_forms_take_the_printed_rectangle():
+    """I = W H^3 / 12, typed out once more: neither the rod's own nor that of the case that was solved."""
+    beam = printed.beam("clamped_free")
+    assert beam.second_moment == pytest.approx(0.5 * 0.5**3 / 12)
+    assert beam.bending_stiffness == pytest.approx(1e9 * 0.0625 / 12)
+    assert printed.beam("necking").poisson == 0.3
