@@ -2,15 +2,20 @@
 
 import re
 
+import numpy as np
 import pytest
 from conftest import ROOT
 
 import cosserat
+from cosserat.models import earthworm
 from cosserat.table import printed
 from cosserat.table.errata import read_errata
 
-CHAPTER_3 = re.findall(
-    r"^\[([a-z]\w*)\]", (ROOT / "cosserat/cases/chapter3.toml").read_text(), flags=re.MULTILINE
+CHAPTER_2, CHAPTER_3 = (
+    re.findall(
+        r"^\[([a-z]\w*)\]", (ROOT / f"cosserat/cases/{name}.toml").read_text(), flags=re.MULTILINE
+    )
+    for name in ("chapter2", "chapter3")
 )
 OURS = {
     "bent_rod": "a shape to draw Figs. 3.1, 3.4 and 3.6 from, which have no numbers",
@@ -76,7 +81,7 @@ def test_a_case_has_the_printed_input(name, place):
     assert holds(held.plain, value), f"{name}: {place} is {value}, {held.where} prints {held.value}"
 
 
-@pytest.mark.parametrize("name", printed.CHAPTER_3)
+@pytest.mark.parametrize("name", printed.PRINTED)
 def test_nothing_else_in_a_case_of_the_thesis_departs_from_its_default(name):
     """What a case says beyond the page would be an input that nobody holds to anything."""
     problem = cosserat.case(name).problem
@@ -84,7 +89,7 @@ def test_nothing_else_in_a_case_of_the_thesis_departs_from_its_default(name):
     said = [
         place
         for place in flat(table, type(problem).model_fields)
-        if place != "kind" and place.split(".")[0] not in printed.OURS
+        if not place.endswith("kind") and place.removeprefix("worm.").split(".")[0] not in printed.OURS
     ]
     held = printed.PRINTED[name]
     assert [p for p in said if not any(h == p or h.startswith(f"{p}.") for h in held)] == []
@@ -93,6 +98,46 @@ def test_nothing_else_in_a_case_of_the_thesis_departs_from_its_default(name):
 def test_every_case_of_chapter_3_is_held_or_says_why_not():
     assert set(printed.CHAPTER_3) | set(OURS) == set(CHAPTER_3)
     assert not set(printed.CHAPTER_3) & set(OURS)
+
+
+def test_every_case_of_chapter_2_is_held():
+    assert set(printed.CHAPTER_2) == set(CHAPTER_2)
+
+
+def test_inputs_of_chapter_2_follow_from_the_numbers_behind_them():
+    """A cycle by (2.7.1) and (2.7.2), loads as shares of their peaks, the worm by Table 2.1."""
+
+    def robot(place):
+        return printed.number("soft_robot", place)
+
+    def worm(place):
+        return printed.number("worm", place)
+
+    through, share = robot("crawler.length") / robot("v"), robot("T")
+    alone = (1 - share) * through
+    phases = printed.PRINTED["soft_robot"]["gait.phases"].plain
+    assert phases == pytest.approx([robot("t_pause"), alone, share * through, alone])
+    assert sum(phases) == pytest.approx(robot("t_pause") + through * (2 - share))
+    assert printed.PRINTED["soft_robot"]["gait.gamma"].plain[0][1] == [2, share]
+    assert robot("crawler.length") == pytest.approx(robot("l_0 in inches"))
+    assert robot("loads.advancing") == pytest.approx(robot("p in psi"), abs=5)
+    assert worm("loads.anchoring") == pytest.approx(worm("share of D_peak") * worm("D_peak"), rel=1e-12)
+    assert worm("loads.advancing") == pytest.approx(worm("share of p_peak") * worm("p_peak"), rel=1e-12)
+    assert 2 * worm("crawler.radius") == pytest.approx(worm("2R"))
+    assert np.pi * worm("2R") == pytest.approx(worm("circumference"), abs=5e-6)
+    assert pytest.approx(1 - worm("segment 50")) == earthworm.SEGMENT_50
+    assert worm("strip") == earthworm.STRIP_WIDTH
+    assert pytest.approx(worm("T_long") * 9.80665e-3) == earthworm.STRIP_TENSION
+
+
+@pytest.mark.parametrize("grams", [0.01, 1.0, 10.0])
+def test_table_2_1_is_the_pages_at_every_mass(grams):
+    """Its eight numbers, typed once more."""
+    mass = 1e-3 * grams
+    assert earthworm.stance_time(mass) == pytest.approx(1.6 * grams**0.04)
+    assert earthworm.protrusion_time(mass) == pytest.approx(2.5 * grams**0.1)
+    assert earthworm.resting_length(mass) == pytest.approx(1e-3 * 10**2 * grams**0.397)
+    assert earthworm.resting_diameter(mass) == pytest.approx(1e-3 * 10**0.6 * grams**0.278)
 
 
 def test_the_calibration_is_of_the_four_problems_at_the_published_mesh():
@@ -117,3 +162,10 @@ def test_the_closed_forms_take_the_printed_rectangle():
     assert beam.second_moment == pytest.approx(0.5 * 0.5**3 / 12)
     assert beam.bending_stiffness == pytest.approx(1e9 * 0.0625 / 12)
     assert printed.beam("necking").poisson == 0.3
+
+
+def test_the_closed_form_of_the_robot_takes_the_printed_round_rod():
+    """Stiffnesses of E = 10 kPa, nu = 0.3, R = 2.54 cm by (2.6.20), typed out: 27.3 N, 11.7 N and 1.26 mN m^2."""
+    rod = printed.push_pull_rod()
+    assert (rod.k_s, rod.k_p, rod.k_g) == pytest.approx((27.284, 11.693, 1.25733e-3), rel=1e-4)
+    assert (rod.weight, rod.anchoring, rod.advancing) == pytest.approx((19.883, 1, 13.965), rel=1e-4)

@@ -151,7 +151,9 @@ VARIABLES: dict[str, Variable] = {
     "fitted_young": Variable((), "Pa", "modulus of the worm by the fit", "E", "2.6.17", 1e-4),
     "fitted_anchoring": Variable((), "N", "anchoring force by the fit", r"\bar{D}", "2.2.7", 1e-9),
     "fitted_advancing": Variable((), "Pa", "advancing pressure by the fit", "p", "2.2.8", 1e-4),
-    "fitted_outcomes": Variable(("outcome",), "1", "by the fit, over what was measured", "", "2.8.6", 1e-7),
+    "fitted_outcomes": Variable(
+        ("outcome",), "1", "by the fit, over what was measured", "", "2.8.6", 1e-7
+    ),
     "given_outcomes": Variable(
         ("outcome",), "1", "by the given worm, over what was measured", "", "2.8.6", 1e-9
     ),

@@ -37,11 +37,13 @@ class WormCalibration(Parameters):
     def _can_be_fitted(self) -> Self:
         if self.worm.crawler.material.kind != "incompressible":
             raise PydanticCustomError(
-                "worm", "'worm.crawler.material.kind' is 'compressible'; only 'incompressible' has a p_coelom"
+                "worm",
+                "'worm.crawler.material.kind' is 'compressible'; only 'incompressible' has a p_coelom",
             )
         if not (self.worm.loads.anchoring > 0 and self.worm.loads.advancing > 0):
             raise PydanticCustomError(
-                "worm", "'worm.loads' has a load that is not above 0; give both, the fit starts from them"
+                "worm",
+                "'worm.loads' has a load that is not above 0; give both, the fit starts from them",
             )
         return self
 

@@ -7,17 +7,15 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from cosserat import analytic
 from cosserat.data.dataset import problem_of
-from cosserat.models.earthworm import SEGMENT_50
+from cosserat.models.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50
 from cosserat.models.peristalsis import Crawl
+from cosserat.table.printed import number, push_pull_rod
 from cosserat.table.reading import Reading
 
-SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07, "mu_3_most": 0.0}
-"""Powers of the body mass that Quillin measured on earthworms, the thesis's reference [50]; the thesis prints none."""
-
-CIRCULAR, LONGITUDINAL = 1.5, 0.5
-"""Phases at which segment 50 lies well inside an advancing and an anchoring region: t_p + t_s/2 and t_p/2."""
+SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07}
+"""Powers of the body mass that Quillin measured on earthworms, the thesis's reference [50]; the thesis prints 0.4 for
+the stride, (2.8.4), and none of the others."""
 
 
 def crawl(data: xr.Dataset) -> Crawl:
@@ -56,7 +54,12 @@ def at_phase(data: xr.Dataset, phase: float) -> xr.Dataset:
 
 def slope(data: xr.Dataset, variable: str) -> float:
     """The power of the body mass with which a variable grows, by least squares of the logarithms."""
-    return float(np.polyfit(np.log(data.body_mass), np.log(data[variable]), 1)[0])
+    return power(data, data[variable])
+
+
+def power(data: xr.Dataset, values: xr.DataArray) -> float:
+    """The same of any numbers above zero, one for each body mass."""
+    return float(np.polyfit(np.log(data.body_mass), np.log(values), 1)[0])
 
 
 def _at(variable: str, phase: float) -> Callable[[xr.Dataset], Reading]:
@@ -78,29 +81,32 @@ def _slope(variable: str) -> Callable[[xr.Dataset], Reading]:
     return lambda data: Reading(slope(data, variable), SLOPES[variable])
 
 
+def _strain_slope(number: int) -> Callable[[xr.Dataset], Reading]:
+    """The power of a strain as section 2.8 has it, between circular and longitudinal contraction; constant: zero."""
+
+    def read(data: xr.Dataset) -> Reading:
+        circular, longitudinal = ("least", "most") if number == 1 else ("most", "least")
+        ratio = data[f"mu_{number}_{circular}"] / data[f"mu_{number}_{longitudinal}"]
+        return Reading(power(data, abs(ratio - 1)), 0.0)
+
+    return read
+
+
 def _rest_pressure(data: xr.Dataset) -> Reading:
     return Reading(float(data.p_coelom.isel(section=data.sizes["section"] // 2)))
 
 
 def _cycle_displacement(data: xr.Dataset) -> Reading:
-    """Of the soft robot, and by the closed form: the front goes on while gamma travels, and holds from then on."""
-    problem = crawl(data)
-    body, loads = problem.crawler, problem.loads
-    k_s, k_p, k_g = body.stiffnesses
-    rod = analytic.PushPullRod(
-        k_s=k_s,
-        k_p=k_p,
-        k_g=k_g,
-        length=body.length,
-        radius=body.radius,
-        weight=body.line_density * loads.gravity,
-        anchoring=loads.anchoring,
-        advancing=loads.advancing * body.area,
+    """Of the soft robot in the cycle that is farthest from the closed form, and that form for the printed robot.
+
+    The front goes on until gamma has a share T of the body left, and holds from then on.
+    """
+    rod = push_pull_rod()
+    expected = rod.stretched_length(number("soft_robot", "T") * rod.length) - rod.stretched_length(
+        rod.length
     )
-    gone = problem.gait.fronts(2)[0][0] * body.length  # where gamma is when the anchor changes
-    return Reading(
-        float(strides(data)[-1]), rod.stretched_length(gone) - rod.stretched_length(body.length)
-    )
+    cycles = strides(data)
+    return Reading(float(cycles[np.abs(cycles - expected).argmax()]), expected)
 
 
 READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
@@ -117,7 +123,15 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "mu_3_ratio": _ratio("mu_3"),
     "stride_slope": _slope("stride"),
     "speed_slope": _slope("speed"),
-    "frequency_slope": _slope("frequency"),
-    "strain_slope": _slope("mu_3_most"),
+    "stride_exponent": lambda data: Reading(slope(data, "stride")),
+    "strain_across_slope": _strain_slope(1),
+    "strain_along_slope": _strain_slope(3),
+    "fitted_young": lambda data: Reading(float(data.fitted_young)),
+    "fitted_anchoring_share": lambda data: Reading(
+        float(data.fitted_anchoring) / number("worm", "D_peak")
+    ),
+    "fitted_advancing_share": lambda data: Reading(
+        float(data.fitted_advancing) / number("worm", "p_peak")
+    ),
 }
 """Read-outs by the name that a row gives."""
