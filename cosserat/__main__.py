@@ -116,6 +116,16 @@ def _parser() -> argparse.ArgumentParser:
     sub = add("check", _check, "fail if a claim of the report does not hold")
     sub.add_argument("report", type=Path, nargs="?", default=RESULTS / "report.csv")
 
+    sub = add(
+        "power",
+        _power,
+        "change inputs and physics one at a time and print which rows of the results table notice",
+    )
+    sub.add_argument(
+        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
+    )
+    sub.add_argument("words", nargs="*", help="only changes whose description has one of these words")
+
     sub = add("accept", _accept, "store a fresh result as the reference of its case, with the reason")
     sub.add_argument("case", help="name of a published case")
     sub.add_argument(
@@ -340,6 +350,14 @@ def _check(options: argparse.Namespace) -> None:
     from cosserat.table.tolerances import read_report
 
     print(check(read_report(options.report)))
+
+
+def _power(options: argparse.Namespace) -> None:
+    from cosserat.table.power import table
+    from cosserat.table.tolerances import read_table
+
+    for noticed in table(read_table(options.table), options.words):
+        print(noticed, flush=True)
 
 
 def _accept(options: argparse.Namespace) -> None:

@@ -18,6 +18,9 @@ CHAPTER_2, CHAPTER_3 = (
     for name in ("chapter2", "chapter3")
 )
 OURS = {
+    "stretched": "a shape of our choice; its rod is held by the four problems that it is like",
+    "sheared": "as the one before",
+    "inflated": "as the one before",
     "bent_rod": "a shape to draw Figs. 3.1, 3.4 and 3.6 from, which have no numbers",
     "calibration": "its four problems are held below",
     "convergence": "our own rod",

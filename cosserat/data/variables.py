@@ -165,6 +165,17 @@ VARIABLES: dict[str, Variable] = {
         ("point",), "J", "strain energy of the rod less the work of its couples", "", "3.4.11", 1e-9
     ),
     "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
+    "beams_coefficients": Variable(
+        ("mesh", "beam_coefficient"),
+        "1",
+        "coefficients fitted to both beams at once, displacements and directors",
+        "c",
+        "3.4.13",
+        1e-4,
+    ),
+    "beams_misfit": Variable(
+        ("mesh",), "1", "root mean square misfit of both beams at that fit", "", "3.4.13", 1e-7
+    ),
 }
 
 for _problem, _dim in (

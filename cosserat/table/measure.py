@@ -48,7 +48,7 @@ _STANDINGS = {
     "erratum": "only with a misprint that the errata name",
     "assumption": "only under an assumption",
     "missed": "missed",
-    "recomputed": "arithmetic of other numbers, with nothing solved",
+    "recomputed": "arithmetic on other numbers of the page",
     "not attempted": "not attempted",
 }
 """What came of a number, from the best down, in words."""
@@ -76,34 +76,56 @@ def distance(row: Mapping[str, str]) -> float:
 
 
 def summary(report: Sequence[Mapping[str, str]]) -> str:
-    """What came of the thesis's numbers, how far those that are missed are off, and our own rod apart."""
-    thesis = [row for row in report if not row["id"].startswith("C-") and row["kind"] != "literature"]
-    cited = [row for row in report if row["kind"] == "literature"]
-    own = [row for row in report if row["id"].startswith("C-")]
-    came = outcomes(thesis)
-    lines = [f"Of the thesis's {len(came)} numbers, curves and statements"]
-    for standing, words in _STANDINGS.items():
-        if standing in came.values():
-            lines.append(f"  {list(came.values()).count(standing):3} {words}")
-    missed = {
-        number: min(distance(row) for row in thesis if number in (row["id"], row["reading_of"]))
-        for number, standing in came.items()
-        if standing == "missed"
-    }
+    """What came of the thesis's numbers, by how much those that are missed are off, and our own rod apart."""
+    lines = [sentence(report)]
+    missed = _missed(report)
     if missed:
-        far = sorted(missed, key=lambda number: missed[number], reverse=True)
         lines.append(
             "Missed, in the nearest reading by: "
-            + ", ".join(f"{number} {100 * missed[number]:.2g} %" for number in far)
-            + f"; the worst is {far[0]}."
+            + ", ".join(f"{number} {100 * share:.2g} %" for number, share in missed.items())
         )
-    variants = len(thesis) - len(came)
-    lines.append(f"Other readings of the same numbers: {variants} rows.")
-    lines.append(_within("Measurements of its sources", cited))
-    lines.append(_within("Our own rod against exact answers", own))
+    of_thesis = _of_thesis(report)
+    lines.append(
+        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows."
+    )
+    lines.append(
+        _within("Measurements of its sources", [r for r in report if r["kind"] == "literature"])
+    )
     failed = sum(row["verdict"] == "FAILS" for row in report)
     lines.append(f"{len(report)} rows; {failed} claims fail")
     return "\n".join(lines)
+
+
+def sentence(report: Sequence[Mapping[str, str]]) -> str:
+    """The sentence that the README has too."""
+    came = list(outcomes(_of_thesis(report)).values())
+    parts = [f"{came.count(name)} {words}" for name, words in _STANDINGS.items() if name in came]
+    missed = list(_missed(report).items())
+    if missed:
+        number, share = missed[0]
+        worst = f"missed (the worst, {number}, by {100 * share:.2g} %)"
+        parts = [part.replace("missed", worst) for part in parts]
+    own = [row for row in report if row["id"].startswith("C-")]
+    met = sum(row["claim"] == "within" for row in own)
+    return (
+        f"Of the thesis's {len(came)} numbers, curves and statements: {', '.join(parts)}. "
+        f"Of {len(own)} exact answers that judge our own rod it meets {met}."
+    )
+
+
+def _of_thesis(report: Sequence[Mapping[str, str]]) -> list[Mapping[str, str]]:
+    return [row for row in report if not row["id"].startswith("C-") and row["kind"] != "literature"]
+
+
+def _missed(report: Sequence[Mapping[str, str]]) -> dict[str, float]:
+    """Numbers that no reading meets, and how far off the nearest is, worst first."""
+    rows = _of_thesis(report)
+    far = {
+        number: min(distance(row) for row in rows if number in (row["id"], row["reading_of"]))
+        for number, came in outcomes(rows).items()
+        if came == "missed"
+    }
+    return dict(sorted(far.items(), key=lambda item: item[1], reverse=True))
 
 
 def _within(what: str, rows: Sequence[Mapping[str, str]]) -> str:

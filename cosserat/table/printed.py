@@ -107,7 +107,7 @@ _NECKING: Inputs = {
         [*_LEFT, {"at": "last", "hold": ["d3", "d2"]}], "section 3.5, A necking problem", assumed="E3.16"
     ),
 }
-_ROUND: Inputs = {  # rho_0 = rho_0* A is computed below from the three that are printed or assumed
+_VIBRATING: Inputs = {
     **_ROD,
     "rod.length": Input("1 m", _VIBRATION, "m"),
     "rod.width": Input("0.1 m", _VIBRATION, "m"),
@@ -120,18 +120,25 @@ _ROUND: Inputs = {  # rho_0 = rho_0* A is computed below from the three that are
     "start.amplitude": Input("1 cm", "not given", "m", "E3.19"),
 }
 _DAMPED: Inputs = {"damping": Input("1", "section 3.5, 'towards critical damping'", "1", "E3.22")}
+_K_1: Inputs = {
+    "rod.shear_correction": Input("1", "given for no beam of the four problems", "1", "E3.17")
+}
 _HALVED: Inputs = {"rod.end_sections": Input("halved", "eq. (3.4.10)")}
 
 CHAPTER_3: Mapping[str, Inputs] = {
     "hanging_bar": _HANGING_BAR,
     "clamped_free": _CLAMPED_FREE,
     "clamped_free_ends_halved": {**_CLAMPED_FREE, **_HALVED},
+    "clamped_free_k_1": {**_CLAMPED_FREE, **_K_1},
+    "clamped_free_k_1_ends_halved": {**_CLAMPED_FREE, **_K_1, **_HALVED},
     "clamped_clamped": _CLAMPED_CLAMPED,
     "clamped_clamped_ends_halved": {**_CLAMPED_CLAMPED, **_HALVED},
+    "clamped_clamped_k_1": {**_CLAMPED_CLAMPED, **_K_1},
+    "clamped_clamped_k_1_ends_halved": {**_CLAMPED_CLAMPED, **_K_1, **_HALVED},
     "necking": _NECKING,
     "necking_printed": {**_NECKING, "rod.poisson_coupling": Input("printed", "eq. (3.4.11)")},
-    "vibration_c4_2": {**_ROUND, "rod.calibration.c4": Input("2.0", _VIBRATION, "1")},
-    "vibration_c4_20": {**_ROUND, "rod.calibration.c4": Input("20", "Fig. 3.13", "1", "E3.19")},
+    "vibration_c4_2": {**_VIBRATING, "rod.calibration.c4": Input("2.0", _VIBRATION, "1")},
+    "vibration_c4_20": {**_VIBRATING, "rod.calibration.c4": Input("20", "Fig. 3.13", "1", "E3.19")},
     "relaxing_hanging_bar": {**_HANGING_BAR, **_DAMPED},
     "relaxing_clamped_free": {**_CLAMPED_FREE, **_DAMPED},
     "relaxing_clamped_clamped": {**_CLAMPED_CLAMPED, **_DAMPED},

@@ -127,7 +127,8 @@ def at_midspan(curves: tuple[Array, Array]) -> Reading:
     return Reading(midspan(curves[0]), midspan(curves[1]))
 
 
-def _share(curves: tuple[Array, Array]) -> Reading:
+def largest_share(curves: tuple[Array, Array]) -> Reading:
+    """Largest deviation of two curves as a share of the largest ordinate of the second."""
     computed, exact = curves
     return Reading(float(np.abs(computed - exact).max() / np.abs(exact).max()), 0.0)
 
@@ -165,13 +166,72 @@ def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Reading
     """A coefficient as the calibration recovers it at the published number of vertices."""
 
     def read(data: xr.Dataset) -> Reading:
+        published = printed.number("clamped_free", "rod.vertices")
         fitted = data[f"{problem}_coefficients"].isel(
-            mesh=int(np.argmax(data.vertices.to_numpy() == 20))
+            mesh=int(np.argmax(data.vertices.to_numpy() == published))
         )
         (dim,) = fitted.dims
         return Reading(float(fitted.sel({dim: coefficient})))
 
     return read
+
+
+def _elongation(data: xr.Dataset) -> Reading:
+    """How much longer the necked bar is, and n L / EA of a bar without held sections [m]."""
+    beam = printed.beam("necking")
+    along = data.u.sel(axis="E3").to_numpy()
+    pull = printed.number("necking", "forces.1.force")
+    return Reading(float(along[-1] - along[0]), pull * beam.length / beam.axial_stiffness)
+
+
+def _uniform(stretch: float) -> float:
+    """Derivative of the characteristic s^2 - s + 1/s of eq. (3.4.11), Fig. 3.7(a)."""
+    return 2 * stretch - 1 - 1 / stretch**2
+
+
+def _stretched(data: xr.Dataset) -> Reading:
+    """Largest deviation of the two edges from stretches of 2 and 1/2.
+
+    derived: n = k1/2 (2 mu - 1 - mu^-2) with k1 = c1 EA, c1 = 1/2: 11/16 EA at the first and -EA at the other.
+    """
+    return Reading(float(np.abs(data.mu_edge.to_numpy() - [2.0, 0.5]).max()), 0.0)
+
+
+def _thinned(data: xr.Dataset) -> Reading:
+    """Force along a director in the middle of a rod whose sections are all held at half their height [N].
+
+    derived: k2/2 (2 lambda - 1 - lambda^-2) L / |D| with k2 = c2 EA and |D| = H/2.
+    """
+    beam = printed.beam("clamped_free")
+    part = beam.length / (data.sizes["vertex"] - 1)
+    k2 = printed.number("clamped_free", "rod.calibration.c2") * beam.axial_stiffness
+    force = float(data.support_force.sel(unknown="d2").isel(vertex=1))
+    return Reading(force, k2 / 2 * _uniform(0.5) * part / half_height(beam))
+
+
+def _sheared(data: xr.Dataset) -> Reading:
+    """Force across the tip of a rod sheared by 45 degrees [N].
+
+    derived: with tan(theta) = g and mu^2 = 1 + g^2, minus the derivative of k1/2 (mu^2 - mu + 1/mu) + k4/2 g^2 by g.
+    """
+    beam, stretch = printed.beam("clamped_free"), np.sqrt(2.0)
+    c1, c4 = (printed.number("clamped_free", f"rod.calibration.{c}") for c in ("c1", "c4"))
+    expected = c4 * beam.shear_stiffness + c1 * beam.axial_stiffness / 2 * _uniform(stretch) / stretch
+    return Reading(float(data.support_force.sel(unknown="x2")[-1]), float(expected))
+
+
+def _inflated(data: xr.Dataset) -> Reading:
+    """Moment at the middle vertex of two edges that turn by arctan(4/3), whatever their stretch [N m].
+
+    derived: the derivative by phi of 2 k3/L tan^2(phi/2), which is k3/2 (mu kappa)^2 L by eqs. (3.3.20), (3.3.23);
+    here tan(phi/2) = 1/2.
+    """
+    beam = printed.beam("clamped_free")
+    k3 = printed.number("clamped_free", "rod.calibration.c3") * beam.bending_stiffness
+    part = beam.length / (data.sizes["vertex"] - 1)
+    edge = np.diff(data.x.to_numpy(), axis=0)[-1]
+    force = data.support_force.sel(unknown=["x3", "x2"])[-1].to_numpy()
+    return Reading(float(edge[0] * force[1] - edge[1] * force[0]), 2 * k3 / part * 0.5 * (1 + 0.5**2))
 
 
 def buckling_share(data: xr.Dataset) -> Array:
@@ -206,31 +266,62 @@ def _roll_up(data: xr.Dataset) -> Reading:
     return Reading(float(np.hypot(*data.x[-1].to_numpy())), 0.0)
 
 
+Curve = Callable[[xr.Dataset, analytic.Beam | None], tuple[Array, Array]]
+_CURVES: dict[str, Curve] = {
+    "clamped_free": clamped_free_curve,
+    "clamped_free_directors": clamped_free_directors,
+    "clamped_clamped": clamped_clamped_curve,
+    "clamped_clamped_directors": clamped_clamped_directors,
+}
+
+
+def _of_a_beam(curve: Curve, case: str) -> Callable[[xr.Dataset], Reading]:
+    """Largest deviation of a curve from that of the beam of another case."""
+    return lambda data: largest_share(curve(data, printed.beam(case)))
+
+
 READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "hanging_bar_tip": lambda data: at_tip(hanging_bar_curve(data)),
-    "hanging_bar_profile": lambda data: _share(hanging_bar_curve(data)),
+    "hanging_bar_profile": lambda data: largest_share(hanging_bar_curve(data)),
     "largest_director_displacement": lambda data: Reading(float(np.abs(data.delta).max()), 0.0),
     "clamped_free_tip": lambda data: at_tip(clamped_free_curve(data)),
-    "clamped_free_profile": lambda data: _share(clamped_free_curve(data)),
-    "clamped_free_directors": lambda data: _share(clamped_free_directors(data)),
+    "clamped_free_profile": lambda data: largest_share(clamped_free_curve(data)),
+    "clamped_free_directors": lambda data: largest_share(clamped_free_directors(data)),
     "clamped_clamped_midspan": lambda data: at_midspan(clamped_clamped_curve(data)),
-    "clamped_clamped_profile": lambda data: _share(clamped_clamped_curve(data)),
-    "clamped_clamped_directors": lambda data: _share(clamped_clamped_directors(data)),
-    "recovered_c2": _recovered("necking", "c2"),
-    "recovered_c3": _recovered("clamped_free", "c3"),
-    "recovered_c4": _recovered("clamped_free", "c4"),
-    "recovered_c5": _recovered("clamped_free", "c5"),
-    "recovered_c6": _recovered("necking", "c6"),
-    "recovered_c7": _recovered("necking", "c7"),
+    "clamped_clamped_profile": lambda data: largest_share(clamped_clamped_curve(data)),
+    "clamped_clamped_directors": lambda data: largest_share(clamped_clamped_directors(data)),
+    **{
+        f"{name}_k_1": _of_a_beam(curve, f"{beam}_k_1")
+        for beam in ("clamped_free", "clamped_clamped")
+        for name, curve in (
+            (f"{beam}_profile", _CURVES[beam]),
+            (f"{beam}_directors", _CURVES[f"{beam}_directors"]),
+        )
+    },
+    **{f"recovered_{c}": _recovered("necking", c) for c in ("c2", "c6", "c7")},
+    **{
+        f"recovered_{c}{way}": _recovered(problem, c)
+        for c in ("c3", "c4", "c5")
+        for problem, way in (
+            ("clamped_free", ""),
+            ("clamped_clamped", "_clamped_clamped"),
+            ("beams", "_both_beams"),
+        )
+    },
     "kinetic_energy_period": _kinetic_energy_period,
     "displacement_period": _displacement_period,
     "necking_midspan": lambda data: at_midspan(necking_curve(data)),
-    "necking_profile": lambda data: _share(necking_curve(data)),
+    "necking_profile": lambda data: largest_share(necking_curve(data)),
+    "necking_elongation": _elongation,
+    "stretched": _stretched,
+    "thinned": _thinned,
+    "sheared": _sheared,
+    "inflated": _inflated,
     "elastica_tip": _elastica_tip,
     "column_tip": _column_tip,
     "timoshenko_period": _timoshenko_period,
     "roll_up": _roll_up,
-    "necking_free_section": lambda data: _share(necking_curve(data, "free section")),
+    "necking_free_section": lambda data: largest_share(necking_curve(data, "free section")),
     **crawl_readouts.READOUTS,
 }
 """Read-outs by the name that a row gives."""
