@@ -62,9 +62,9 @@ class Noticed:
 
 def changes() -> tuple[Change, ...]:
     """All that are tried, in the order of the thesis."""
-    from cosserat.table import power_rods
+    from cosserat.table import power_crawlers, power_rods
 
-    return power_rods.CHANGES
+    return power_crawlers.CHANGES + power_rods.CHANGES
 
 
 def edited(case: Case, change: Change) -> Case:
