@@ -19,6 +19,14 @@ BEAMS = FREE + BOTH
 NECKING = ("necking", "necking_printed")
 LARGE = ("stretched", "sheared", "inflated")
 VIBRATION = ("vibration_c4_2", "vibration_c4_20")
+OWN = (
+    "hanging_bar_consistent",
+    "clamped_free_consistent",
+    "clamped_clamped_consistent",
+    "necking_consistent",
+    "vibration_consistent",
+)
+SLENDER = ("elastica", "roll_up", "column_path")
 _GROUPS = {
     "hanging bar": BAR,
     "beams": BEAMS,
@@ -194,16 +202,37 @@ CHANGES: tuple[Change, ...] = (
             ("vibration", "mass of parts x 1.25", "part_masses", 1.25, ""),
         )
     ],
-    Change(
-        "calibration: I of the model x 1.04",
-        ("calibration",),
-        ("meshes",),
-        lambda meshes: meshes[:1],
-        physics=scaled("second_moment", 1.04),
-    ),
+    *[
+        Change(
+            f"calibration: {letter} of the model x 1.04",
+            ("calibration",),
+            ("meshes",),
+            lambda meshes: meshes[:1],
+            physics=scaled(name, 1.04),
+        )
+        for letter, name in (("I", "second_moment"), ("A", "area"))
+    ],
     Change("large strains: wells of (3.4.11) made quadratic", LARGE, physics=quadratic_wells),
     Change("large strains: tan^2 made the square", LARGE, physics=square_of_the_angle),
     Change("large strains: mu kappa made kappa", LARGE, physics=current_curvature),
+    *[
+        Change(f"own rod: {what}", OWN, (place,), edit)
+        for what, place, edit in (
+            ("E x 1.1", "rod.young", _times(1.1)),
+            ("rho_0 x 1.2", "rod.line_density", _times(1.2)),
+            ("L x 1.02", "rod.length", _times(1.02)),
+            ("H x 1.02", "rod.height", _times(1.02)),
+            ("N = 10", "rod.vertices", lambda _: 10),
+            ("k x 1.2", "rod.shear_correction", _times(1.2)),
+            ("nu + 0.05", "rod.poisson", _plus(0.05)),
+        )
+    ],
+    Change("own rod: Y22 x 5", OWN[-1:], physics=scaled("second_inertia", 5.0)),
+    Change("own slender rods: E x 1.1", SLENDER, ("rod.young",), _times(1.1)),
+    Change("own slender rods: L x 1.02", SLENDER, ("rod.length",), _times(1.02)),
+    Change("elastica: load x 0.9", SLENDER[:1], ("forces.0.force",), _times(0.9)),
+    Change("roll-up: couple x 0.9", SLENDER[1:2], ("couples.0.moment",), _times(0.9)),
+    Change("column: load x 0.9", SLENDER[2:], ("forces.0.force",), _times(0.9)),
     *[
         Change(
             f"{group}: {what}",
