@@ -90,3 +90,9 @@ def test_the_command_prints_who_notices(capsys):
     assert "hanging bar: k x 1.02" in out
     assert "none: nothing shears" in out
     assert "F3.7-centreline" in out
+
+
+def test_the_stretch_of_the_inflated_rod_is_the_one_that_is_taken_out():
+    import cosserat
+
+    assert cosserat.run("inflated").mu_edge.to_numpy() == pytest.approx(power_rods.INFLATION)
