@@ -29,6 +29,11 @@ def test_a_change_of_a_rod_at_rest_is_noticed_or_says_why_not(change):
     assert noticed.sound, str(noticed)
 
 
+def test_rows_of_the_thesis_and_of_our_own_rod_stand_on_cases_of_their_own():
+    own = {row.case for row in ROWS if row.ours}
+    assert not own & {row.case for row in ROWS if not row.ours}
+
+
 def test_unchanged_cases_are_noticed_by_no_row():
     for cases in (power_rods.BAR, power_rods.BEAMS, power_rods.NECKING, power_rods.LARGE):
         assert notices(Change("nothing", cases), ROWS).rows == ()
@@ -85,3 +90,9 @@ def test_the_command_prints_who_notices(capsys):
     assert "hanging bar: k x 1.02" in out
     assert "none: nothing shears" in out
     assert "F3.7-centreline" in out
+
+
+def test_the_stretch_of_the_inflated_rod_is_the_one_that_is_taken_out():
+    import cosserat
+
+    assert cosserat.run("inflated").mu_edge.to_numpy() == pytest.approx(power_rods.INFLATION)

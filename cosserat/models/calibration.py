@@ -180,11 +180,11 @@ _FORMULAS: dict[str, tuple[int, Callable[[analytic.Beam, float, Array], Array]]]
 
 
 def beam_of(problem: RodProblem) -> analytic.Beam:
-    """The beam that the closed forms know, of the rod's parameters: I = W H^3 / 12, whatever the rod takes for it."""
+    """The beam that the closed forms know: A = W H and I = W H^3 / 12, not what the rod takes for them."""
     rod = problem.rod
     return analytic.Beam(
         length=rod.length,
-        area=rod.area,
+        area=rod.width * rod.height,
         second_moment=rod.width * rod.height**3 / 12,
         young=rod.young,
         poisson=rod.poisson,

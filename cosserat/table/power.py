@@ -1,7 +1,8 @@
 """The power of the results table: inputs and physics are changed one at a time, and the rows that notice are named.
 
-A row notices a change if its claim no longer holds.  Each change is noticed by some row of the thesis's own, or says
-why no printed number can see it; one that says so and is noticed after all says something wrong.
+A row notices a change if its claim no longer holds.  Each change is noticed by some row of the cases that it touches,
+or says why no number can; one that says so and is noticed after all says something wrong.  Rows of the thesis stand on
+cases of the thesis and those of our own rod on cases of its own, so that neither can answer for the other.
 """
 
 from __future__ import annotations
@@ -82,11 +83,11 @@ def edited(case: Case, change: Change) -> Case:
 
 
 def notices(change: Change, rows: Sequence[Row]) -> Noticed:
-    """Which rows of the thesis's own notice; those of a case that no longer has an answer all do."""
+    """Which rows notice; those of a case that no longer has an answer all do."""
     found: list[str] = []
     with change.physics():
         for name in change.cases:
-            asked = [row for row in rows if row.case == name and not row.ours]
+            asked = [row for row in rows if row.case == name]
             try:
                 data = {name: run(edited(find(name), change))}
             except CosseratError as error:

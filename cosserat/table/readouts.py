@@ -16,6 +16,7 @@ from scipy.optimize import minimize_scalar
 
 from cosserat import analytic, elastica
 from cosserat.data.dataset import problem_of as posed
+from cosserat.errors import InputError
 from cosserat.models.calibration import beam_of
 from cosserat.models.rod_problem import RodProblem
 from cosserat.table import crawl_readouts, printed
@@ -166,10 +167,13 @@ def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Reading
     """A coefficient as the calibration recovers it at the published number of vertices."""
 
     def read(data: xr.Dataset) -> Reading:
+        meshes = data.vertices.to_numpy().tolist()
         published = printed.number("clamped_free", "rod.vertices")
-        fitted = data[f"{problem}_coefficients"].isel(
-            mesh=int(np.argmax(data.vertices.to_numpy() == published))
-        )
+        if published not in meshes:
+            raise InputError(
+                f"the calibration has meshes of {meshes} vertices; give it the published {published:g} too"
+            )
+        fitted = data[f"{problem}_coefficients"].isel(mesh=meshes.index(published))
         (dim,) = fitted.dims
         return Reading(float(fitted.sel({dim: coefficient})))
 
