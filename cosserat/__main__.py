@@ -9,10 +9,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cosserat.data.effort import effort
 from cosserat.errors import CosseratError, DivergedError, InputError, NotConvergedError
 
 if TYPE_CHECKING:
-    import xarray as xr
+    pass
 
 RESULTS = Path("results")
 _INTERRUPTED = "cosserat: interrupted; nothing half-done was written"
@@ -233,45 +234,13 @@ def _run(options: argparse.Namespace) -> None:
         ) from None
     save(dataset, path)
     Parts(path).remove()
-    print(f"{case.name}: {_done(dataset)}; wrote {path}")
+    print(f"{case.name}: {effort(dataset)}; wrote {path}")
 
 
 def _report_progress(share: float, words: str) -> None:
     """A line that overwrites itself on a terminal, and nothing elsewhere."""
     if sys.stderr.isatty():
         print(f"\r{share:4.0%}  {words}   ", end="" if share < 1 else "\n", file=sys.stderr, flush=True)
-
-
-def _done(dataset: xr.Dataset) -> str:
-    from cosserat.data.dataset import statistics_of
-
-    done = statistics_of(dataset)
-    if "instants" in done:
-        effort = (
-            f"{done['newton_iterations']} Newton iterations"
-            if "newton_iterations" in done
-            else f"solve_bvp with up to {done['most_nodes']} nodes"
-        )
-        return f"{done['instants']} instants, {effort}"
-    if "crawls" in done:
-        return f"{done['crawls']} crawls"
-    if "misfit_evaluations" in done:
-        return f"{done['misfit_evaluations']} evaluations of the misfits"
-    if "points" in done:
-        reached = done["load_factor_reached"]
-        end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to go on"
-        return (
-            f"{done['points']} points, {done['unstable_points']} of them unstable, up to {reached:.4g} of the load, "
-            f"{done['iterations']} Newton iterations{end}"
-        )
-    if "steps" in done:
-        return f"{dataset.sizes['time'] - 1} frames in {done['steps']} steps"
-    if "residual_N" not in done:
-        return ", ".join(f"{value} {key}" for key, value in done.items())
-    return (
-        f"{done['iterations']} Newton iterations, largest unbalanced force {done['residual_N']:.2g} N "
-        f"(allowed {done['tolerance_N']:.2g} N)"
-    )
 
 
 def _show(options: argparse.Namespace) -> None:
