@@ -16,7 +16,10 @@ CASES = published()
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/analytic.py", "cosserat/elastica.py"]
-READOUTS = [f"cosserat/table/{name}.py" for name in ("crawl_readouts", "reading", "readouts")]
+READOUTS = [
+    f"cosserat/table/{name}.py"
+    for name in ("crawl_readouts", "given", "printed", "printed_crawlers", "reading", "readouts")
+]
 
 
 def package(*names):

@@ -13,7 +13,10 @@
 #
 # The thesis finds its seven coefficients by comparing the four static problems with closed forms: $c_1$ from the hanging
 # bar, $c_3, c_4, c_5$ from the beams, $c_2, c_6, c_7$ from necking, all at $N = 20$. It does not say what was minimised.
-# Here the same procedure is code: least squares over the vertices, in the logarithms of the coefficients.
+# Here the same procedure is code: least squares over the vertices, in the logarithms of the coefficients. Each problem is
+# fitted alone, and both beams at once with their directors: the page calibrates "simultaneously" and says that the
+# second beam fortifies what the first one gives. It does not: alone the two ask for different coefficients, and together
+# for a third set (E3.23).
 
 # %% tags=["remove-cell"]
 import numpy as np

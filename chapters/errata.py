@@ -13,7 +13,7 @@
 #
 # An *erratum* is a printed form that fails something checkable which the corrected form meets; a test shows both. An
 # *assumption* is our choice where the page is silent or ambiguous, with the alternatives measured. A *question* is
-# suspicious but not proven.
+# suspicious but not proven. What looked wrong and is right is *refuted*.
 
 # %% tags=["remove-cell"]
 from cosserat.book import page
@@ -51,3 +51,9 @@ entries("assumption")
 
 # %% tags=["remove-input"]
 entries("question")
+
+# %% [markdown]
+# ## Refuted
+
+# %% tags=["remove-input"]
+entries("refuted")

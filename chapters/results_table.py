@@ -16,15 +16,24 @@
 # The kind of a row says what *expected* is: of a *printed* one that number in SI units; of an *analytic* one what a closed
 # form gives, the page's where it claims agreement with it, another exact one for what is ours alone (rows that begin
 # with C); *in words*, what the sentence says; of the *literature*, what a source of the page measured and the page does
-# not print. *Measured* is what the stored datasets say. The claim of a row is that the measured number lies within its tolerance, or, where
-# the page is wrong or admits a reading that does not fit, that it lies outside.
+# not print. An *arithmetic* one follows from other numbers of the page: nothing is solved for it, and it stands as
+# *recomputed* only. Closed forms are computed from the inputs as the page prints them, not from what was solved.
+#
+# *Measured* is what the stored datasets say. The claim of a row is that the measured number lies within its tolerance,
+# or, where the page is wrong or admits a reading that does not fit, that it lies outside, and there where the row says.
+# Rows of one number in several readings name the first of them.
 
 # %% tags=["remove-input"]
 from cosserat.book import page
+from cosserat.table.measure import summary
+from cosserat.table.power import changes
 from cosserat.table.tolerances import read_report
 
 report = read_report(page.results() / "report.csv")
 attempted = [row for row in report if row["standing"] != "not attempted"]
+page.say("\n\n".join(summary(report).splitlines()))
+
+# %% tags=["remove-input"]
 lines = [
     [
         row["id"],
@@ -50,13 +59,31 @@ page.table(
         [
             row["id"],
             f"{row['tolerance']} {row['tolerance_kind']}",
+            f"{row['found']} ± {row['found_tolerance']}" if row["found"] else "",
+            row["reading_of"],
             row["error_over_tolerance"],
             row["why"],
         ]
         for row in attempted
     ],
-    ("row", "tolerance", "error / tolerance", "why"),
+    ("row", "tolerance", "found outside at", "reading of", "error / tolerance", "why"),
 )
+
+# %% [markdown]
+# ## Would it notice?
+#
+# `cosserat power` changes inputs and physics one at a time and names the rows whose claims then fail: a modulus, a
+# length, a load, a coefficient, a mass, a characteristic of the energy. Each change is noticed by a row of the cases that
+# it touches, but for these, which no number can see:
+
+# %% tags=["remove-input"]
+page.table(
+    [[change.what, change.unseen] for change in changes() if change.unseen],
+    ("change", "why no row notices"),
+)
+
+# %% tags=["remove-cell"]
+assert sum(not change.unseen for change in changes()) > 50
 
 # %% [markdown]
 # ## Not attempted yet

@@ -9,10 +9,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cosserat.data.effort import effort
 from cosserat.errors import CosseratError, DivergedError, InputError, NotConvergedError
 
 if TYPE_CHECKING:
-    import xarray as xr
+    pass
 
 RESULTS = Path("results")
 _INTERRUPTED = "cosserat: interrupted; nothing half-done was written"
@@ -115,6 +116,16 @@ def _parser() -> argparse.ArgumentParser:
 
     sub = add("check", _check, "fail if a claim of the report does not hold")
     sub.add_argument("report", type=Path, nargs="?", default=RESULTS / "report.csv")
+
+    sub = add(
+        "power",
+        _power,
+        "change inputs and physics one at a time and print which rows of the results table notice",
+    )
+    sub.add_argument(
+        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
+    )
+    sub.add_argument("words", nargs="*", help="only changes whose description has one of these words")
 
     sub = add("accept", _accept, "store a fresh result as the reference of its case, with the reason")
     sub.add_argument("case", help="name of a published case")
@@ -227,45 +238,13 @@ def _run(options: argparse.Namespace) -> None:
         ) from None
     save(dataset, path)
     Parts(path).remove()
-    print(f"{case.name}: {_done(dataset)}; wrote {path}")
+    print(f"{case.name}: {effort(dataset)}; wrote {path}")
 
 
 def _report_progress(share: float, words: str) -> None:
     """A line that overwrites itself on a terminal, and nothing elsewhere."""
     if sys.stderr.isatty():
         print(f"\r{share:4.0%}  {words}   ", end="" if share < 1 else "\n", file=sys.stderr, flush=True)
-
-
-def _done(dataset: xr.Dataset) -> str:
-    from cosserat.data.dataset import statistics_of
-
-    done = statistics_of(dataset)
-    if "instants" in done:
-        effort = (
-            f"{done['newton_iterations']} Newton iterations"
-            if "newton_iterations" in done
-            else f"solve_bvp with up to {done['most_nodes']} nodes"
-        )
-        return f"{done['instants']} instants, {effort}"
-    if "crawls" in done:
-        return f"{done['crawls']} crawls"
-    if "misfit_evaluations" in done:
-        return f"{done['misfit_evaluations']} evaluations of the misfits"
-    if "points" in done:
-        reached = done["load_factor_reached"]
-        end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to go on"
-        return (
-            f"{done['points']} points, {done['unstable_points']} of them unstable, up to {reached:.4g} of the load, "
-            f"{done['iterations']} Newton iterations{end}"
-        )
-    if "steps" in done:
-        return f"{dataset.sizes['time'] - 1} frames in {done['steps']} steps"
-    if "residual_N" not in done:
-        return ", ".join(f"{value} {key}" for key, value in done.items())
-    return (
-        f"{done['iterations']} Newton iterations, largest unbalanced force {done['residual_N']:.2g} N "
-        f"(allowed {done['tolerance_N']:.2g} N)"
-    )
 
 
 def _show(options: argparse.Namespace) -> None:
@@ -331,12 +310,11 @@ def _plot(options: argparse.Namespace) -> None:
 def _measure(options: argparse.Namespace) -> None:
     from cosserat.data.files import check_destination
     from cosserat.table.measure import measure, summary
-    from cosserat.table.tolerances import read_table, write_report
+    from cosserat.table.tolerances import read_report, read_table, write_report
 
     check_destination(options.output)
-    judged = measure(read_table(options.table), options.cases)
-    write_report(judged, options.output)
-    print(summary([item.verdict for item in judged], [item.row.standing for item in judged]))
+    write_report(measure(read_table(options.table), options.cases), options.output)
+    print(summary(read_report(options.output)))
     print(f"wrote {options.output}")
 
 
@@ -345,6 +323,14 @@ def _check(options: argparse.Namespace) -> None:
     from cosserat.table.tolerances import read_report
 
     print(check(read_report(options.report)))
+
+
+def _power(options: argparse.Namespace) -> None:
+    from cosserat.table.power import table
+    from cosserat.table.tolerances import read_table
+
+    for noticed in table(read_table(options.table), options.words):
+        print(noticed, flush=True)
 
 
 def _accept(options: argparse.Namespace) -> None:

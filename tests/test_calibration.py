@@ -6,8 +6,9 @@ from scipy.optimize import brentq
 
 import cosserat
 from cosserat import analytic
+from cosserat.errors import InputError
 from cosserat.figures.calibration import limit
-from cosserat.models.calibration import ASSIGNED
+from cosserat.models.calibration import ASSIGNED, beam_of
 from cosserat.table import readouts
 
 
@@ -39,6 +40,49 @@ def test_displacements_see_c4_and_c5_through_one_number_alone(fitted):
     # where the layer is resolved that number is the product
     fine = profile(2.01, 1.0, 1281)
     assert np.abs(profile(2.01 / 3, 3.0, 1281) - fine).max() < 5e-3 * np.abs(fine).max()
+
+
+def test_both_beams_at_once_want_a_third_set(fitted):
+    """Displacements and directors of both: half the misfit of the published set, and none of its numbers."""
+    procedure = cosserat.case("calibration").problem
+    found = fitted.beams_coefficients[0].to_numpy()
+    np.testing.assert_allclose(found, [1.0588, 0.9264, 1.0741], atol=2e-4)
+    named = dict(zip(("c3", "c4", "c5"), found, strict=True))
+
+    def misfit(**coefficients):
+        """By the read-outs of the figures, which the fit does not use."""
+        shares = []
+        for name, curves in (
+            ("clamped_free", (readouts.clamped_free_curve, readouts.clamped_free_directors)),
+            ("clamped_clamped", (readouts.clamped_clamped_curve, readouts.clamped_clamped_directors)),
+        ):
+            beam = cosserat.case(name).vary("beam", rod={"calibration": coefficients})
+            data = cosserat.run(beam)
+            for curve in curves:
+                computed, exact = curve(data)
+                shares.append(((computed - exact) ** 2).mean() / np.abs(exact).max() ** 2)
+        return np.sqrt(np.mean(shares))
+
+    least = misfit(**named)
+    assert least == pytest.approx(float(fitted.beams_misfit[0]), rel=1e-6)
+    assert misfit() > 2.5 * least
+    for name, value in named.items():
+        assert misfit(**{**named, name: 1.02 * value}) > least
+        assert misfit(**{**named, name: 0.98 * value}) > least
+    assert procedure.meshes[0] == 20
+
+
+def test_the_second_beam_does_not_fortify_the_first(fitted):
+    """Alone the two ask for products of c4 and c5, all that displacements see of them, of 1.31 and 0.92."""
+    for name, expected in (("clamped_free", 1.315), ("clamped_clamped", 0.923)):
+        c3, c4, c5 = fitted[f"{name}_coefficients"][0].to_numpy()
+        assert c4 * c5 == pytest.approx(expected, abs=5e-3)
+        assert c3 == pytest.approx({"clamped_free": 1.0099, "clamped_clamped": 1.0}[name], abs=5e-4)
+
+
+def test_a_calibration_without_the_published_mesh_has_no_row(fitted):
+    with pytest.raises(InputError, match=r"has meshes of \[40\.0, .*; give it the published 20 too"):
+        readouts.READOUTS["recovered_c3"](fitted.isel(mesh=slice(1, None)))
 
 
 def test_stored_directions_say_which_coefficients_move_together(fitted):
@@ -127,6 +171,6 @@ def test_necking_wants_a_stiffer_gradient_in_the_limit(fitted):
     rod = problem.rod
     stiff = rod.replace(vertices=9).body(rod.replace(vertices=9).geometry()).stiffness
     k1, k2, k7, k6 = 2 * stiff.k1[0], 2 * stiff.k2[1], stiff.k7[1], stiff.k6[0]
-    beta = analytic.necking_decay(readouts.beam_of(problem), "printed")
+    beta = analytic.necking_decay(beam_of(problem), "printed")
     wanted = (k2 - k7**2 / k1) / beta**2 / (k6 / rod.calibration.c6)
     assert wanted == pytest.approx(found, rel=2e-2)

@@ -255,10 +255,10 @@ def test_running_a_case_as_a_process_takes_less_than_two_and_a_half_seconds_of_p
 
 
 def test_every_case_has_a_summary(solved):
-    from cosserat.__main__ import _done
+    from cosserat.data.effort import effort
 
     for name, data in solved.items():
-        assert _done(data)[0].isdigit() or _done(data).startswith("solve_bvp"), name
+        assert effort(data)[0].isdigit() or effort(data).startswith("solve_bvp"), name
 
 
 def test_crawlers_and_paths_are_drawn(capsys, tmp_path):

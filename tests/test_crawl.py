@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from conftest import ROOT
 
 import cosserat
+from cosserat.analytic import PushPullRod
 from cosserat.errors import InputError
 from cosserat.models.earthworm import (
     MUSCLE_LAWS,
@@ -14,7 +16,7 @@ from cosserat.models.earthworm import (
     stance_time,
 )
 from cosserat.models.gait import Gait
-from cosserat.table.crawl_readouts import slope, strides
+from cosserat.table.crawl_readouts import READOUTS, slope, strides
 from cosserat.table.measure import judge
 from cosserat.table.tolerances import read_table
 
@@ -259,6 +261,25 @@ def test_crawls_that_cannot_be_are_refused(changes, sentence):
         WORM.vary("x", **changes)
 
 
+def test_a_calibration_needs_an_incompressible_worm_and_loads_to_start_from():
+    case = cosserat.case("worm_calibration")
+    with pytest.raises(InputError, match="'worm.loads' has a load that is not above 0"):
+        case.vary("x", worm={"loads": {"anchoring": 0}})
+    with pytest.raises(InputError, match="is 'compressible'; only 'incompressible' has a p_coelom"):
+        case.vary("x", worm=cosserat.case("soft_robot").problem.model_dump())
+
+
+def test_a_calibration_gives_back_the_parameters_of_the_worm_that_was_measured():
+    case = cosserat.case("worm_calibration")
+    soft = case.problem.loaded(1500, 0.02, 1000)
+    ratio_1, ratio_3, low, high = case.problem.shares(soft, "soft") * (0.75, 1.60, 300, 800)
+    wanted = {"mu_1_ratio": ratio_1, "mu_3_ratio": ratio_3, "p_longitudinal": low, "p_circular": high}
+    found = cosserat.run(case.vary("x", **wanted))
+    assert float(found.fitted_young) == pytest.approx(1500, rel=1e-7)
+    assert float(found.fitted_anchoring) == pytest.approx(0.02, rel=1e-7)
+    assert float(found.fitted_advancing) == pytest.approx(1000, rel=1e-7)
+
+
 def test_a_sweep_needs_masses_and_a_weight_can_collapse_a_body():
     with pytest.raises(InputError, match="'masses' is empty"):
         cosserat.case("worm_masses").vary("x", masses=[])
@@ -301,6 +322,74 @@ def test_the_anchored_point_does_not_move_within_a_step(name, solved):
     assert np.abs(np.diff(along, axis=0)).max() > 1e3 * allowed  # while others move
 
 
+def fatness_of_the_anchor(data):
+    """Where mu_1 of the anchored point lies between the least (0) and the largest (1) of each instant that has both."""
+    xi, anchor = data.xi_section.to_numpy(), data.anchor.to_numpy()
+    mu = data.mu_1.to_numpy()
+    held = np.array([np.interp(at, xi, row) for at, row in zip(anchor, mu, strict=True)])
+    both = (data.advancing.max("section") != data.advancing.min("section")).to_numpy()
+    return ((held - mu.min(axis=1)) / np.ptp(mu, axis=1))[both]
+
+
+@pytest.mark.parametrize("name", CRAWLS)
+def test_crawlers_hold_on_with_a_fat_part_but_for_the_early_switch(name, solved):
+    """At every instant, by the gait and by the stretches that were solved for; section 2.1."""
+    posed = cosserat.case(name).problem
+    thin = [moment.time for moment in posed.thin_anchors()]
+    fat = fatness_of_the_anchor(solved[name])
+    if not name.endswith("_early"):
+        assert thin == []
+        assert posed.thin_anchor_warning() is None
+        assert fat.min() > 0.5  # beside a front that has just entered the layer takes its share
+        return
+    assert len(thin) == 10
+    assert (thin[0], thin[-1]) == pytest.approx((1.10, 1.55))
+    assert (fat < 0.5).sum() == 10 * posed.strides
+
+
+def test_a_thin_anchor_is_told_with_its_instants():
+    said = cosserat.case("worm_early").problem.thin_anchor_warning()
+    assert said.startswith("thin anchor: at 10 of 100 instants of a stride (t = 1.1 to 1.55 s)")
+    twice = [[[0, 0.75], [0.1, 0.65]], [[0.1, 0], [0.2, 0]], [[0.2, 0.6], [0.3, 0.5]]]
+    twice += [[[0.3, 0], [1, 0]], [[1, 1], [2, 1]]]
+    said = WORM.vary("x", gait={"anchor": twice}).problem.thin_anchor_warning()
+    assert "(t = 0.35 to 0.63 s and 0.95 to 1.55 s)" in said
+    same = WORM.vary("x", loads={"anchoring": 0, "advancing": 0}, gait={"anchor": twice})
+    assert same.problem.thin_anchors() == []  # nothing makes one part thinner than another
+
+
+def test_a_pneumatic_robot_moves_by_the_closed_form_and_holds_on_where_it_is_inflated():
+    """Section 2.7: D = 0 and p < 0.  Inflated regions are short and fat, so the robot's fronts change their places."""
+    robot = cosserat.case("soft_robot")
+    own = robot.problem.gait
+    swapped = {"gamma": own.eta, "eta": own.gamma, "at_rest": "advancing"}
+    inflated = {"anchoring": 0, "advancing": "-2 kPa"}
+    forwards = robot.vary("forwards", loads=inflated, gait=swapped)
+    backwards = robot.vary("backwards", loads=inflated)
+    assert forwards.problem.thin_anchors() == []
+    assert len(backwards.problem.thin_anchors()) == len(own.moments(robot.problem.step))
+    young, poisson, radius, length = 10e3, 0.3, 2.54e-2, 25.4e-2
+    area, half = np.pi * radius**2, young / (1 + poisson)
+    rod = PushPullRod(
+        k_s=half * (1 - poisson) / (1 - 2 * poisson) * area,  # (2.6.20)
+        k_p=half * poisson / (1 - 2 * poisson) * area,
+        k_g=half * np.pi * radius**4 / 8,
+        length=length,
+        radius=radius,
+        weight=1e3 * area * 9.81,
+        anchoring=0.0,
+        advancing=-2e3 * area,
+    )
+    # the rear part is inflated until eta has come to a quarter: its mirror image is inflated before the junction
+    pushed = rod.stretched_length(0.75 * length) - rod.stretched_length(0.0)
+    moved = strides(cosserat.run(forwards))
+    np.testing.assert_allclose(moved, pushed, atol=1e-8)
+    assert pushed > 0.02
+    pulled = rod.stretched_length(0.25 * length) - rod.stretched_length(length)
+    np.testing.assert_allclose(strides(cosserat.run(backwards)), pulled, atol=1e-8)
+    assert pulled < -0.02
+
+
 @pytest.mark.parametrize("name", CRAWLS)
 def test_gaits_are_periodic(name, solved):
     data, problem = solved[name], cosserat.case(name).problem
@@ -332,8 +421,9 @@ def test_events_off_the_time_grid_cost_millimetres():
     """The switch at t_p/3 put one step of 0.05 s later."""
     late = 1 / 3 + 0.05 / 3.15
     anchor = [[[0, 0.75], [late, 0.75 - 0.75 * late]], [[late, 0], [1, 0]], [[1, 1], [2, 1]]]
-    moved = cosserat.run(WORM.vary("x", strides=1, gait={"anchor": anchor}))
-    assert strides(moved)[0] - strides(cosserat.run(WORM.vary("y", strides=1)))[0] > 1e-3
+    early = cosserat.case("worm_early")
+    moved = cosserat.run(early.vary("x", strides=1, gait={"anchor": anchor}))
+    assert strides(moved)[0] - strides(cosserat.run(early.vary("y", strides=1)))[0] > 1e-3
 
 
 def test_a_crawl_run_backwards_in_mirror_image_is_the_same_crawl():
@@ -410,20 +500,28 @@ def test_a_crawl_that_will_collapse_is_refused_before_its_first_solve(
         cosserat.run(cosserat.case(name).vary("x", **changes))
 
 
-def test_doubling_the_mesh_moves_no_row_by_a_tenth_of_its_tolerance(solved):
-    rows = [row for row in read_table(ROOT / "results/tolerances.csv") if row.id.startswith("2.")]
-    names = {row.case for row in rows}
+def test_doubling_the_mesh_moves_no_row_by_a_tenth_of_what_it_claims(solved):
+    """Neither by a tenth of a tolerance nor, where another number is found, by half of the last digit of that."""
+    rows = [
+        row
+        for row in read_table(ROOT / "results/tolerances.csv")
+        if row.id.startswith("2.") and row.kind != "arithmetic"
+    ]
     fine = {}
-    for name in names:
+    for name in {row.case for row in rows}:
         mesh = {"elements": 12}
         case = cosserat.case(name)
-        finer = {"worm": {"mesh": mesh}} if case.problem.kind == "body masses" else {"mesh": mesh}
-        fine[name] = cosserat.run(case.vary(name, **finer))
-    assert len(rows) > 50
+        own = case.problem.kind in ("crawl", "posture")
+        fine[name] = cosserat.run(
+            case.vary(name, **({"mesh": mesh} if own else {"worm": {"mesh": mesh}}))
+        )
+    assert len(rows) > 40
     for row in rows:
         coarse, refined = judge(row, solved), judge(row, fine)
         scale = abs(coarse.expected) if row.tolerance_kind == "rel" else 1.0
-        assert abs(coarse.measured - refined.measured) <= 0.1 * row.tolerance * scale, row.id
+        moved = abs(coarse.measured - refined.measured)
+        assert moved <= 0.1 * row.tolerance * scale, row.id
+        assert row.found_tolerance is None or moved <= 0.5 * row.found_tolerance, row.id
 
 
 # ---------------------------------------------------------------- worms of every size
@@ -440,13 +538,30 @@ def test_table_2_1():
 
 
 def test_muscles_of_constant_stress_alone_scale_like_an_earthworm(solved):
-    known = {"stride": 0.41, "speed": 0.33, "frequency": -0.07, "mu_3_most": 0.0, "mu_1_least": 0.0}
+    known = {
+        "stride_exponent": 0.40,
+        "speed_slope": 0.33,
+        "strain_along_slope": 0.0,
+        "strain_across_slope": 0.0,
+    }
     distance = {
-        name: max(abs(slope(solved[name], key) - value) for key, value in known.items())
+        name: max(abs(READOUTS[key](solved[name]).measured - value) for key, value in known.items())
         for name in ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip")
     }
-    assert distance["worm_masses"] < 0.015
+    assert distance["worm_masses"] < 0.01
+    assert slope(solved["worm_masses"], "frequency") == pytest.approx(-0.07, abs=6e-3)  # by Table 2.1
     assert min(distance["worm_masses_constant_pressure"], distance["worm_masses_strip"]) > 0.1
+
+
+def test_a_power_of_a_strain_is_not_the_power_of_the_stretch():
+    """Strains of 0.6 m^0.1 grow with the power 0.1; the stretches with about a third of it."""
+    mass = np.array([1e-5, 1e-4, 1e-3, 1e-2])
+    most, least = 1 + 0.6 * (mass / 0.01) ** 0.1, np.ones(4)
+    data = xr.Dataset(
+        {"mu_3_most": ("mass", most), "mu_3_least": ("mass", least)}, {"body_mass": ("mass", mass)}
+    )
+    assert READOUTS["strain_along_slope"](data).measured == pytest.approx(0.1)
+    assert slope(data, "mu_3_most") < 0.04
 
 
 def test_scaled_worms_have_the_loads_of_their_law():

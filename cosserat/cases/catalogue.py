@@ -22,13 +22,22 @@ from cosserat.models.peristalsis import Crawl, Posture
 from cosserat.models.rod_motion import RodMotion
 from cosserat.models.rod_path import RodPath
 from cosserat.models.rod_statics import RodStatics
+from cosserat.models.worm_calibration import WormCalibration
 from cosserat.parameters import Parameters, explain, nearest
 
 PUBLISHED = ("chapter2.toml", "chapter3.toml")
 """Case files of the package, beside this module."""
 
 Problem = (
-    RodStatics | RodMotion | CalibrationProcedure | Posture | Crawl | BodyMasses | RodPath | Convergence
+    RodStatics
+    | RodMotion
+    | CalibrationProcedure
+    | Posture
+    | Crawl
+    | BodyMasses
+    | WormCalibration
+    | RodPath
+    | Convergence
 )
 KINDS: dict[str, type[Problem]] = {
     "rod statics": RodStatics,
@@ -39,6 +48,7 @@ KINDS: dict[str, type[Problem]] = {
     "posture": Posture,
     "crawl": Crawl,
     "body masses": BodyMasses,
+    "worm calibration": WormCalibration,
 }
 """Problems by the `kind` that a case names."""
 

@@ -8,6 +8,7 @@ from cosserat.models.consistent import TERMS as PARTS
 from cosserat.models.convergence import MEASURES
 from cosserat.models.planar_rod import AXES, UNKNOWNS
 from cosserat.models.published import TERMS
+from cosserat.models.worm_calibration import OUTCOMES
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,7 @@ LABELS: dict[str, tuple[tuple[str, ...], str]] = {
     "section_coefficient": (("c2", "c6", "c7"), "coefficient of eq. (3.4.13)"),
     "part": (PARTS, "part of the energy of the consistent rod"),
     "measure": (MEASURES, "what is compared with an exact answer"),
+    "outcome": (OUTCOMES, "what the calibration of the worm matches"),
     "term": (TERMS, "term of the strain energy, eq. (3.4.11)"),
 }
 """Labels of the dimensions that are not counted: values and meaning."""
@@ -152,6 +154,15 @@ VARIABLES: dict[str, Variable] = {
     ),
     "mu_3_least": Variable(("mass",), "1", "least stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
     "mu_3_most": Variable(("mass",), "1", "largest stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
+    "fitted_young": Variable((), "Pa", "modulus of the worm by the fit", "E", "2.6.17", 1e-4),
+    "fitted_anchoring": Variable((), "N", "anchoring force by the fit", r"\bar{D}", "2.2.7", 1e-9),
+    "fitted_advancing": Variable((), "Pa", "advancing pressure by the fit", "p", "2.2.8", 1e-4),
+    "fitted_outcomes": Variable(
+        ("outcome",), "1", "by the fit, over what was measured", "", "2.8.6", 1e-7
+    ),
+    "given_outcomes": Variable(
+        ("outcome",), "1", "by the given worm, over what was measured", "", "2.8.6", 1e-9
+    ),
     "load_factor": Variable(("point",), "1", "share of the full load", "", "3.3.40", 1e-9),
     "stable": Variable(
         ("point",), "1", "one where the potential has a minimum, else zero", "", "3.4.7", 1e-9
@@ -160,6 +171,17 @@ VARIABLES: dict[str, Variable] = {
         ("point",), "J", "strain energy of the rod less the work of its couples", "", "3.4.11", 1e-9
     ),
     "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
+    "beams_coefficients": Variable(
+        ("mesh", "beam_coefficient"),
+        "1",
+        "coefficients fitted to both beams at once, displacements and directors",
+        "c",
+        "3.4.13",
+        1e-4,
+    ),
+    "beams_misfit": Variable(
+        ("mesh",), "1", "root mean square misfit of both beams at that fit", "", "3.4.13", 1e-7
+    ),
 }
 
 for _problem, _dim in (

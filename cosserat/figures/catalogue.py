@@ -34,7 +34,7 @@ FIGURES: dict[str, Entry] = {
     "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "chapter2", ("soft_robot",)),
     "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "chapter2", ("soft_robot",)),
     "fig_2_11": Entry("Fig. 2.11: fronts of the protrusion-stance gait", "chapter2", ("worm",)),
-    "fig_2_12": Entry("Fig. 2.12: the anchored point", "chapter2", ("worm", "worm_late")),
+    "fig_2_12": Entry("Fig. 2.12: the anchored point", "chapter2", ("worm", "worm_early")),
     "fig_masses": Entry(
         "Earthworms of every size",
         "chapter2",

@@ -124,8 +124,8 @@ def fig_2_12(data: Data) -> Figure:
     """Where the worm holds on: both readings of the schedule."""
     figure, (ax,) = canvas(7.2, 2.6)
     for name, label, colour, size in (
-        ("worm_late", "rear from $t_p/2$", VARIANT, 5),
-        ("worm", "rear from $t_p/3$", COMPUTED, 2),
+        ("worm", "rear from $t_p/2$", COMPUTED, 5),
+        ("worm_early", "rear from $t_p/3$", VARIANT, 2),
     ):
         run = data[name]
         ax.plot(

@@ -30,6 +30,7 @@ _REACH = float(
 _STEP = 1e-3  # of the logarithms, over which a slope is taken
 
 Misfit = Callable[[Array], Array]
+Curves = Callable[[str, RodStatics, str], tuple[Array, Array]]
 
 ASSIGNED = {
     "hanging_bar": ("c1",),
@@ -71,7 +72,10 @@ class CalibrationProcedure(Parameters):
             fields[f"{problem}_published"] = np.array(
                 [self._at_published(problem, n, name) for n in self.meshes]
             )
-        solves = sum(int(result.nfev) for results in fits.values() for result in results)
+        both = [self.fit_both_beams(n, name) for n in self.meshes]
+        fields["beams_coefficients"] = np.exp([result.x for result in both])
+        fields["beams_misfit"] = np.array([np.sqrt(2 * result.cost) for result in both])
+        solves = sum(int(result.nfev) for results in (*fits.values(), both) for result in results)
         return Outcome(fields, {"misfit_evaluations": solves})
 
     def fit(self, problem: str, vertices: int, name: str) -> OptimizeResult:
@@ -85,13 +89,33 @@ class CalibrationProcedure(Parameters):
             misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
         )
 
-    def misfit(self, problem: str, vertices: int, name: str) -> Misfit:
+    def fit_both_beams(self, vertices: int, name: str) -> OptimizeResult:
+        """c3, c4, c5 from both beams at once, displacements and directors: "simultaneously", as section 3.5 has it."""
+        from scipy.optimize import least_squares
+
+        parts = [
+            self.misfit(problem, vertices, name, curves)
+            for problem in ("clamped_free", "clamped_clamped")
+            for curves in (_curves, _director_curves)
+        ]
+        rod = self.clamped_free.rod
+        start = np.log([getattr(rod.calibration, c) for c in ASSIGNED["clamped_free"]])
+
+        def misfit(logarithms: Array) -> Array:
+            every: Array = np.concatenate([part(logarithms) for part in parts])
+            return every / float(np.sqrt(len(parts)))
+
+        return least_squares(
+            misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
+        )
+
+    def misfit(self, problem: str, vertices: int, name: str, curves: Curves | None = None) -> Misfit:
         """Differences of one problem from its closed form at one mesh, by the logarithms of its coefficients."""
         posed, coefficients = getattr(self, problem), ASSIGNED[problem]
 
         def misfit(logarithms: Array) -> Array:
             values = dict(zip(coefficients, np.exp(logarithms), strict=True))
-            computed, exact = _curves(problem, _at(posed, vertices, values), name)
+            computed, exact = (curves or _curves)(problem, _at(posed, vertices, values), name)
             difference: Array = computed - exact
             share: Array = difference / (np.abs(exact).max() * np.sqrt(exact.size))
             return share
@@ -135,6 +159,19 @@ def _curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
     return fields["u"][:, axis], exact(beam, posed.gravity.g, xi)
 
 
+def _director_curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
+    """delta . E3 at the lateral surface of a beam, computed and by eqs. (3.5.4), (3.5.7) [m]."""
+    fields, exact = posed.solve(name).fields, _DIRECTORS[problem]
+    assert posed.gravity is not None
+    directors = exact(beam_of(posed), posed.gravity.g, fields["xi"])
+    return fields["delta"][:, 0], posed.rod.height / 2 * directors
+
+
+_DIRECTORS: dict[str, analytic.BeamCurve] = {
+    "clamped_free": analytic.clamped_free_director,
+    "clamped_clamped": analytic.clamped_clamped_director,
+}
+
 _FORMULAS: dict[str, tuple[int, Callable[[analytic.Beam, float, Array], Array]]] = {
     "hanging_bar": (0, analytic.hanging_bar_displacement),
     "clamped_free": (1, analytic.clamped_free_displacement),
@@ -143,12 +180,12 @@ _FORMULAS: dict[str, tuple[int, Callable[[analytic.Beam, float, Array], Array]]]
 
 
 def beam_of(problem: RodProblem) -> analytic.Beam:
-    """The beam that the closed forms know, with the rod's parameters."""
+    """The beam that the closed forms know: A = W H and I = W H^3 / 12, not what the rod takes for them."""
     rod = problem.rod
     return analytic.Beam(
         length=rod.length,
-        area=rod.area,
-        second_moment=rod.second_moment,
+        area=rod.width * rod.height,
+        second_moment=rod.width * rod.height**3 / 12,
         young=rod.young,
         poisson=rod.poisson,
         line_density=rod.line_density,

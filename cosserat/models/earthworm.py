@@ -31,6 +31,8 @@ would not depend on it.  Muscle of constant stress whose thickness grows with th
 SEGMENT_50 = 3 / 5
 """Place of segment 50, two fifths of the length from the front end, section 2.8."""
 
+CIRCULAR, LONGITUDINAL = 1.5, 0.5
+"""Phases at which it lies well inside an advancing and an anchoring region: t_p + t_s/2 and t_p/2."""
 
 STRIP_TENSION = 0.186 * 9.80665e-3
 """Peak tension of a strip of longitudinal muscle, eq. (2.8.1) [N]."""

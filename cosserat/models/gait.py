@@ -39,6 +39,11 @@ class Moment:
     regions: tuple[Region, ...]
     anchor: float
 
+    @property
+    def holding(self) -> Muscle:
+        """The load on the place that holds on; a gait has no anchor on a front inside the body."""
+        return next(r.load for r in self.regions if r.left <= self.anchor <= r.right)
+
 
 class Gait(Parameters):
     """A periodic gait.

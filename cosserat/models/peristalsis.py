@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Literal, Self
@@ -20,6 +21,7 @@ from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
 _EMPTY = 1e-6  # a region shorter than this share of the length counts as empty
+_ALIKE = 1e-9  # regions whose mu_1 differs by less are equally fat
 
 
 class CrawlerProblem(Parameters):
@@ -170,6 +172,36 @@ class Crawl(CrawlerProblem):
                     "vanish at once; keep an anchoring region, or set loads.advancing_force = 'none'",
                 )
         return self
+
+    def thin_anchors(self) -> list[Moment]:
+        """The instants of a stride at which the body holds on with a part that its loads make thinner than the other.
+
+        A worm holds on where it fattens, section 2.1: with its anchoring regions.  Of artificial muscles under negative
+        pressure the advancing regions are the fat ones.
+        """
+        moments = self.gait.moments(self.step)
+        if {r.load for m in moments for r in m.regions} != {"anchoring", "advancing"}:
+            return []
+        halves = (Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing"))
+        mu, _ = Instant(self.crawler, self.loads, halves, "the anchor").plateaus
+        anchoring, advancing = mu[:, 0]
+        if abs(anchoring - advancing) < _ALIKE:
+            return []
+        thinner = "advancing" if advancing < anchoring else "anchoring"
+        return [m for m in moments if m.holding == thinner]
+
+    def thin_anchor_warning(self) -> str | None:
+        """One sentence on `thin_anchors`, None if there are none."""
+        found = {m.time for m in self.thin_anchors()}
+        if not found:
+            return None
+        times = [m.time for m in self.gait.moments(self.step)]
+        runs = [list(run) for thin, run in itertools.groupby(times, found.__contains__) if thin]
+        spans = " and ".join(f"{run[0]:.4g} to {run[-1]:.4g} s" for run in runs)
+        return (
+            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on "
+            "lies where the body is thin, and crawlers hold on where they are fat; move 'gait.anchor'"
+        )
 
     def solve(self, name: str) -> Outcome:
         """Every instant of the gait, each placed on the ground by its anchor, eqs. (2.5.10), (2.5.11).

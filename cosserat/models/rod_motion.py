@@ -38,7 +38,8 @@ class Start(Parameters):
 
     shape: Literal["reference", "first beam mode"] = "reference"
     """"first beam mode" bends the rod as eq. (3.5.16) says and turns the directors with it."""
-    amplitude: Annotated[float, Quantity("m", "A_1", "3.5.16")] = 0.0
+    amplitude: Annotated[float, Quantity("m")] = 0.0
+    """Displacement of the tip in the first beam mode, twice A_1 of eq. (3.5.16)."""
     speed: Annotated[float, Quantity("m/s")] = 0.0
     along: Direction = "E3"
     spin: Annotated[float, Quantity("rad/s")] = 0.0

@@ -7,26 +7,15 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from cosserat import analytic
 from cosserat.data.dataset import problem_of
-from cosserat.models.earthworm import (
-    SEGMENT_50,
-    circumference,
-    peak_force,
-    peak_pressure,
-    protrusion_time,
-    resting_diameter,
-    resting_length,
-    stance_time,
-)
+from cosserat.models.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50
 from cosserat.models.peristalsis import Crawl
+from cosserat.table.printed import number, push_pull_rod
 from cosserat.table.reading import Reading
 
-SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07, "mu_3_most": 0.0}
-"""Powers of the body mass that Quillin measured on earthworms, the thesis's reference [50]; the thesis prints none."""
-
-CIRCULAR, LONGITUDINAL = 1.5, 0.5
-"""Phases at which segment 50 lies well inside an advancing and an anchoring region: t_p + t_s/2 and t_p/2."""
+SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07}
+"""Powers of the body mass that Quillin measured on earthworms, the thesis's reference [50]; the thesis prints 0.4 for
+the stride, (2.8.4), and none of the others."""
 
 
 def crawl(data: xr.Dataset) -> Crawl:
@@ -65,7 +54,12 @@ def at_phase(data: xr.Dataset, phase: float) -> xr.Dataset:
 
 def slope(data: xr.Dataset, variable: str) -> float:
     """The power of the body mass with which a variable grows, by least squares of the logarithms."""
-    return float(np.polyfit(np.log(data.body_mass), np.log(data[variable]), 1)[0])
+    return power(data, data[variable])
+
+
+def power(data: xr.Dataset, values: xr.DataArray) -> float:
+    """The same of any numbers above zero, one for each body mass."""
+    return float(np.polyfit(np.log(data.body_mass), np.log(values), 1)[0])
 
 
 def _at(variable: str, phase: float) -> Callable[[xr.Dataset], Reading]:
@@ -87,62 +81,36 @@ def _slope(variable: str) -> Callable[[xr.Dataset], Reading]:
     return lambda data: Reading(slope(data, variable), SLOPES[variable])
 
 
+def _strain_slope(number: int) -> Callable[[xr.Dataset], Reading]:
+    """The power of a strain as section 2.8 has it, between circular and longitudinal contraction; constant: zero."""
+
+    def read(data: xr.Dataset) -> Reading:
+        circular, longitudinal = ("least", "most") if number == 1 else ("most", "least")
+        ratio = data[f"mu_{number}_{circular}"] / data[f"mu_{number}_{longitudinal}"]
+        return Reading(power(data, abs(ratio - 1)), 0.0)
+
+    return read
+
+
 def _rest_pressure(data: xr.Dataset) -> Reading:
     return Reading(float(data.p_coelom.isel(section=data.sizes["section"] // 2)))
 
 
 def _cycle_displacement(data: xr.Dataset) -> Reading:
-    """Of the soft robot, and by the closed form: the front goes on while gamma travels, and holds from then on."""
-    problem = crawl(data)
-    body, loads = problem.crawler, problem.loads
-    k_s, k_p, k_g = body.stiffnesses
-    rod = analytic.PushPullRod(
-        k_s=k_s,
-        k_p=k_p,
-        k_g=k_g,
-        length=body.length,
-        radius=body.radius,
-        weight=body.line_density * loads.gravity,
-        anchoring=loads.anchoring,
-        advancing=loads.advancing * body.area,
+    """Of the soft robot in the cycle that is farthest from the closed form, and that form for the printed robot.
+
+    The front goes on until gamma has a share T of the body left, and holds from then on.
+    """
+    rod = push_pull_rod()
+    expected = rod.stretched_length(number("soft_robot", "T") * rod.length) - rod.stretched_length(
+        rod.length
     )
-    gone = problem.gait.fronts(2)[0][0] * body.length  # where gamma is when the anchor changes
-    return Reading(
-        float(strides(data)[-1]), rod.stretched_length(gone) - rod.stretched_length(body.length)
-    )
-
-
-def _robot_cycle(data: xr.Dataset) -> Reading:
-    """Duration of the gait, and by eq. (2.7.2) with t_pause = 5 s, v = 2.54 cm/s and T = 0.25."""
-    problem = crawl(data)
-    expected = 5.0 + problem.crawler.length / 2.54e-2 * (2 - 0.25)
-    return Reading(problem.gait.duration, expected)
-
-
-def _worm_cycle(data: xr.Dataset) -> Reading:
-    """Duration of the gait, and t_p + t_s by Table 2.1."""
-    mass = _mass(data)
-    return Reading(crawl(data).gait.duration, stance_time(mass) + protrusion_time(mass))
-
-
-def _diameter(data: xr.Dataset) -> float:
-    return 2 * crawl(data).crawler.radius
-
-
-def _mass(data: xr.Dataset) -> float:
-    mass = crawl(data).crawler.mass
-    assert mass is not None
-    return mass
+    cycles = strides(data)
+    return Reading(float(cycles[np.abs(cycles - expected).argmax()]), expected)
 
 
 READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "stride": lambda data: Reading(float(strides(data)[-1])),
-    "stride_scaling": lambda data: Reading(1e-3 * 15 * (1e3 * _mass(data)) ** 0.4),
-    "robot_cycle": _robot_cycle,
-    "worm_cycle": _worm_cycle,
-    "circumference": lambda data: Reading(circumference(_diameter(data))),
-    "peak_force": lambda data: Reading(peak_force(_diameter(data))),
-    "peak_pressure": lambda data: Reading(peak_pressure(_diameter(data))),
     "cycle_displacement": _cycle_displacement,
     "rest_pressure": _rest_pressure,
     "mu_1_circular": _at("mu_1", CIRCULAR),
@@ -153,13 +121,17 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "p_longitudinal": _at("p_coelom", LONGITUDINAL),
     "mu_1_ratio": _ratio("mu_1"),
     "mu_3_ratio": _ratio("mu_3"),
-    "stance_time": lambda data: Reading(stance_time(_mass(data))),
-    "protrusion_time": lambda data: Reading(protrusion_time(_mass(data))),
-    "resting_length": lambda data: Reading(resting_length(_mass(data))),
-    "resting_diameter": lambda data: Reading(resting_diameter(_mass(data))),
     "stride_slope": _slope("stride"),
     "speed_slope": _slope("speed"),
-    "frequency_slope": _slope("frequency"),
-    "strain_slope": _slope("mu_3_most"),
+    "stride_exponent": lambda data: Reading(slope(data, "stride")),
+    "strain_across_slope": _strain_slope(1),
+    "strain_along_slope": _strain_slope(3),
+    "fitted_young": lambda data: Reading(float(data.fitted_young)),
+    "fitted_anchoring_share": lambda data: Reading(
+        float(data.fitted_anchoring) / number("worm", "D_peak")
+    ),
+    "fitted_advancing_share": lambda data: Reading(
+        float(data.fitted_advancing) / number("worm", "p_peak")
+    ),
 }
 """Read-outs by the name that a row gives."""

@@ -16,12 +16,14 @@ from pydantic_core import PydanticCustomError
 from cosserat.data.files import whole_or_absent
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters, Quantity
+from cosserat.table.arithmetic import ARITHMETIC
 from cosserat.table.readouts import READOUTS
 from cosserat.units import to_si
 
-Standing = Literal["reproduced", "erratum", "assumption", "not attempted"]
-Kind = Literal["printed", "analytic", "in words", "literature"]
+Standing = Literal["reproduced", "erratum", "assumption", "recomputed", "not attempted"]
+Kind = Literal["printed", "analytic", "in words", "literature", "arithmetic"]
 
+_PRINTED = ("printed", "arithmetic")  # kinds whose published text is the number expected
 _LOOSE = 1e-3  # an error this small a share of its tolerance shows that the tolerance hides more than it allows
 
 
@@ -31,8 +33,12 @@ class Row(Parameters):
     published : the text exactly as printed, or what stands in its place where nothing is.
     kind : "printed" numbers are compared with that text; "analytic" ones with a closed form, the page's or another
     exact one; "in words" with what the sentence says; "literature" with what a source of the page measured and the page
-    does not print.  In these three the read-out knows what is expected.
+    does not print.  In these three the read-out knows what is expected.  "arithmetic" numbers follow from others of the
+    page: nothing is solved, no case is read, and they stand as "recomputed", which is less than "reproduced".
     claim : whether we say that the measured number lies within the tolerance.
+    found, found_tolerance : outside it, the number that we say is measured in its place, and how closely, both in the
+    row's unit.
+    reading_of : the row that has the same published number in the reading that we take; this one is of another.
     against : the published number of another row, in its SI unit, which the table names by its id; what is measured is
     then the distance of the read-out from that number, as a share of it.
     """
@@ -49,35 +55,73 @@ class Row(Parameters):
     tolerance: Annotated[float, Quantity("1", above=0)] | None = None
     tolerance_kind: Literal["abs", "rel"] | None = None
     claim: Literal["within", "outside"] | None = None
+    found: Annotated[float, Quantity("1")] | None = None
+    found_tolerance: Annotated[float, Quantity("1", above=0)] | None = None
     why: str
     standing: Standing
     erratum: str = ""
     against: Annotated[float, Quantity("1", above=0)] | None = None
+    reading_of: str = ""
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
-        needed = ("case", "readout", "tolerance", "tolerance_kind", "claim")
         if self.standing == "not attempted":
             return self
+        sum_alone = self.kind == "arithmetic"
+        needed = ["readout", "tolerance", "tolerance_kind", "claim", *([] if sum_alone else ["case"])]
         missing = [name for name in needed if not getattr(self, name)]
         if missing:
             raise PydanticCustomError(
                 "incomplete", f"needs {', '.join(missing)} unless it is 'not attempted'"
             )
-        if self.readout not in READOUTS:
+        if self.readout not in (ARITHMETIC if sum_alone else READOUTS):
             raise PydanticCustomError("readout", f"names the unknown read-out '{self.readout}'")
-        if self.standing != "reproduced" and not self.erratum:
+        if sum_alone and self.case:
+            raise PydanticCustomError(
+                "case", f"is of kind 'arithmetic' but reads the case '{self.case}'; leave 'case' empty"
+            )
+        if sum_alone != (self.standing == "recomputed"):
+            raise PydanticCustomError(
+                "standing",
+                f"is of kind '{self.kind}' and stands as '{self.standing}'; "
+                "rows of kind 'arithmetic', and they alone, stand as 'recomputed'",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _two_sided(self) -> Self:
+        if self.standing == "not attempted":
+            return self
+        if self.standing not in ("reproduced", "recomputed") and not self.erratum:
             raise PydanticCustomError(
                 "erratum", f"stands as '{self.standing}' but names no entry of the errata"
             )
         if self.claim == "outside" and self.standing == "reproduced":
             raise PydanticCustomError("claim", "cannot stand as 'reproduced' outside its tolerance")
+        given = [self.found is not None, self.found_tolerance is not None]
+        if self.claim == "outside" and not all(given):
+            raise PydanticCustomError(
+                "found",
+                "is claimed outside but does not say what is found there; give 'found' and 'found_tolerance'",
+            )
+        if self.claim == "within" and any(given):
+            raise PydanticCustomError(
+                "found",
+                "is claimed within its tolerance; leave out 'found' and 'found_tolerance'",
+            )
         return self
 
     @property
     def expected(self) -> float | None:
         """The published text as a number in the row's unit; None if a read-out has to say what is expected."""
-        return to_si(self.published, self.units, unit_required=False) if self.kind == "printed" else None
+        if self.kind not in _PRINTED:
+            return None
+        return to_si(self.published, self.units, unit_required=False)
+
+    @property
+    def ours(self) -> bool:
+        """Whether it is of the project's own rod and not a number of the thesis."""
+        return self.id.startswith("C-")
 
 
 class Judged(Parameters):
@@ -104,13 +148,20 @@ class Judged(Parameters):
 
     @property
     def holds(self) -> bool:
-        """Whether the claim of the row is true; a number that is not finite makes no claim true."""
-        ratio = self.error_over_tolerance
-        if self.row.standing == "not attempted":
+        """Whether the claim of the row is true; a number that is not finite makes no claim true.
+
+        A number claimed outside the published tolerance has to lie there, and as near to `found` as the row says.
+        """
+        ratio, row = self.error_over_tolerance, self.row
+        if row.standing == "not attempted":
             return True
-        if ratio is None or not math.isfinite(ratio):
+        if ratio is None or not math.isfinite(ratio) or self.measured is None:
             return False
-        return (ratio <= 1) == (self.row.claim == "within")
+        if row.claim == "within":
+            return ratio <= 1
+        assert row.found is not None
+        assert row.found_tolerance is not None
+        return ratio > 1 and abs(self.measured - row.found) <= row.found_tolerance
 
     @property
     def verdict(self) -> str:
@@ -158,15 +209,30 @@ def read_table(path: Path) -> list[Row]:
         raise InputError(
             f"{path}: the id {', '.join(twice)} stands more than once; give each row its own"
         )
+    _check_readings(rows, path)
     return rows
+
+
+def _check_readings(rows: list[Row], path: Path) -> None:
+    """Another reading is of a row of the table that is no reading itself and has the same published text."""
+    known = {row.id: row for row in rows}
+    for row in rows:
+        if not row.reading_of:
+            continue
+        first = known.get(row.reading_of)
+        if first is None or first.reading_of or first.published != row.published:
+            raise InputError(
+                f"{path}, row '{row.id}': 'reading_of' is '{row.reading_of}'; "
+                "give the id of the first row with the same published text"
+            )
 
 
 def _published_by(wanted: str, lines: list[dict[str, str]], name: str) -> float:
     """The published number of the line with that id, in its SI unit; `name` is the row that asks."""
     for line in lines:
-        if line.get("id") == wanted and line.get("kind") == "printed":
+        if line.get("id") == wanted and line.get("kind") in _PRINTED:
             return to_si(line["published"], line["units"], unit_required=False)
-    raise InputError(f"{name}: 'against' is '{wanted}'; give the id of a row of kind 'printed'")
+    raise InputError(f"{name}: 'against' is '{wanted}'; give the id of a row that prints a number")
 
 
 def write_report(judged: list[Judged], path: Path) -> None:
