@@ -96,10 +96,7 @@ def _parser() -> argparse.ArgumentParser:
     sub = add("figure", _figure, "draw one figure of the thesis from stored results")
     sub.add_argument("figure", help="name of a figure, such as fig_3_10")
     sub.add_argument(
-        "--table",
-        type=Path,
-        default=RESULTS / "tolerances.csv",
-        help="the table of published numbers (%(default)s)",
+        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
     )
     sub.add_argument(
         "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"

@@ -42,11 +42,11 @@ FIGURES: dict[str, Entry] = {
         ("2.8.6-mu1-ratio", "2.8.6-mu3-ratio", "2.8-p-longitudinal-measured", "2.8-p-circular-measured"),
     ),
     "fig_2_5": Entry("Fig. 2.5: muscles as forces along the centreline", "chapter2", ()),
-    "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "chapter2", ("soft_robot",)),
-    "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "chapter2", ("soft_robot",)),
-    "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "chapter2", ("soft_robot",)),
+    "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "gaits", ("soft_robot",)),
+    "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "gaits", ("soft_robot",)),
+    "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "gaits", ("soft_robot",)),
     "fig_2_11": Entry(
-        "Fig. 2.11: fronts of the protrusion-stance gait", "chapter2", ("worm", "worm_even_gamma")
+        "Fig. 2.11: fronts of the protrusion-stance gait", "gaits", ("worm", "worm_even_gamma")
     ),
     "fig_2_12": Entry("Fig. 2.12: the anchored point", "chapter2", ("worm", "worm_late")),
     "fig_masses": Entry(

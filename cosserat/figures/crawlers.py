@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
@@ -18,6 +21,8 @@ Array = NDArray[np.float64]
 THINNED = "#f3d3a8"  # where advancing loads act
 GAMMA, ETA, ANCHOR = "#3a7d44", "#0b5fa5", "#c1121f"  # green, blue and red, as Fig. 2.7 has them
 FRONTS = {"gamma": GAMMA, "eta": ETA}
+STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
+WIDTHS = {"mu_1": 2.4, "mu_2": 1.0, "mu_3": 1.4}  # mu_2 lies on mu_1 but for the weight
 _WIDTH, _MARGIN = 720, 14  # of an animation, in pixels
 _SHOWN = 126  # sections of an animated outline
 
@@ -130,6 +135,20 @@ def lane_height(data: xr.Dataset, tall: float = 1.0) -> float:
     return 2e2 * tall * crawl(data).crawler.radius * 1.4
 
 
+def legend_of_bodies() -> list[Artist]:
+    """What the colours and the triangle of a drawn crawler mean."""
+    return [
+        Patch(facecolor=BODY, label="anchoring load"),
+        Patch(facecolor=THINNED, label="advancing load"),
+        Line2D([], [], color=ANCHOR, marker="^", linestyle="none", label="anchor"),
+    ]
+
+
+def nearest(data: xr.Dataset, time: float) -> int:
+    """Index of the stored instant nearest to a time [s]."""
+    return int(np.abs(data.time.to_numpy() - time).argmin())
+
+
 def picture(data: xr.Dataset) -> Figure:
     """Body, stretches and, of a crawl, its path: what `cosserat plot` shows of a crawler."""
     problem = crawler_of(data)
@@ -138,12 +157,8 @@ def picture(data: xr.Dataset) -> Figure:
     draw_crawler(body, last, problem.crawler.radius)
     body.set_aspect("equal", adjustable="datalim")
     body.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=data.attrs["title"])
-    for name, label, colour in (
-        ("mu_1", r"$\mu_1$", COMPUTED),
-        ("mu_2", r"$\mu_2$", GAMMA),
-        ("mu_3", r"$\mu_3$", VARIANT),
-    ):
-        curves.plot(data.xi_section * 1e2, last[name], color=colour, label=label)
+    for name, colour in STRETCHES.items():
+        curves.plot(data.xi_section * 1e2, last[name], color=colour, label=rf"$\{name}$")
     curves.set(xlabel=r"arc length $\xi$ [cm]", ylabel="stretch [1]")
     curves.legend(ncols=3)
     if "time" not in data.sizes:
