@@ -121,8 +121,8 @@ page.figure(
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_11",
-    "The fronts over three strides. Hollow, $\\gamma$ in another reading of the sentence that it then speeds up: it does so "
-    "at $t_p/2$, and is not at one half when the stance begins.",
+    'The fronts over three strides. Lines: two other readings of the sentence that $\\gamma$ "then speeds up" at $t_p/2$. '
+    "With both it is at one half before the protrusion ends (assumption E2.15).",
 )
 
 # %% tags=["remove-input"]

@@ -309,21 +309,24 @@ def test_the_robot_is_drawn_crawling_through_both_cycles(solved):
     assert first.get_xlim() == second.get_xlim()
 
 
-def test_the_worms_gamma_is_drawn_in_the_reading_taken_and_in_others(solved):
+def test_the_worms_gamma_is_drawn_in_the_reading_taken_and_in_those_that_speed_up_at_half_the_protrusion(
+    solved,
+):
     ax = drawing(solved, "fig_2_11").axes[0]
-    hollow = [line for line in ax.lines if line.get_markerfacecolor() == "none"]
-    filled = [line for line in ax.lines if line.get_markerfacecolor() == crawlers.GAMMA]
-    assert len(filled) == 1
-    assert len(hollow) == len(FIGURES["fig_2_11"].cases) - 1 > 0
-    for line in hollow:
-        points = line.get_xydata()
-        protrusion = points[(points[:, 0] > 1.6) & (points[:, 0] < 3.1)]
-        before = points[points[:, 0] < 1.575]
-        steep = [np.polyfit(*part.T, 1)[0] for part in (before, protrusion)]
-        assert steep[1] < 1.2 * steep[0] < 0  # it speeds up at t_p/2
-    points = filled[0].get_xydata()
-    assert points[:, 1].min() > 0
-    assert points[:, 1].max() < 1
+    green = [line for line in ax.lines if line.get_color() == crawlers.GAMMA]
+    (taken,) = (line.get_xydata() for line in green if line.get_linestyle() == "None")
+    assert taken[:, 1].min() > 0
+    assert taken[:, 1].max() < 1
+    first = taken[taken[:, 0] < 1.575]
+    slow = np.polyfit(*first.T, 1)[0]
+    lines = [line.get_xydata() for line in green if line.get_linestyle() != "None"]
+    assert len(lines) == 2 * 3
+    ends = {(round(end[0] - begin[0], 3), end[1]) for begin, end in lines}
+    assert ends == {(1.575, 0), (1.575 + 1.75, 0)}
+    for begin, end in lines:
+        assert begin[0] % 4.9 == pytest.approx(1.575)
+        assert begin[1] == 0.75
+        assert (end[1] - begin[1]) / (end[0] - begin[0]) < 1.2 * slow < 0
 
 
 def test_a_rod_like_body_has_both_its_lengths_a_hatched_section_and_a_centreline_off_its_middle(solved):

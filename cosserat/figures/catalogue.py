@@ -45,9 +45,7 @@ FIGURES: dict[str, Entry] = {
     "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "gaits", ("soft_robot",)),
     "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "gaits", ("soft_robot",)),
     "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "gaits", ("soft_robot",)),
-    "fig_2_11": Entry(
-        "Fig. 2.11: fronts of the protrusion-stance gait", "gaits", ("worm", "worm_even_gamma")
-    ),
+    "fig_2_11": Entry("Fig. 2.11: fronts of the protrusion-stance gait", "gaits", ("worm",)),
     "fig_2_12": Entry("Fig. 2.12: the anchored point", "chapter2", ("worm", "worm_late")),
     "fig_masses": Entry(
         "Earthworms of every size",

@@ -96,8 +96,6 @@ def draw_gait(
     times: Array,
     *,
     kinds: tuple[str, ...] = ("gamma", "eta"),
-    hollow: bool = False,
-    label: str = "",
 ) -> None:
     """One marker for each front on the body at each time [s]; a front at an end of the body has left it."""
     for kind in kinds:
@@ -114,11 +112,9 @@ def draw_gait(
             *points.T,
             linestyle="none",
             marker="o" if kind == "gamma" else "s",
-            markersize=3 if hollow else 2.5,
-            markerfacecolor="none" if hollow else colour,
-            markeredgewidth=0.6,
+            markersize=2.5,
             color=colour,
-            label=rf"$\{kind}$" + label,
+            label=rf"$\{kind}$",
         )
 
 
@@ -162,27 +158,21 @@ def _stretches_when_eta_appears(ax: Axes, run: xr.Dataset) -> None:
 
 
 def fig_2_11(data: Data) -> Figure:
-    """The fronts of the worm's gait at its instants, and hollow those of other readings of the thesis's words."""
+    """The fronts of the worm's gait at its instants, and as lines the other readings of "then speeds up", E2.15."""
     run = data["worm"]
     problem = crawl(run)
     gait = problem.gait
     figure, (ax,) = canvas(7.2, 3.4)
-    for name, other in data.items():
-        if name != "worm":
-            kinds = tuple(
-                k for k in crawlers.FRONTS if getattr(crawl(other).gait, k) != getattr(gait, k)
-            )
-            reading = other.attrs["title"].partition(", ")[2]
-            times = other.time.to_numpy()[::4]
-            draw_gait(
-                ax,
-                crawl(other),
-                times,
-                kinds=kinds,
-                hollow=True,
-                label=f" in another reading: {reading}",
-            )
     draw_gait(ax, problem, run.time.to_numpy())
+    turns, place = gait.gamma[0][1]
+    for gone, line, reading in (
+        (2, "--", "one speed from $t_p/2$ to $t_p + t_s$"),
+        (1, ":", "0 at $t_p$"),
+    ):
+        for stride in range(problem.strides):
+            times = stride * gait.duration + np.array([gait.time(turns), gait.time(gone)])
+            label = None if stride else rf"$\gamma$ in another reading: {reading}"
+            ax.plot(times, [place, 0], line, color=crawlers.GAMMA, linewidth=1.0, label=label)
     for phase, name in ((0.5, "$t_p/2$"), (1.0, "$t_p$"), (2.0, "$t_p + t_s$")):
         ax.axvline(gait.time(phase), color=EXACT, linewidth=0.8, zorder=1)
         ax.annotate(
@@ -199,7 +189,7 @@ def fig_2_11(data: Data) -> Figure:
         xlim=(0, float(run.time[-1])),
         ylim=(-0.02, 1.02),
     )
-    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8)
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
     return figure
 
 
