@@ -96,9 +96,6 @@ def _parser() -> argparse.ArgumentParser:
     sub = add("figure", _figure, "draw one figure of the thesis from stored results")
     sub.add_argument("figure", help="name of a figure, such as fig_3_10")
     sub.add_argument(
-        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
-    )
-    sub.add_argument(
         "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
     )
     sub.add_argument(
@@ -296,7 +293,7 @@ def _figure(options: argparse.Namespace) -> None:
     from cosserat.figures.catalogue import draw_to
 
     path = options.output or Path(f"{options.figure}.svg")
-    draw_to(options.figure, options.cases, path, options.table)
+    draw_to(options.figure, options.cases, path)
     print(f"wrote {path}")
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 
 TABLE = Path("results/tolerances.csv")
+"""The results table of the checkout that is worked in."""
 
 
 @dataclass(frozen=True)
