@@ -95,6 +95,7 @@ rule figure:
         FORMULAS,
         READOUTS,
         cases=lambda wildcards: [f"results/cases/{case}.nc" for case in FIGURES[wildcards.figure].cases],
+        table=lambda wildcards: ["results/tolerances.csv"] if FIGURES[wildcards.figure].rows else [],
     output:
         report(
             "results/figures/{figure}.svg",

@@ -62,15 +62,24 @@ page.animation(
 )
 
 # %% tags=["remove-input"]
-page.figure("fig_2_7", "One cycle. The rear end holds until 12.5 s, the front end from then on.")
+page.figure(
+    "fig_2_7",
+    "One cycle: (a) push from the rear, (b) transition, (c) pull to the front. Ahead of $\\gamma$ (green) and behind "
+    "$\\eta$ (blue) advancing loads make the body thin and long; the red triangle is where it holds on.",
+)
 
 # %% tags=["remove-input"]
-page.figure("fig_2_8", "The fronts over both cycles; one that has left the body is not drawn.")
+page.figure(
+    "fig_2_8",
+    "Discrete values of both fronts: (a) at the instants that are stored, from the first pause on, (b) at the time step "
+    "of the thesis, which we do not need. A front is on the body only between the ends, never at them.",
+)
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_9",
-    "(a) Ends and anchor. (b) Stretches when the anchor changes: two plateaus and a layer. (c) The body on the ground.",
+    "(a) Ends and anchor. (b) Stretches when the anchor changes: two plateaus and a layer. (c), (d) The body on the "
+    "ground through both cycles: the second begins where the first has left it.",
 )
 
 # %% [markdown]
@@ -109,14 +118,24 @@ page.animation("anim_worm", "Two strides in real time. Segment 50 is black, the 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_1",
-    "The six times of the page. Between the second and the third the anchor has moved to the rear.",
+    "The six times of the thesis, heights magnified. The bodies obey the corrected equations; dotted, the equations as "
+    "printed, with which the thesis's numbers are found.",
 )
 
 # %% tags=["remove-input"]
-page.figure("fig_2_11", "The fronts over three strides.")
+page.figure(
+    "fig_2_11",
+    'The fronts over three strides. Lines: two other readings of the sentence that $\\gamma$ "then speeds up" at $t_p/2$. '
+    "With both it is at one half before the protrusion ends (assumption E2.15).",
+)
 
 # %% tags=["remove-input"]
-page.figure("fig_2_2", "Segment 50 over three strides, by the corrected and by the printed equations.")
+page.figure(
+    "fig_2_2",
+    "Segment 50 over three strides, by the corrected and by the printed equations. Quillin measured the pressures, and how "
+    "much longer and thinner the segment is in circular than in longitudinal contraction; these ratios are drawn as "
+    "multiples of the corrected worm's longitudinal contraction.",
+)
 
 # %% [markdown]
 # Segment 50 is read in the middle of the stance and in the middle of the protrusion, when it lies well inside an advancing

@@ -41,12 +41,17 @@ page.figure("fig_3_1", "The lower boundary of the body is the directorline refle
 # it changes the inertias, not the body.
 
 # %% tags=["remove-input"]
-page.figure("fig_3_2", "A body, a close centreline and one of its sections.")
+page.figure(
+    "fig_3_2",
+    "A body with $L \\gg D$. The centreline is close to its middle, not in it; hatched, one section.",
+)
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_3",
-    "Two centrelines for one section. Coordinates are scaled so that a director reaches the lateral surface at one.",
+    "(a) Directors may be oblique; coordinates are scaled so that they reach the lateral surface at one, which puts "
+    "$(1, 1)$ close to the boundary. $W$ and $H$ are projections of the section on their lines. (b) The rectangle of this "
+    "library's rods with its centreline below the middle.",
 )
 
 # %% [markdown]
@@ -86,10 +91,17 @@ page.figure(
 # $$
 
 # %% tags=["remove-input"]
-page.figure("fig_3_4", "Vertex 2 of the rod of Fig. 3.1(b).")
+page.figure(
+    "fig_3_4",
+    "Vertex 4 of the rod of Fig. 3.1(b), which curves down there: its turning angle is negative. Thick, its Voronoi length.",
+)
 
 # %% tags=["remove-input"]
-page.figure("fig_3_6", "The same vertex; a couple on its section makes the director lean.")
+page.figure(
+    "fig_3_6",
+    "Vertex 2 of the same rod. The angles go from the first edge to the second, and from the Bishop vector to the director, "
+    "which a couple on the section makes lean.",
+)
 
 # %% [markdown]
 # The curvature alone would call an inflated ring less bent. Its product with the stretch counts angle per *reference*
@@ -187,7 +199,8 @@ page.source(newton._Descent.run)
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_8",
-    "Computed equilibria; dotted, the reference. Thick bars hold a whole section, the thin one leaves it free to stretch.",
+    "Computed equilibria, magnified as the titles say; the directors are those of the continuous theory, of unit length in "
+    "the reference. In (d) the published rod stretches less than $n\\ell/EA$, next to which the consistent one ends.",
 )
 
 # %% [markdown]
@@ -354,7 +367,10 @@ page.source(analytic.necking_decay)
 
 # %% tags=["remove-input"]
 page.figure(
-    "fig_3_12", "Hollow, the Poisson term of eq. (3.4.11) as printed, with the published coefficient."
+    "fig_3_12",
+    "Left scales, the section's strain; right scales, how far the lateral surface moves beside the centreline, the director "
+    "displacement of the text. The published rod is compared with (3.5.9) as printed, the consistent one, whose sections are "
+    "free to contract, follows the decay of a free section. (c) the Poisson term of (3.4.11) as printed.",
 )
 
 # %% tags=["remove-input"]

@@ -16,24 +16,37 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+TABLE = Path("results/tolerances.csv")
+"""The results table of the checkout that is worked in."""
+
+
 @dataclass(frozen=True)
 class Entry:
-    """One figure: its title, the module of `cosserat.figures` that draws it, and the cases it needs."""
+    """One figure: its title, the module of `cosserat.figures` that draws it, and the cases it needs.
+
+    rows : rows of the results table whose published numbers it shows beside the cases.
+    """
 
     title: str
     module: str
     cases: tuple[str, ...]
+    rows: tuple[str, ...] = ()
 
 
 FIGURES: dict[str, Entry] = {
     "fig_directed_rod": Entry("A directed rod as the body it stands for", "chapter1", ("soft_robot",)),
-    "fig_2_1": Entry("Fig. 2.1: a stride of the earthworm", "chapter2", ("worm",)),
-    "fig_2_2": Entry("Fig. 2.2: segment 50 over three strides", "chapter2", ("worm", "worm_printed")),
+    "fig_2_1": Entry("Fig. 2.1: a stride of the earthworm", "chapter2", ("worm", "worm_printed")),
+    "fig_2_2": Entry(
+        "Fig. 2.2: segment 50 over three strides",
+        "chapter2",
+        ("worm", "worm_printed"),
+        ("2.8.6-mu1-ratio", "2.8.6-mu3-ratio", "2.8-p-longitudinal-measured", "2.8-p-circular-measured"),
+    ),
     "fig_2_5": Entry("Fig. 2.5: muscles as forces along the centreline", "chapter2", ()),
-    "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "chapter2", ("soft_robot",)),
-    "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "chapter2", ("soft_robot",)),
-    "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "chapter2", ("soft_robot",)),
-    "fig_2_11": Entry("Fig. 2.11: fronts of the protrusion-stance gait", "chapter2", ("worm",)),
+    "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "gaits", ("soft_robot",)),
+    "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "gaits", ("soft_robot",)),
+    "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "gaits", ("soft_robot",)),
+    "fig_2_11": Entry("Fig. 2.11: fronts of the protrusion-stance gait", "gaits", ("worm",)),
     "fig_2_12": Entry("Fig. 2.12: the anchored point", "chapter2", ("worm", "worm_early")),
     "fig_masses": Entry(
         "Earthworms of every size",
@@ -97,23 +110,27 @@ FIGURES: dict[str, Entry] = {
 """Figures by the name of the function that draws them."""
 
 
-def draw(name: str, data: Mapping[str, xr.Dataset]) -> Figure | str:
+def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figure | str:
     """Draw a figure, or the text of an animated SVG, from its Datasets by case name.
+
+    table : the results table, read where the figure shows published numbers.
 
     Raises
     ------
-    InputError : no figure of that name.
+    InputError : no figure of that name, or the table lacks a row that it shows.
     """
     from cosserat.figures.style import settings
 
-    module = importlib.import_module(f"cosserat.figures.{entry(name).module}")
+    found = entry(name)
+    module = importlib.import_module(f"cosserat.figures.{found.module}")
+    published = (_published(found.rows, table),) if found.rows else ()
     with settings():
-        figure: Figure | str = getattr(module, name)(data)
+        figure: Figure | str = getattr(module, name)(data, *published)
     return figure
 
 
-def draw_to(name: str, folder: Path, path: Path) -> None:
-    """Draw a figure from the files `<case>.nc` of a folder and write it as SVG.
+def draw_to(name: str, folder: Path, path: Path, table: Path = TABLE) -> None:
+    """Draw a figure from the files `<case>.nc` of a folder and the results table, and write it as SVG.
 
     Raises
     ------
@@ -124,7 +141,19 @@ def draw_to(name: str, folder: Path, path: Path) -> None:
     from cosserat.figures.style import write
 
     check_destination(path, ".svg")
-    write(draw(name, {case: load(folder / f"{case}.nc") for case in entry(name).cases}), path)
+    data = {case: load(folder / f"{case}.nc") for case in entry(name).cases}
+    write(draw(name, data, table), path)
+
+
+def _published(rows: tuple[str, ...], table: Path) -> dict[str, float]:
+    """The published numbers of rows by their ids, in their SI units."""
+    from cosserat.table.tolerances import read_table
+
+    known = {row.id: row.expected for row in read_table(table) if row.expected is not None}
+    missing = [name for name in rows if name not in known]
+    if missing:
+        raise InputError(f"{table} has no printed number {', '.join(missing)}; restore it")
+    return {name: known[name] for name in rows}
 
 
 def entry(name: str) -> Entry:

@@ -10,10 +10,16 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.figures.crawlers import crawler_of
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import COMPUTED, EXACT, INK, PAPER, VARIANT, canvas
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
+
+_CLEAR = {
+    "facecolor": PAPER,
+    "edgecolor": "none",
+    "pad": 1.0,
+}  # behind a label that stands on the surface
 
 
 def surface(state: xr.Dataset, radius: float, around: Array) -> Array:
@@ -51,8 +57,10 @@ def fig_directed_rod(data: Data) -> Figure:
             arrow = {"arrowstyle": "-|>", "color": VARIANT, "shrinkA": 0, "shrinkB": 0}
             ax.annotate("", tuple(head), tuple(foot), arrowprops=arrow)
             if k == 2:
-                ax.annotate(rf"$R\,\mathbf{{d}}_{number}$", tuple(head + 0.2), color=VARIANT)
-    ax.annotate(r"$\mathbf{r}$", tuple(_oblique(r[-1:])[0] + 0.2), color=INK)
+                ax.annotate(
+                    rf"$R\,\mathbf{{d}}_{number}$", tuple(head + 0.2), color=VARIANT, bbox=_CLEAR
+                )
+    ax.annotate(r"$\mathbf{r}$", tuple(_oblique(r[-1:])[0] + [1.0, 0.0]), color=INK)
     ax.set_aspect("equal")
     ax.set(xlabel=r"along $\mathbf{E}_3$ [cm]", ylabel=r"along $\mathbf{E}_1$ [cm]")
     return figure

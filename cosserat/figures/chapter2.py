@@ -9,49 +9,109 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosserat.figures import crawlers
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas, over_one
+from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.models import doublets
 from cosserat.models.earthworm import SEGMENT_50
-from cosserat.models.gait import Gait
-from cosserat.table.crawl_readouts import SLOPES, crawl, instants_per_stride, segment, slope
+from cosserat.table.crawl_readouts import (
+    LONGITUDINAL,
+    SLOPES,
+    at_phase,
+    crawl,
+    instants_per_stride,
+    segment,
+    slope,
+)
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
+_TALL = 3.0  # how much heights are magnified in Fig. 2.1
+
 
 def fig_2_1(data: Data) -> Figure:
-    """One stride of the worm at the six times of the page, segment 50 in black."""
-    run = data["worm"]
+    """One stride of the worm at six times, segment 50 in black; dotted, by the printed equations."""
+    run, printed = data["worm"], data["worm_printed"]
     phases = [0, 1 / 3, 2 / 3, 1, 1.5, 2]
+    names = ("0", "t_p/3", "2t_p/3", "t_p", "t_p + t_s/2", "t_p + t_s")
     gait = crawl(run).gait
-    indices = [int(np.abs(run.time.to_numpy() - gait.time(p)).argmin()) for p in phases]
-    labels = [f"$t_{k}$ = {gait.time(p):.2f} s" for k, p in enumerate(phases, start=1)]
-    return crawlers.snapshots(run, indices, labels, SEGMENT_50)
+    indices = [crawlers.nearest(run, gait.time(p)) for p in phases]
+    labels = [
+        f"$t_{k} = {name}$" + (f"\n= {gait.time(p):.2f} s" if p else " s")
+        for k, (p, name) in enumerate(zip(phases, names, strict=True), start=1)
+    ]
+    figure, (ax,) = canvas(7.2, 5.4)
+    crawlers.draw_snapshots(ax, run, indices, labels, mark=SEGMENT_50, tall=_TALL)
+    lane, height = crawlers.lane_height(run, _TALL), 2e2 * _TALL * crawl(run).crawler.radius
+    for number, p in enumerate(phases):
+        state = printed.isel(time=crawlers.nearest(printed, gait.time(p)))
+        along, top = 1e2 * state.along.to_numpy(), height * state.mu_1.to_numpy() - lane * number
+        ax.plot(
+            np.r_[along[0], along, along[-1]],
+            np.r_[-lane * number, top, -lane * number],
+            color=INK,
+            linestyle=":",
+            linewidth=1.2,
+        )
+    reach = 1e2 * np.array([run.along[indices], printed.along[indices]])
+    ax.set(xlim=(reach.min() - 0.5, reach.max() + 0.5), title=f"heights × {_TALL:g}")
+    looks = [
+        *crawlers.legend_of_bodies(),
+        Patch(facecolor="black", label="segment 50"),
+        Line2D([], [], color=INK, linestyle=":", label="by (2.2.20), (2.4.18) as printed"),
+    ]
+    figure.legend(handles=looks, loc="outside lower center", ncols=5, fontsize=8)
+    return figure
 
 
-def fig_2_2(data: Data) -> Figure:
-    """Stretches and pressure of segment 50 over the strides: corrected, and as printed."""
-    figure, (top, bottom) = canvas(7.2, 4.6, 2, 1)
+def fig_2_2(data: Data, published: Mapping[str, float]) -> Figure:
+    """Stretches and pressure of segment 50 over the strides, corrected and as printed, beside what Quillin measured."""
+    figure, (top, bottom) = canvas(7.2, 5.4, 2, 1)
     for name, style in (("worm", "-"), ("worm_printed", ":")):
         run = segment(data[name])
-        for variable, colour in (("mu_1", COMPUTED), ("mu_3", VARIANT)):
-            top.plot(run.time, run[variable], style, color=colour)
+        for variable, colour in crawlers.STRETCHES.items():
+            top.plot(run.time, run[variable], style, color=colour, linewidth=crawlers.WIDTHS[variable])
         bottom.plot(run.time, run.p_coelom / 1e3, style, color=INK)
+    for variable in ("mu_1", "mu_3"):
+        ratio = published[f"2.8.6-{variable.replace('_', '')}-ratio"]
+        level = ratio * float(at_phase(data["worm"], LONGITUDINAL)[variable])
+        _measured(top, level, rf"{ratio:g} $\{variable}|_{{long}}$")
+    for load in ("longitudinal", "circular"):
+        level = published[f"2.8-p-{load}-measured"] / 1e3
+        _measured(bottom, level, f"{level:g} kPa")
     looks = [
-        Line2D([], [], color=COMPUTED, label=r"$\mu_1$"),
-        Line2D([], [], color=VARIANT, label=r"$\mu_3$"),
-        Line2D([], [], color=EXACT, label="corrected"),
-        Line2D([], [], color=EXACT, linestyle=":", label="(2.4.18), (2.2.20) as printed"),
+        *(
+            Line2D([], [], color=c, linewidth=crawlers.WIDTHS[v], label=rf"$\{v}$")
+            for v, c in crawlers.STRETCHES.items()
+        ),
+        Line2D([], [], color=INK, label="corrected"),
+        Line2D([], [], color=INK, linestyle=":", label="(2.2.20), (2.4.18) as printed"),
+        Line2D([], [], color=EXACT, linestyle="--", label="measured by Quillin"),
     ]
     top.set(xlabel="time [s]", ylabel="stretch [1]", title="(a) stretches of segment 50")
     bottom.set(
         xlabel="time [s]", ylabel=r"$p_{coelom}$ [kPa]", title="(b) coelomic pressure of segment 50"
     )
-    figure.legend(handles=looks, loc="outside lower center", ncols=4)
+    figure.legend(handles=looks, loc="outside lower center", ncols=6, fontsize=8)
     return figure
+
+
+def _measured(ax: Axes, level: float, label: str) -> None:
+    """A measured level, its number at the right edge."""
+    ax.axhline(level, color=EXACT, linestyle="--", linewidth=1.0, zorder=1)
+    ax.annotate(
+        label,
+        (1, level),
+        xycoords=("axes fraction", "data"),
+        xytext=(3, 0),
+        textcoords="offset points",
+        va="center",
+        color=EXACT,
+        fontsize=8,
+    )
 
 
 def fig_2_5(_: Data) -> Figure:
@@ -62,12 +122,13 @@ def fig_2_5(_: Data) -> Figure:
         xi, doublets.load(xi, one, 0.3, 1.0) / 10, color=COMPUTED, label=r"load, in $10\,P$ per length"
     )
     left.plot(xi, doublets.contact_force(xi, one, 0.3, 1.0), color=VARIANT, label="$n / P$")
-    left.annotate(r"$\lambda$", (0.5, 0.72), ha="center")
-    left.annotate("", (0.35, 0.7), (0.65, 0.7), arrowprops={"arrowstyle": "<->", "color": INK})
+    left.annotate(r"$\lambda$", (0.5, 0.79), ha="center")
+    left.annotate("", (0.35, 0.74), (0.65, 0.74), arrowprops={"arrowstyle": "<->", "color": INK})
     left.set(
         xlabel=r"$\xi$ [length]",
         ylabel="load and force [$P$]",
         title="(a) one muscle in a window $\\lambda$",
+        ylim=(-1.5, 1.0),
     )
     left.legend(loc="lower left", fontsize=8)
     for count, colour in ((2, "#b8cfe4"), (6, "#6fa1cc"), (40, COMPUTED)):
@@ -76,48 +137,14 @@ def fig_2_5(_: Data) -> Figure:
             xi, doublets.contact_force(xi, centres, width, 1.0), color=colour, label=f"{count} muscles"
         )
     right.plot([0.25, 0.25, 0.75, 0.75], [0, -1, -1, 0], color=EXACT, linestyle="--", label="(2.2.7)")
-    right.set(xlabel=r"$\xi$ [length]", ylabel="$n / P$ [1]", title=r"(b) muscles from 0.25 to 0.75")
-    right.legend(loc="center", fontsize=8)
-    return figure
-
-
-def fig_2_7(data: Data) -> Figure:
-    """A cycle of push and pull: the robot at equal steps of its fronts."""
-    run = data["soft_robot"]
-    phases = [0, 1.5, 2, 2.5, 3, 3.5, 4]
-    gait = crawl(run).gait
-    first = run.time.to_numpy()
-    indices = [int(np.abs(first - gait.time(p)).argmin()) for p in phases]
-    return crawlers.snapshots(run, indices, [f"{first[i]:.1f} s" for i in indices], None)
-
-
-def fig_2_8(data: Data) -> Figure:
-    """The fronts of the robot's gait over both cycles."""
-    return _fronts(data["soft_robot"])
-
-
-def fig_2_9(data: Data) -> Figure:
-    """The robot while it crawls: its ends, its anchor, and its shape on the ground at the start of every cycle."""
-    run = data["soft_robot"]
-    figure, (left, right, below) = over_one(7.2, 6.6, (1.0, 1.1))
-    _paths(left, run)
-    for variable, colour, label in (("mu_1", COMPUTED, r"$\mu_1$"), ("mu_3", VARIANT, r"$\mu_3$")):
-        middle = run.isel(time=int(np.abs(run.time.to_numpy() - 12.5).argmin()))
-        right.plot(run.xi_section * 1e2, middle[variable], color=colour, label=label)
     right.set(
-        xlabel=r"$\xi$ [cm]", ylabel="stretch [1]", title="(b) stretches when $\\eta$ appears, 12.5 s"
+        xlabel=r"$\xi$ [length]",
+        ylabel="$n / P$ [1]",
+        title=r"(b) muscles from 0.25 to 0.75",
+        ylim=(-1.5, 0.06),
     )
-    right.legend()
-    starts = list(range(0, run.sizes["time"], instants_per_stride(run)))
-    labels = [f"{float(run.time[k]):.1f} s" for k in starts]
-    crawlers.draw_snapshots(below, run, starts, labels, None)
-    below.set_title("(c) at the start of every cycle and at the end of the last")
+    right.legend(loc="lower center", ncols=2, fontsize=8)
     return figure
-
-
-def fig_2_11(data: Data) -> Figure:
-    """The fronts of the worm's gait."""
-    return _fronts(data["worm"])
 
 
 def fig_2_12(data: Data) -> Figure:
@@ -187,33 +214,3 @@ def anim_robot(data: Data) -> str:
     """Two cycles of the robot, four times as fast."""
     run = data["soft_robot"]
     return crawlers.animation(run, seconds=float(run.time[-1]) / 4)
-
-
-def _fronts(run: xr.Dataset) -> Figure:
-    """gamma and eta over time, a front that has left the body not drawn."""
-    figure, (ax,) = canvas(7.2, 2.6)
-    problem = crawl(run)
-    gait = problem.gait
-    phases = np.linspace(0, len(gait.phases), 601)
-    for kind, colour in (("gamma", crawlers.GAMMA), ("eta", crawlers.ETA)):
-        for stride in range(problem.strides):
-            times = np.array([gait.time(p) for p in phases]) + stride * gait.duration
-            places = np.array([_front(gait, kind, p) for p in phases])
-            label = rf"$\{kind} / \ell_0$" if stride == 0 else None
-            ax.plot(times, places, color=colour, label=label)
-    ax.set(xlabel="time [s]", ylabel="place [1]", ylim=(-0.03, 1.03))
-    ax.legend(loc="upper right")
-    return figure
-
-
-def _front(gait: Gait, kind: str, phase: float) -> float:
-    found = [place for place, name in gait.fronts(phase) if name == kind]
-    return found[0] if found else np.nan
-
-
-def _paths(ax: Axes, run: xr.Dataset) -> None:
-    for section, label, colour in ((0, "rear end", COMPUTED), (-1, "front end", INK)):
-        ax.plot(run.time, run.along.isel(section=section) * 1e2, color=colour, label=label)
-    ax.plot(run.time, run.anchor_along * 1e2, ".", color=VARIANT, markersize=3, label="anchor")
-    ax.set(xlabel="time [s]", ylabel="along the ground [cm]", title="(a) paths")
-    ax.legend(fontsize=8)

@@ -6,12 +6,25 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosserat import analytic
-from cosserat.figures.rod import draw_body
-from cosserat.figures.style import canvas, computed_points, exact_curve, plain_points
+from cosserat.figures.rod import draw_loads, draw_outline, draw_supports
+from cosserat.figures.style import (
+    BODY,
+    COMPUTED,
+    CONSISTENT,
+    EXACT,
+    INK,
+    canvas,
+    computed_points,
+    exact_curve,
+    plain_points,
+)
 from cosserat.models.calibration import beam_of
 from cosserat.table.readouts import problem_of, tension_of, weight_of
 
@@ -23,28 +36,61 @@ _FINE = 401  # points of a closed form's curve
 
 
 def fig_3_8(data: Data) -> Figure:
-    """The four equilibria, displacements magnified, and the centreline of the consistent rod."""
-    figure, axes = canvas(7.2, 3.7, 2, 2)
+    """The four equilibria, magnified, with directors of unit length, and the centreline of the consistent rod."""
+    figure, axes = canvas(7.2, 4.5, 2, 2)
     panels = [
-        ("hanging_bar", "(a) hanging bar", 5_000),
-        ("clamped_free", "(b) clamped-free beam", 20),
-        ("clamped_clamped", "(c) clamped-clamped beam", 500),
-        ("necking", "(d) necking", 80_000),
+        ("hanging_bar", "(a) hanging bar: × 5000", 5_000, 5_000),
+        ("clamped_free", "(b) clamped-free beam: × 20", 20, 20),
+        ("clamped_clamped", "(c) clamped-clamped beam: × 500", 500, 500),
+        ("necking", "(d) necking: × 80 000, sections × 400 000", 80_000, 400_000),
     ]
-    for ax, (name, title, magnified) in zip(axes, panels, strict=True):
-        draw_body(ax, data[name], magnified)
-        other = data[f"{name}_consistent"]
-        place = (other.x_ref + magnified * other.u).to_numpy()
-        plain_points(ax, place[:, 0], place[:, 1])
-        ax.set_title(f"{title}, displacements × {magnified}")
+    for ax, (name, title, magnified, sections) in zip(axes, panels, strict=True):
+        _equilibrium(ax, data[name], data[f"{name}_consistent"], magnified, sections)
+        ax.set_title(title)
         ax.set_aspect("equal")
         ax.set(
-            xlim=(-0.9, 7.3),
-            ylim=(-1.15, 1.6),
+            xlim=(-1.1, 7.7),
+            ylim=(-1.3, 2.1),
             xlabel=r"along $\mathbf{E}_3$ [m]",
             ylabel=r"along $\mathbf{E}_2$ [m]",
         )
+    problem = problem_of(data["necking"])
+    beam = beam_of(problem)
+    end = beam.length * (1 + panels[-1][2] * tension_of(problem) / beam.axial_stiffness)
+    axes[-1].plot([end, end], [-0.8, 0.8], color=EXACT, linestyle="-.", label=r"elongation $n\ell/EA$")
+    looks = [
+        Line2D([], [], color=EXACT, linestyle=":", label="reference"),
+        Patch(facecolor=BODY, edgecolor=COMPUTED, label="body"),
+        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label="centreline"),
+        Line2D([], [], color=COMPUTED, marker="^", label="directors of unit length"),
+        Line2D([], [], color=INK, linewidth=3, label="section held"),
+        Line2D([], [], color=INK, linewidth=1.2, label="section held, free to stretch"),
+        *axes[-1].get_legend_handles_labels()[0],
+    ]
+    figure.legend(handles=looks, loc="outside lower center", ncols=4, fontsize=8)
     return figure
+
+
+def _equilibrium(
+    ax: Axes, run: xr.Dataset, other: xr.Dataset, magnified: float, sections: float
+) -> None:
+    """The body with its supports and loads; what sections do beside the centreline is magnified on its own."""
+    problem = problem_of(run)
+    X, D = run.x_ref.to_numpy(), run.d_ref.to_numpy()
+    x, d = X + magnified * run.u.to_numpy(), D + sections * run.delta.to_numpy()
+    unit = d / np.linalg.norm(D, axis=1)[:, None]
+    draw_outline(ax, X, D, problem, facecolor="none", edgecolor=EXACT, linestyle=":")
+    draw_outline(ax, x, d, problem, facecolor=BODY, edgecolor=COMPUTED)
+    ax.quiver(
+        *x.T, *unit.T, angles="xy", scale_units="xy", scale=1, color=COMPUTED, width=0.004, headwidth=4
+    )
+    ax.plot(*x.T, color=INK, linestyle="--", linewidth=0.9)
+    draw_supports(ax, problem, x, D)
+    place = (other.x_ref + magnified * other.u).to_numpy()
+    plain_points(ax, place[:, 0], place[:, 1])
+    ends = x.copy()
+    ends[-1] = max(x[-1], place[-1], key=lambda point: float(point[0]))
+    draw_loads(ax, problem, ends, unit)
 
 
 def fig_3_9(data: Data) -> Figure:
@@ -132,37 +178,61 @@ def _beam(
         ylabel=r"$\boldsymbol{\delta} \cdot \mathbf{E}_3$ at the surface [mm]",
         title="(b) directors",
     )
-    left.legend()
-    right.legend()
+    left.legend(fontsize=8)
+    right.legend(fontsize=8)
     return figure
 
 
 def fig_3_12(data: Data) -> Figure:
-    """Necking: the section strain, the page's decay and ours, and the coupling as printed."""
-    figure, (left, right) = canvas(7.2, 3.3, 1, 2)
-    necked, printed = data["necking"], data["necking_printed"]
+    """Necking: strains and displacements of the directors, three decays, and the coupling as printed."""
+    figure = Figure(figsize=(7.2, 6.4), layout="constrained")
+    panels = figure.subplot_mosaic([["a", "b"], ["c", "c"]], height_ratios=[1.5, 1])
+    necked, printed, free = data["necking"], data["necking_printed"], data["necking_consistent"]
     problem = problem_of(necked)
     beam, n, xi, fine = beam_of(problem), tension_of(problem), necked.xi.to_numpy(), _fine(necked)
-    theories: list[tuple[analytic.NeckingTheory, str]] = [
-        ("printed", r"eqs. (3.5.8), (3.5.9) as printed"),
-        ("two directors", r"(3.5.8), $\beta$ of two directors"),
+    theories: list[tuple[analytic.NeckingTheory, str, str]] = [
+        ("printed", "(3.5.8), (3.5.9) as printed", "-"),
+        ("two directors", r"(3.5.8), $\beta$ of two directors", "--"),
+        ("free section", r"(3.5.8), $\beta$ of a free section", "-."),
     ]
-    for ax in (left, right):
-        for theory, label in theories:
+    for letter, title in (
+        ("a", "(a) whole bar"),
+        ("b", "(b) beside the held end"),
+        ("c", "(c) with the coupling as printed"),
+    ):
+        ax = panels[letter]
+        for theory, label, line in theories if letter != "c" else theories[:1]:
             curve = analytic.necking_strain(beam, n, analytic.necking_decay(beam, theory), fine)
-            exact_curve(ax, fine, curve * 1e6, label, dashed=theory != "printed")
-        computed_points(ax, xi, (necked.lam.to_numpy() - 1) * 1e6, "discrete rod, half coupling")
-        ax.set(xlabel=_ALONG, ylabel=r"section strain $\lambda - 1$ [$10^{-6}$]")
-    free = data["necking_consistent"]
-    for ax in (left, right):
-        plain_points(ax, free.xi.to_numpy(), (free.lam.to_numpy() - 1) * 1e6)
-    computed_points(left, xi, (printed.lam.to_numpy() - 1) * 1e6, "coupling as printed", variant=True)
-    left.set_title("(a) whole bar")
-    left.legend(loc="center")
-    right.set_title("(b) beside the held end")
-    right.set_xlim(-0.03, 1.1)
-    right.set_ylim(-1.35, 0.05)
+            colour = CONSISTENT if theory == "free section" else EXACT
+            ax.plot(fine, curve * 1e6, color=colour, linestyle=line, label=label, zorder=2)
+        if letter == "c":
+            computed_points(
+                ax,
+                xi,
+                (printed.lam.to_numpy() - 1) * 1e6,
+                "discrete rod, coupling as printed",
+                variant=True,
+            )
+        else:
+            computed_points(ax, xi, (necked.lam.to_numpy() - 1) * 1e6, "discrete rod, half coupling")
+            plain_points(ax, free.xi.to_numpy(), (free.lam.to_numpy() - 1) * 1e6)
+        ax.set(xlabel=_ALONG, ylabel=r"section strain $\lambda - 1$ [$10^{-6}$]", title=title)
+        _at_surface(ax, problem.rod.height / 2)
+    panels["b"].set_xlim(-0.03, 1.1)
+    handles, labels = panels["a"].get_legend_handles_labels()
+    more = panels["c"].get_legend_handles_labels()
+    figure.legend(
+        [*handles, more[0][-1]], [*labels, more[1][-1]], loc="outside lower center", ncols=3, fontsize=8
+    )
     return figure
+
+
+def _at_surface(ax: Axes, reach: float) -> None:
+    """A second scale: how far the surface, `reach` from the centreline, moves beside it [um]."""
+    second = ax.secondary_yaxis(
+        "right", functions=(lambda e: np.asarray(e) * reach, lambda u: np.asarray(u) / reach)
+    )
+    second.set_ylabel(r"$\boldsymbol{\delta} \cdot \mathbf{E}_2$ [µm]")
 
 
 def _fine(data: xr.Dataset) -> Array:

@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
-from cosserat.models.peristalsis import CrawlerProblem
+from cosserat.models.peristalsis import Crawl, CrawlerProblem
 from cosserat.table.crawl_readouts import crawl
 
 Array = NDArray[np.float64]
 
 THINNED = "#f3d3a8"  # where advancing loads act
-GAMMA, ETA = "#3a7d44", "#0b5fa5"
+GAMMA, ETA, ANCHOR = "#3a7d44", "#0b5fa5", "#c1121f"  # green, blue and red, as Fig. 2.7 has them
+FRONTS = {"gamma": GAMMA, "eta": ETA}
+STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
+WIDTHS = {"mu_1": 2.4, "mu_2": 1.0, "mu_3": 1.4}  # mu_2 lies on mu_1 but for the weight
 _WIDTH, _MARGIN = 720, 14  # of an animation, in pixels
 _SHOWN = 126  # sections of an animated outline
 
@@ -32,16 +38,21 @@ def crawler_of(data: xr.Dataset) -> CrawlerProblem:
 
 
 def draw_crawler(
-    ax: Axes, state: xr.Dataset, radius: float, *, base: float = 0.0, mark: float | None = None
+    ax: Axes,
+    state: xr.Dataset,
+    radius: float,
+    *,
+    base: float = 0.0,
+    mark: float | None = None,
+    tall: float = 1.0,
 ) -> None:
     """The lateral surface of one instant from the side, the ground at `base`, in cm.
 
-    mark : share of the length at which a section is marked in black.
+    mark : share of the length at which a section is marked in black.  tall : how much heights are magnified.
     """
     along = state.along.to_numpy() * 1e2
-    top = (
-        2 * radius * state.mu_1.to_numpy() * 1e2 + base
-    )  # the ground is where the sections touch it, (2.2.16)
+    # the ground is where the sections touch it, (2.2.16)
+    top = 2 * tall * radius * state.mu_1.to_numpy() * 1e2 + base
     thin = state.advancing.to_numpy() > 0.5
     ax.fill_between(along, base, top, color=BODY, linewidth=0)
     for run in _runs(thin):
@@ -55,28 +66,23 @@ def draw_crawler(
         ax.fill_between(along[k - 1 : k + 2], base, top[k - 1 : k + 2], color="black", linewidth=0)
     if "anchor_along" in state:
         foot = float(state.anchor_along) * 1e2
-        ax.plot([foot], [base], marker="^", color=VARIANT, markersize=6, clip_on=False, zorder=5)
-
-
-def snapshots(data: xr.Dataset, indices: list[int], labels: list[str], mark: float | None) -> Figure:
-    """Instants of a crawl below each other, on one scale along the ground."""
-    reach = 1e2 * np.array([data.along[indices].min(), data.along[indices].max()])
-    width = 7.2
-    scale = (width - 1.0) / (reach[1] - reach[0] + 1)
-    height = scale * _lane(data) * len(indices) * 1.05 + 0.7
-    figure, (ax,) = canvas(width, max(2.6, height))
-    draw_snapshots(ax, data, indices, labels, mark)
-    return figure
+        ax.plot([foot], [base], marker="^", color=ANCHOR, markersize=6, clip_on=False, zorder=5)
 
 
 def draw_snapshots(
-    ax: Axes, data: xr.Dataset, indices: list[int], labels: list[str], mark: float | None
+    ax: Axes,
+    data: xr.Dataset,
+    indices: list[int],
+    labels: list[str],
+    *,
+    mark: float | None = None,
+    tall: float = 1.0,
 ) -> None:
     """Instants of a crawl below each other, each in its lane with its label at the left, in cm."""
-    radius, lane = crawl(data).crawler.radius, _lane(data)
+    radius, lane = crawl(data).crawler.radius, lane_height(data, tall)
     for number, (index, label) in enumerate(zip(indices, labels, strict=True)):
         base = -lane * number
-        draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark)
+        draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark, tall=tall)
         ax.axhline(base, color=INK, linewidth=0.6)
         ax.annotate(
             label,
@@ -88,14 +94,59 @@ def draw_snapshots(
         )
     left, right = (1e2 * float(end) for end in (data.along[indices].min(), data.along[indices].max()))
     ax.set(xlabel="along the ground [cm]", yticks=[], xlim=(left - 0.5, right + 0.5))
+    ax.set_ylim(-lane * (len(indices) - 1) - 0.25 * lane, 0.9 * lane)
     ax.set_aspect("equal")
     ax.grid(visible=False, axis="y")
     ax.spines["left"].set_visible(False)
 
 
-def _lane(data: xr.Dataset) -> float:
+def draw_fronts(ax: Axes, data: xr.Dataset, indices: list[int]) -> None:
+    """The fronts on the body at instants drawn by `draw_snapshots`: a line across it, its letter above."""
+    lane, height = lane_height(data), 2e2 * crawl(data).crawler.radius
+    for number, index in enumerate(indices):
+        state = data.isel(time=index)
+        for place, kind in fronts_on_the_body(crawl(data), float(state.time)):
+            at = 1e2 * float(np.interp(place, np.linspace(0, 1, state.sizes["section"]), state.along))
+            base, colour = -lane * number, FRONTS[kind]
+            ax.plot([at, at], [base, base + 1.08 * height], color=colour, linewidth=2.2)
+            ax.annotate(
+                rf"$\{kind}$",
+                (at, base + 1.08 * height),
+                xytext=(0, 3),
+                textcoords="offset points",
+                color=colour,
+                ha="center",
+                va="bottom",
+            )
+
+
+def fronts_on_the_body(problem: Crawl, time: float) -> list[tuple[float, str]]:
+    """Places in shares of the length, and kinds, of the fronts at a time [s]; one that is at an end has left."""
+    gait = problem.gait
+    share = time / gait.duration - min(int(time / gait.duration + 1e-9), problem.strides - 1)
+    starts = np.concatenate([[0.0], np.cumsum(gait.phases)])
+    phase = float(np.interp(share * gait.duration, starts, np.arange(starts.size)))
+    near = gait.clearance
+    return [front for front in gait.fronts(phase) if near < front[0] < 1 - near]
+
+
+def lane_height(data: xr.Dataset, tall: float = 1.0) -> float:
     """Height that a crawler takes in a row of snapshots, in cm."""
-    return 2e2 * crawl(data).crawler.radius * 1.4
+    return 2e2 * tall * crawl(data).crawler.radius * 1.4
+
+
+def legend_of_bodies() -> list[Artist]:
+    """What the colours and the triangle of a drawn crawler mean."""
+    return [
+        Patch(facecolor=BODY, label="anchoring load"),
+        Patch(facecolor=THINNED, label="advancing load"),
+        Line2D([], [], color=ANCHOR, marker="^", linestyle="none", label="anchor"),
+    ]
+
+
+def nearest(data: xr.Dataset, time: float) -> int:
+    """Index of the stored instant nearest to a time [s]."""
+    return int(np.abs(data.time.to_numpy() - time).argmin())
 
 
 def picture(data: xr.Dataset) -> Figure:
@@ -106,12 +157,8 @@ def picture(data: xr.Dataset) -> Figure:
     draw_crawler(body, last, problem.crawler.radius)
     body.set_aspect("equal", adjustable="datalim")
     body.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=data.attrs["title"])
-    for name, label, colour in (
-        ("mu_1", r"$\mu_1$", COMPUTED),
-        ("mu_2", r"$\mu_2$", GAMMA),
-        ("mu_3", r"$\mu_3$", VARIANT),
-    ):
-        curves.plot(data.xi_section * 1e2, last[name], color=colour, label=label)
+    for name, colour in STRETCHES.items():
+        curves.plot(data.xi_section * 1e2, last[name], color=colour, label=rf"$\{name}$")
     curves.set(xlabel=r"arc length $\xi$ [cm]", ylabel="stretch [1]")
     curves.legend(ncols=3)
     if "time" not in data.sizes:
@@ -120,7 +167,7 @@ def picture(data: xr.Dataset) -> Figure:
         return figure
     for section, label in ((0, "rear end"), (-1, "front end")):
         path.plot(data.time, data.along.isel(section=section) * 1e2, label=label)
-    path.plot(data.time, data.anchor_along * 1e2, ".", color=VARIANT, markersize=2, label="anchor")
+    path.plot(data.time, data.anchor_along * 1e2, ".", color=ANCHOR, markersize=2, label="anchor")
     path.set(xlabel="time [s]", ylabel="along the ground [cm]")
     path.legend(ncols=3)
     return figure
@@ -171,7 +218,7 @@ def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) ->
     height = int(ground + 13 + _MARGIN)
     parts += [
         f'<path d="M0 {ground:.1f}H{_WIDTH}" stroke="{INK}"/>',
-        shape(anchors, f'fill="{VARIANT}"'),
+        shape(anchors, f'fill="{ANCHOR}"'),
     ]
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {height}" width="{_WIDTH}">'

@@ -35,6 +35,7 @@ _SETTINGS: Any = {
     "axes.titlesize": 9,
     "axes.titlelocation": "left",
     "axes.grid": True,
+    "axes.axisbelow": True,
     "grid.color": "#e6e6e6",
     "grid.linewidth": 0.6,
     "legend.frameon": False,
@@ -55,13 +56,6 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.subplots(rows, columns, squeeze=False)
     return figure, [ax for line in axes for ax in line]
-
-
-def over_one(width: float, height: float, shares: tuple[float, float]) -> tuple[Figure, list[Axes]]:
-    """Two axes beside each other over a wide one, with these shares of the height."""
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = figure.subplot_mosaic([["a", "b"], ["c", "c"]], height_ratios=shares)
-    return figure, [axes[name] for name in "abc"]
 
 
 def write(figure: Figure | str, path: Path) -> None:
