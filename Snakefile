@@ -1,6 +1,8 @@
 """Cases to netCDF, netCDF to the judged table and the figures, all of that to the book.  `snakemake all`."""
 
+import fcntl
 import os
+import shutil
 import sys
 
 from snakemake.utils import min_version
@@ -10,6 +12,11 @@ from cosserat.data.provenance import computing_sources
 from cosserat.figures.catalogue import FIGURES
 
 min_version("9.0")
+
+
+workdir: workflow.basedir
+
+
 os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get_exec_path()]))
 
 CASES = published()
@@ -24,6 +31,28 @@ def package(*names):
     folders = [os.path.join("cosserat", name) for name in names]
     files = [os.path.join(folder, file) for folder in folders for file in os.listdir(folder)]
     return sorted(file for file in files if file.endswith((".py", ".css")))
+
+
+def only_run_here():
+    """Wait for whoever makes results in this folder; the locks that Snakemake finds after that are nobody's.
+
+    The file is held by this process and by each of its jobs, also by one that outlives a kill.
+    """
+    os.makedirs(".snakemake", exist_ok=True)
+    held = open(".snakemake/held", "w")
+    try:
+        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        print("waiting for another run in this folder, or for jobs that a killed one left", file=sys.stderr)
+        fcntl.flock(held, fcntl.LOCK_EX)
+    shutil.rmtree(".snakemake/locks", ignore_errors=True)
+    fcntl.flock(held, fcntl.LOCK_SH)
+    return held
+
+
+HELD = only_run_here()
+HOLD = "exec 9<.snakemake/held; python -IS -c 'import fcntl; fcntl.flock(9, fcntl.LOCK_SH)'; "
+shell.prefix(f"set -euo pipefail; {HOLD}")
 
 
 wildcard_constraints:
