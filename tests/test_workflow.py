@@ -196,11 +196,14 @@ def test_a_case_that_cannot_be_solved_stops_the_workflow_with_its_sentence(check
 
 
 def test_the_workflow_may_be_called_from_another_folder(checkout, tmp_path):
+    target = checkout / "results/cases/hanging_bar.nc"
+    target.unlink()
     code, text = call(
-        checkout, "snakemake", "--snakefile", checkout / "Snakefile", *TARGETS, cwd=tmp_path
+        checkout, "snakemake", "-s", checkout / "Snakefile", "results/cases/hanging_bar.nc", cwd=tmp_path
     )
     assert code == 0, text
-    assert "Nothing to be done" in text
+    assert target.is_file()
+    assert {file.name for file in tmp_path.iterdir()} == {".snakemake"}  # its protocol alone
 
 
 SOME = ("necking", "hanging_bar", "clamped_free")
@@ -232,30 +235,33 @@ def read_until(process, words):
 
 def test_the_same_command_goes_on_after_a_kill_at_any_moment(checkout):
     """Of the whole group, or of Snakemake alone, whose job then lives on and is waited for."""
+    code, text = snakemake(checkout, *AGAIN)
+    assert code == 0, text
     before = {name: (checkout / name).read_bytes() for name in AGAIN}
     for moment in ("Building DAG", "rule simulate", "Finished jobid", "alone"):
-        running = started(checkout, *AGAIN, "--forceall")
-        said = read_until(running, "rule simulate" if moment == "alone" else moment)
-        assert said, moment
-        (os.kill if moment == "alone" else os.killpg)(running.pid, signal.SIGKILL)
-        running.wait()
+        with started(checkout, *AGAIN, "--forceall") as running:
+            words = "rule simulate" if moment == "alone" else moment
+            assert words in read_until(running, words)
+            (os.kill if moment == "alone" else os.killpg)(running.pid, signal.SIGKILL)
         code, text = snakemake(checkout, *AGAIN)
         assert code == 0, moment + text
         assert {name: (checkout / name).read_bytes() for name in AGAIN} == before
-        assert planned(checkout) == (set(), set())
 
 
 def test_a_run_whose_owner_lives_is_waited_for(checkout):
-    with (checkout / ".snakemake/held").open() as held:
-        fcntl.flock(held, fcntl.LOCK_SH)  # as a running job holds it
-        (checkout / ".snakemake/locks").mkdir(exist_ok=True)
-        (checkout / ".snakemake/locks/0.output.lock").write_text(AGAIN[0] + "\n")
-        second = started(checkout, *AGAIN)
+    left = checkout / ".snakemake/locks/0.output.lock"
+    held = (checkout / ".snakemake/held").open()
+    fcntl.flock(held, fcntl.LOCK_SH)  # as a running job holds it
+    left.parent.mkdir(exist_ok=True)
+    left.write_text(AGAIN[0] + "\n")
+    with started(checkout, *AGAIN) as second:
         assert "waiting for another run in this folder" in read_until(second, "waiting")
-        assert (checkout / ".snakemake/locks/0.output.lock").exists()
+        assert left.exists()
         assert second.poll() is None
-    text, _ = second.communicate()
+        held.close()
+        text = second.stdout.read()
     assert second.returncode == 0, text
+    assert not left.exists()
 
 
 def test_every_rule_has_a_log_and_a_benchmark():
