@@ -1,6 +1,8 @@
 """Cases to netCDF, netCDF to the judged table and the figures, all of that to the book.  `snakemake all`."""
 
+import fcntl
 import os
+import shutil
 import sys
 
 from snakemake.utils import min_version
@@ -10,6 +12,11 @@ from cosserat.data.provenance import computing_sources
 from cosserat.figures.catalogue import FIGURES
 
 min_version("9.0")
+
+
+workdir: workflow.basedir
+
+
 os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get_exec_path()]))
 
 CASES = published()
@@ -29,9 +36,30 @@ def package(*names):
     return sorted(file for file in files if file.endswith((".py", ".css")))
 
 
+def only_run_here():
+    """Wait for whoever makes results in this folder; the locks that Snakemake finds after that are nobody's.
+
+    The file is held by this process and by each of its jobs, also by one that outlives a kill.
+    """
+    os.makedirs(".snakemake", exist_ok=True)
+    held = open(".snakemake/held", "w")
+    try:
+        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        print("waiting for another run in this folder, or for jobs that a killed one left", file=sys.stderr)
+        fcntl.flock(held, fcntl.LOCK_EX)
+    shutil.rmtree(".snakemake/locks", ignore_errors=True)
+    fcntl.flock(held, fcntl.LOCK_SH)
+    return held
+
+
+HELD = only_run_here()
+HOLD = "exec 9<.snakemake/held; python -IS -c 'import fcntl; fcntl.flock(9, fcntl.LOCK_SH)'; "
+shell.prefix(f"set -euo pipefail; {HOLD}")
+
+
 wildcard_constraints:
     case="|".join(CASES),
-    figure="|".join(FIGURES),
     chapter="|".join(CHAPTERS),
 
 
@@ -89,26 +117,36 @@ rule check:
         "python -m cosserat check {input} > {output} 2> {log} || (cat {log} >&2; exit 1)"
 
 
-rule figure:
-    input:
-        package("figures"),
-        FORMULAS,
-        READOUTS,
-        cases=lambda wildcards: [f"results/cases/{case}.nc" for case in FIGURES[wildcards.figure].cases],
-        table=lambda wildcards: ["results/tolerances.csv"] if FIGURES[wildcards.figure].rows else [],
-    output:
-        report(
-            "results/figures/{figure}.svg",
-            caption="results/captions/figure.rst",
-            category="Figures",
-            labels={"figure": "{figure}"},
-        ),
-    log:
-        "results/logs/figure/{figure}.log",
-    benchmark:
-        "results/benchmarks/figure/{figure}.tsv"
-    shell:
-        "python -m cosserat figure {wildcards.figure} --cases results/cases --output {output} > {log} 2>&1"
+for module in sorted({entry.module for entry in FIGURES.values()}):  # most of the time of a process is its start
+    drawn = [name for name, entry in FIGURES.items() if entry.module == module]
+
+    rule:
+        name:
+            f"figure_{module}"
+        input:
+            package("figures"),
+            FORMULAS,
+            READOUTS,
+            cases=sorted({f"results/cases/{case}.nc" for name in drawn for case in FIGURES[name].cases}),
+            table=["results/tolerances.csv"] if any(FIGURES[name].rows for name in drawn) else [],
+        output:
+            *(
+                report(
+                    f"results/figures/{name}.svg",
+                    caption="results/captions/figure.rst",
+                    category="Figures",
+                    labels={"figure": name},
+                )
+                for name in drawn
+            ),
+        params:
+            figures=drawn,
+        log:
+            f"results/logs/figure/{module}.log",
+        benchmark:
+            f"results/benchmarks/figure/{module}.tsv"
+        shell:
+            "python -m cosserat figure {params.figures} --cases results/cases --output results/figures > {log} 2>&1"
 
 
 rule chapter:

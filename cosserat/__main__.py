@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import os
 import sys
 from collections.abc import Callable
@@ -24,6 +25,7 @@ def main(arguments: list[str] | None = None) -> int:
 
     Returns 0 if it did what was asked, 1 if a claim or a solve failed, 2 for a bad input, 130 if interrupted.
     """
+    gc.set_threshold(100_000)  # a tenth of the time of a short run, most of which is imports
     try:
         options = _parser().parse_args(arguments)
         command: Callable[[argparse.Namespace], None] = options.command
@@ -83,24 +85,20 @@ def _parser() -> argparse.ArgumentParser:
         help="where a growing load cannot be followed to its end, write what was reached and still fail",
     )
 
-    sub = add(
-        "show",
-        _show,
-        "print what a netCDF file of ours holds: parameters, solver, range of each variable",
-    )
+    sub = add("show", _show, "print what a result holds: parameters, solver, range of each variable")
     sub.add_argument("file", type=Path)
 
     sub = add("plot", _plot, "draw a stored result: the body, its displacement and its strains")
     sub.add_argument("file", type=Path, help="netCDF file of ours")
     sub.add_argument("-o", "--output", type=Path, help="SVG file to write (default: beside the file)")
 
-    sub = add("figure", _figure, "draw one figure of the thesis from stored results")
-    sub.add_argument("figure", help="name of a figure, such as fig_3_10")
+    sub = add("figure", _figure, "draw figures of the thesis from stored results")
+    sub.add_argument("figures", nargs="+", metavar="figure", help="such as fig_3_10")
     sub.add_argument(
         "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
     )
     sub.add_argument(
-        "-o", "--output", type=Path, help="SVG file to write (default: FIGURE.svg in this folder)"
+        "-o", "--output", type=Path, default=Path(), help="SVG file, or folder for several (%(default)s)"
     )
 
     sub = add("measure", _measure, "measure every row of the results table on stored results")
@@ -182,10 +180,10 @@ class _Version(argparse.Action):
 
 
 def _epilog() -> str:
-    from cosserat.cases.catalogue import titles
+    from cosserat.cases.tables import titles
 
     width = max(map(len, titles()))
-    listed = "\n".join(f"  {name:<{width}}  {title}" for name, title in titles().items())
+    listed = "\n".join(f"  {name:<{width}}  {title}" for name, (title, _) in titles().items())
     return (
         f"published cases:\n{listed}\n\n"
         "example:\n"
@@ -199,12 +197,17 @@ def _epilog() -> str:
 
 
 def _cases(options: argparse.Namespace) -> None:
-    from cosserat.cases.catalogue import load, published
+    from cosserat.cases.tables import titles
 
-    known = published() if options.file is None else load(options.file)
+    if options.file is None:
+        known = titles()
+    else:
+        from cosserat.cases.catalogue import load
+
+        known = {name: (case.title, case.source) for name, case in load(options.file).items()}
     width = max(map(len, known), default=0)
-    for name, case in known.items():
-        print(f"{name:<{width}}  {case.title}" + (f" ({case.source})" if case.source else ""))
+    for name, (title, source) in known.items():
+        print(f"{name:<{width}}  {title}" + (f" ({source})" if source else ""))
 
 
 def _run(options: argparse.Namespace) -> None:
@@ -273,11 +276,10 @@ def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]
 
 
 def _figure(options: argparse.Namespace) -> None:
-    from cosserat.figures.catalogue import draw_to
+    from cosserat.figures.catalogue import draw_all
 
-    path = options.output or Path(f"{options.figure}.svg")
-    draw_to(options.figure, options.cases, path)
-    print(f"wrote {path}")
+    for path in draw_all(options.figures, options.cases, options.output):
+        print(f"wrote {path}")
 
 
 def _plot(options: argparse.Namespace) -> None:

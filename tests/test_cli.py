@@ -1,7 +1,6 @@
 """The command line as a person uses it: help that suffices, sentences for bad input, nothing half-written."""
 
 import os
-import resource
 import subprocess
 import sys
 
@@ -232,26 +231,26 @@ def test_the_whole_chain_by_hand(capsys, tmp_path):
     assert "do not hold" in err
 
 
-def test_running_a_case_as_a_process_takes_less_than_two_and_a_half_seconds_of_processor_time(tmp_path):
-    """The best of three, compiled kernels cached. Not by a clock on the wall: what others run does not count, nor does
-    waiting, which on a machine left to itself adds next to nothing here.
-    """
-    times = []
-    for _ in range(3):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(
-            [sys.executable, "-m", "cosserat", "run", "clamped_free"],
-            cwd=tmp_path,
-            env={**os.environ, "PYTHONPATH": str(ROOT)},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
-        assert done.returncode == 0, done.stderr
-        assert done.stderr == ""
-    assert min(times) < 2.5
+def test_running_a_case_as_a_process_loads_no_more_than_it_needs(tmp_path):
+    """Most of the time of a short run is imports; `cosserat speed` and the workflow's benchmarks have the seconds."""
+    spared = "matplotlib", "IPython", "snakemake", "sphinx", "nbclient", "jupytext", "hypothesis"
+    spared += "scipy.optimize", "scipy.integrate", "scipy.sparse.linalg", "scipy.interpolate"
+    code = f"""
+import sys
+from cosserat.__main__ import main
+assert main(["run", "clamped_free"]) == 0
+print(sorted(set({spared}) & set(sys.modules)))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines()[-1] == "[]"
 
 
 def test_every_case_has_a_summary(solved):

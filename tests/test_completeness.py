@@ -258,24 +258,6 @@ def test_chapters_solve_no_published_case_again(file):
     assert solved_unchanged(file.read_text()) == []
 
 
-def test_the_lock_names_no_host_and_hashes_everything():
-    lock = (ROOT / "requirements.lock").read_text()
-    assert "://" not in lock
-    assert not re.search(r"index|find-links|trusted-host", lock)
-    pins = re.findall(r"^[a-zA-Z0-9_.-]+==", lock, flags=re.MULTILINE)
-    blocks = re.split(r"\n(?=[a-zA-Z0-9_.-]+==)", lock)
-    assert len(pins) > 50
-    assert all("--hash=sha256:" in block for block in blocks if "==" in block.split("\n")[0])
-
-
-def test_the_lock_pins_what_the_project_asks_for():
-    lock = (ROOT / "requirements.lock").read_text().lower()
-    asked = re.findall(
-        r"^[a-z][\w-]*", (ROOT / "requirements.in").read_text().lower(), flags=re.MULTILINE
-    )
-    assert [name for name in asked if f"\n{name}==" not in lock] == []
-
-
 def test_every_dependency_is_explained_in_the_readme():
     readme = (ROOT / "README.md").read_text()
     asked = re.findall(r"^[a-zA-Z][\w-]*", (ROOT / "requirements.in").read_text(), flags=re.MULTILINE)

@@ -1,7 +1,5 @@
 """Chapter 2: materials, muscles, boundary value problems on regions by two solvers, and their invariants."""
 
-import time
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -424,25 +422,13 @@ def test_layers_too_steep_for_the_ground_are_refused():
         cosserat.run(steep)
 
 
-@pytest.mark.usefixtures("untraced")
-def test_the_banded_solver_is_more_than_twenty_times_faster_at_that_accuracy():
-    """On some instants of the stride; `cosserat speed` times all of them."""
+def test_both_solvers_agree_on_instants_of_a_stride():
+    """On some instants of the stride; `cosserat speed` says how much faster the banded one is."""
     problem = WORM.replace(strides=1, step=1.0)
-    reference = problem.replace(solver="collocation")
-    problem.solve("warm")
-    seconds = {}
-    for solver, posed in (("banded", problem), ("collocation", reference)):
-        runs = []
-        for _ in range(3 if solver == "banded" else 1):
-            start = time.process_time()
-            fields = posed.solve("test").fields
-            runs.append(time.process_time() - start)
-        seconds[solver] = min(runs)
-        if solver == "banded":
-            kept = fields
+    banded = problem.solve("test").fields
+    reference = problem.replace(solver="collocation").solve("test").fields
     for name in ("mu_1", "mu_2", "mu_3"):
-        assert np.abs(kept[name] - fields[name]).max() < 1e-6
-    assert seconds["collocation"] > 20 * seconds["banded"]
+        assert np.abs(banded[name] - reference[name]).max() < 1e-6
 
 
 def test_incompressible_needs_young_alone():

@@ -1,9 +1,11 @@
 """Snakemake on a copy of the repository: what reruns after which change, and what a failing claim leaves behind."""
 
 import csv
+import fcntl
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -15,8 +17,9 @@ import cosserat
 
 pytestmark = pytest.mark.workflow
 
-# The judged table and two figures: enough to see what reruns; one page of the book is made by the test that reads it.
-DRAWN = ("fig_3_8", "fig_3_12")
+# The judged table and three figures, two of them drawn together: enough to see what reruns; one page of the book is
+# made by the test that reads it.
+DRAWN = ("fig_3_7", "fig_3_8", "fig_3_12")
 # The cases that these need, and what they are built on: the copy knows no others.
 KEPT = (
     "hanging_bar",
@@ -32,11 +35,19 @@ KEPT = (
 TARGETS = ("results/check.txt", *(f"results/figures/{name}.svg" for name in DRAWN))
 
 
-def call(folder, *arguments):
+def environment(folder):
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    environment = {**os.environ, "PYTHONPATH": str(folder), "PATH": path}
+    return {**os.environ, "PYTHONPATH": str(folder), "PATH": path}
+
+
+def call(folder, *arguments, cwd=None):
     done = subprocess.run(
-        arguments, cwd=folder, env=environment, capture_output=True, text=True, check=False
+        arguments,
+        cwd=cwd or folder,
+        env=environment(folder),
+        capture_output=True,
+        text=True,
+        check=False,
     )
     return done.returncode, done.stdout + done.stderr
 
@@ -49,8 +60,9 @@ def planned(folder):
     """Rules that a dry run would use and files that it would make, below results."""
     code, text = snakemake(folder, *TARGETS, "--dry-run")
     assert code == 0, text
-    rules = set(re.findall(r"^(?:local)?rule (\w+):$", text, re.MULTILINE))
-    outputs = set(re.findall(r"^    output: results/(\S+)", text, re.MULTILINE))
+    rules = set(re.findall(r"^(?:local)?rule ([a-z]+)\w*:$", text, re.MULTILINE))
+    lines = re.findall(r"^    output: (.+)$", text, re.MULTILINE)
+    outputs = {name.removeprefix("results/") for line in lines for name in line.split(", ")}
     return rules, outputs
 
 
@@ -121,7 +133,8 @@ def test_one_case_edited_reruns_it_and_its_descendants_only(checkout, edited):
     edited("cosserat/cases/chapter3.toml", key, f"{key}\nrod.poisson = 0.31")
     rules, outputs = planned(checkout)
     assert rules == {"simulate", "measure", "check", "figure"}
-    assert outputs == {"cases/necking_printed.nc", "report.csv", "check.txt", "figures/fig_3_12.svg"}
+    drawn = {"figures/fig_3_8.svg", "figures/fig_3_12.svg"}  # together, in one process
+    assert outputs == {"cases/necking_printed.nc", "report.csv", "check.txt"} | drawn
 
 
 def test_the_solver_edited_reruns_every_simulation(checkout, edited):
@@ -182,8 +195,77 @@ def test_a_case_that_cannot_be_solved_stops_the_workflow_with_its_sentence(check
     assert "case 'necking': no equilibrium found" in text
 
 
+def test_the_workflow_may_be_called_from_another_folder(checkout, tmp_path):
+    target = checkout / "results/cases/hanging_bar.nc"
+    target.unlink()
+    code, text = call(
+        checkout, "snakemake", "-s", checkout / "Snakefile", "results/cases/hanging_bar.nc", cwd=tmp_path
+    )
+    assert code == 0, text
+    assert target.is_file()
+    assert {file.name for file in tmp_path.iterdir()} == {".snakemake"}  # its protocol alone
+
+
+SOME = ("necking", "hanging_bar", "clamped_free")
+AGAIN = [f"results/cases/{name}.nc" for name in SOME]
+
+
+def started(folder, *arguments):
+    """Snakemake as the leader of a group of processes, its words to be read line by line."""
+    return subprocess.Popen(
+        ["snakemake", *arguments],
+        cwd=folder,
+        env=environment(folder),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def read_until(process, words):
+    """Its words up to the first line that holds these, or to the end."""
+    seen = []
+    for line in process.stdout:
+        seen.append(line)
+        if words in line:
+            break
+    return "".join(seen)
+
+
+def test_the_same_command_goes_on_after_a_kill_at_any_moment(checkout):
+    """Of the whole group, or of Snakemake alone, whose job then lives on and is waited for."""
+    code, text = snakemake(checkout, *AGAIN)
+    assert code == 0, text
+    before = {name: (checkout / name).read_bytes() for name in AGAIN}
+    for moment in ("Building DAG", "rule simulate", "Finished jobid", "alone"):
+        with started(checkout, *AGAIN, "--forceall") as running:
+            words = "rule simulate" if moment == "alone" else moment
+            assert words in read_until(running, words)
+            (os.kill if moment == "alone" else os.killpg)(running.pid, signal.SIGKILL)
+        code, text = snakemake(checkout, *AGAIN)
+        assert code == 0, moment + text
+        assert {name: (checkout / name).read_bytes() for name in AGAIN} == before
+
+
+def test_a_run_whose_owner_lives_is_waited_for(checkout):
+    left = checkout / ".snakemake/locks/0.output.lock"
+    held = (checkout / ".snakemake/held").open()
+    fcntl.flock(held, fcntl.LOCK_SH)  # as a running job holds it
+    left.parent.mkdir(exist_ok=True)
+    left.write_text(AGAIN[0] + "\n")
+    with started(checkout, *AGAIN) as second:
+        assert "waiting for another run in this folder" in read_until(second, "waiting")
+        assert left.exists()
+        assert second.poll() is None
+        held.close()
+        text = second.stdout.read()
+    assert second.returncode == 0, text
+    assert not left.exists()
+
+
 def test_every_rule_has_a_log_and_a_benchmark():
-    rules = re.split(r"\n(?=rule )", (ROOT / "Snakefile").read_text())[2:]
+    rules = re.split(r"\n(?= *rule\b)", (ROOT / "Snakefile").read_text())[2:]
     assert len(rules) >= 6
     for rule in rules:
         assert "log:" in rule, rule

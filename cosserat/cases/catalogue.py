@@ -7,13 +7,13 @@ import re
 import reprlib
 import tomllib
 from collections.abc import Mapping
-from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, ValidationError
 from pydantic_core import PydanticCustomError
 
+from cosserat.cases.tables import published_tables, titles
 from cosserat.errors import InputError, path_of
 from cosserat.models.calibration import CalibrationProcedure
 from cosserat.models.convergence import Convergence
@@ -24,9 +24,6 @@ from cosserat.models.rod_path import RodPath
 from cosserat.models.rod_statics import RodStatics
 from cosserat.models.worm_calibration import WormCalibration
 from cosserat.parameters import Parameters, explain, nearest
-
-PUBLISHED = ("chapter2.toml", "chapter3.toml")
-"""Case files of the package, beside this module."""
 
 Problem = (
     RodStatics
@@ -91,15 +88,7 @@ def published() -> Mapping[str, Case]:
 
 @functools.cache
 def _published_case(name: str) -> Case:
-    return _build(name, _published_tables())
-
-
-def titles() -> dict[str, str]:
-    """Names and titles of the published cases, without building them."""
-    tables = _published_tables()
-    return {
-        name: str(table.get("title", name)) for name, table in tables.items() if not name.startswith("_")
-    }
+    return _build(name, published_tables())
 
 
 def find(name: str, file: str | Path | None = None) -> Case:
@@ -118,7 +107,7 @@ def find(name: str, file: str | Path | None = None) -> Case:
     if file is not None:
         tables = _read(file)
         if name in tables and not name.startswith("_"):
-            return _build(name, _published_tables() | tables)
+            return _build(name, published_tables() | tables)
     known = published() if file is None else load(file)
     if name not in known:
         place = "" if file is None else f" in {file}"
@@ -134,7 +123,7 @@ def load(file: str | Path) -> Mapping[str, Case]:
     InputError : the file cannot be read, is not TOML, or one of its cases is not valid.
     """
     tables = _read(file)
-    return _build_all(tables, _published_tables() | tables)
+    return _build_all(tables, published_tables() | tables)
 
 
 def _read(file: str | Path) -> dict[str, Any]:
@@ -174,15 +163,6 @@ def parse(parameters: str) -> Case:
             f"the stored parameters are of another version of cosserat ({explain(error, Case, 'parameters')}); "
             "run the case again"
         ) from None
-
-
-@functools.cache
-def _published_tables() -> dict[str, Any]:
-    folder = resources.files("cosserat.cases")
-    tables: dict[str, Any] = {}
-    for name in PUBLISHED:
-        tables |= tomllib.loads((folder / name).read_text(encoding="utf-8"))
-    return tables
 
 
 def _build_all(asked: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Case]:

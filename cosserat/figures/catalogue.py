@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -154,6 +154,21 @@ def _published(rows: tuple[str, ...], table: Path) -> dict[str, float]:
     if missing:
         raise InputError(f"{table} has no printed number {', '.join(missing)}; restore it")
     return {name: known[name] for name in rows}
+
+
+def draw_all(names: Sequence[str], folder: Path, output: Path) -> Iterator[Path]:
+    """Draw figures one by one into the folder `output`, or one figure into the file; yields what was written.
+
+    Raises
+    ------
+    InputError : as `draw_to`, or there are several figures and no such folder.
+    """
+    if len(names) > 1 and not output.is_dir():
+        raise InputError(f"{output} is no folder, which several figures need; make it first")
+    for name in names:
+        path = output / f"{name}.svg" if output.is_dir() else output
+        draw_to(name, folder, path)
+        yield path
 
 
 def entry(name: str) -> Entry:

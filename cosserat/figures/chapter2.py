@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 from cosserat.figures import crawlers
 from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.models import doublets
-from cosserat.models.earthworm import SEGMENT_50
+from cosserat.models.earthworm import LONGITUDINAL, SEGMENT_50
 from cosserat.table.crawl_readouts import (
-    LONGITUDINAL,
     SLOPES,
     at_phase,
     crawl,

@@ -1,1 +1,5 @@
 """Numerical methods that know nothing of rods."""
+
+from cosserat.solvers.kernels import choose_cache
+
+choose_cache()  # before any module of this folder imports Numba

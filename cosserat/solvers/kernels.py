@@ -1,0 +1,74 @@
+"""Where compiled kernels are kept from one process to the next, chosen before Numba is imported."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parents[1]
+
+
+def choose_cache() -> None:
+    """Let Numba keep kernels beside their sources, else in the user's cache, else in a private temporary folder.
+
+    Where none can be written to, kernels are compiled by every process anew. Whatever is not the first is said once
+    on stderr: when the folder is made, or by each process that keeps nothing. NUMBA_CACHE_DIR, where it is set, is
+    the user's own choice.
+    """
+    beside = [_PACKAGE / folder / "__pycache__" for folder in ("solvers", "models")]
+    if os.environ.get("NUMBA_CACHE_DIR") or all(map(_is_writable, beside)):
+        return
+    for folder in _candidates():
+        known = folder.is_dir()
+        if _is_writable(folder, 0o700) and _is_private(folder):
+            os.environ["NUMBA_CACHE_DIR"] = str(folder)
+            if "numba" in sys.modules:  # which reads the environment when it is imported
+                sys.modules["numba"].config.CACHE_DIR = str(folder)
+            if not known:
+                _say(f"compiled kernels are kept in {folder}")
+            return
+    _cache_nothing()
+    _say(
+        "compiled kernels are kept nowhere, which costs seconds a run; set NUMBA_CACHE_DIR to a folder to keep them"
+    )
+
+
+def _candidates() -> Iterator[Path]:
+    caches = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
+    if caches.is_absolute():
+        yield caches / "cosserat"
+    try:
+        yield Path(tempfile.gettempdir()) / f"cosserat-{os.getuid()}"
+    except OSError:
+        return
+
+
+def _is_writable(folder: Path, mode: int = 0o777) -> bool:
+    """Try it: permissions do not tell of read-only file systems, nor bind the superuser."""
+    try:
+        folder.mkdir(mode=mode, parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+def _is_private(folder: Path) -> bool:
+    """Whether nobody else can put files there: what is read from a cache is run."""
+    about = folder.lstat()
+    return about.st_uid == os.getuid() and not about.st_mode & 0o022 and not folder.is_symlink()
+
+
+def _cache_nothing() -> None:
+    from numba.core.ccallback import CFunc
+    from numba.core.dispatcher import Dispatcher
+
+    for compiled in (CFunc, Dispatcher):
+        setattr(compiled, "enable_caching", lambda _: None)  # noqa: B010 - a method, which mypy lets nobody assign
+
+
+def _say(words: str) -> None:
+    print(f"cosserat: {_PACKAGE} cannot be written to; {words}", file=sys.stderr)
