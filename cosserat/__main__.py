@@ -8,13 +8,10 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cosserat.data.effort import effort
-from cosserat.errors import CosseratError, DivergedError, InputError, NotConvergedError
-
-if TYPE_CHECKING:
-    pass
+from cosserat.errors import CosseratError, CrossingError, DivergedError, InputError, NotConvergedError
 
 RESULTS = Path("results")
 _INTERRUPTED = "cosserat: interrupted; nothing half-done was written"
@@ -212,7 +209,7 @@ def _cases(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace) -> None:
     from cosserat.cases.catalogue import find
-    from cosserat.data.dataset import save
+    from cosserat.data.dataset import save, statistics_of, warnings_of
     from cosserat.data.files import check_destination
     from cosserat.data.parts import Parts
 
@@ -223,12 +220,13 @@ def _run(options: argparse.Namespace) -> None:
 
     try:
         dataset = run(case, result=path, progress=_report_progress)
-    except (NotConvergedError, DivergedError, KeyboardInterrupt) as stopped:
-        kept = Parts(path).folder
-        if isinstance(stopped, NotConvergedError) and stopped.dataset is not None and options.keep_last:
-            save(stopped.dataset, path)
-            raise NotConvergedError(
-                f"{stopped}; what was reached, {stopped.factor:.4g} of the load, is in {path}"
+    except (NotConvergedError, CrossingError, DivergedError, KeyboardInterrupt) as stopped:
+        kept, reached = Parts(path).folder, getattr(stopped, "dataset", None)
+        if reached is not None and options.keep_last:
+            save(reached, path)
+            part = statistics_of(reached)["load_factor_reached"]
+            raise type(stopped)(
+                f"{stopped}; what was reached, {part:.4g} of the load, is in {path}"
             ) from None
         if not kept.is_dir():
             raise
@@ -242,6 +240,8 @@ def _run(options: argparse.Namespace) -> None:
     save(dataset, path)
     Parts(path).remove()
     print(f"{case.name}: {effort(dataset)}; wrote {path}")
+    for warning in warnings_of(dataset):
+        print(f"warning: {warning}", file=sys.stderr)
 
 
 def _report_progress(share: float, words: str) -> None:
@@ -251,11 +251,13 @@ def _report_progress(share: float, words: str) -> None:
 
 
 def _show(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import case_of, load, statistics_of
+    from cosserat.data.dataset import case_of, load, statistics_of, warnings_of
 
     dataset = load(options.file)
     case, statistics = case_of(dataset), statistics_of(dataset)
     print(f"{case.name}: {case.title}\n{dataset.attrs['source']}")
+    for warning in warnings_of(dataset):
+        print(f"warning: {warning}")
     print("\nparameters (SI units)")
     for name, value in _flat(case.problem.model_dump()):
         print(f"  {name} = {value}")
@@ -283,10 +285,10 @@ def _figure(options: argparse.Namespace) -> None:
 
 
 def _plot(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import case_of, load
+    from cosserat.data.dataset import case_of, load, warnings_of
     from cosserat.data.files import check_destination
     from cosserat.figures import consistent, crawlers, motion, rod
-    from cosserat.figures.style import settings, write
+    from cosserat.figures.style import note, settings, write
 
     path = options.output or options.file.with_suffix(".svg")
     check_destination(path, ".svg")
@@ -305,6 +307,7 @@ def _plot(options: argparse.Namespace) -> None:
         )
     with settings():
         figure = drawn[kind](data)
+        note(figure, warnings_of(data))
     write(figure, path)
     print(f"wrote {path}")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -56,6 +57,14 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.subplots(rows, columns, squeeze=False)
     return figure, [ax for line in axes for ax in line]
+
+
+def note(figure: Figure | str, warnings: list[str]) -> None:
+    """Set warnings below a picture; an animation shows none."""
+    if warnings and isinstance(figure, Figure):
+        width = int(20 * figure.get_size_inches()[0])
+        lines = [textwrap.fill(f"Warning: {warning}", width) for warning in warnings]
+        figure.supxlabel("\n".join(lines), x=0.01, ha="left", fontsize=7, color=VARIANT)
 
 
 def write(figure: Figure | str, path: Path) -> None:

@@ -233,7 +233,12 @@ class Crawl(CrawlerProblem):
                 tilt = max(tilt, sine)
             if progress:
                 progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
-        return Outcome(self._fields(steps), _statistics(self, [s.profile for s in steps], tilt))
+        thin = self.thin_anchor_warning()
+        return Outcome(
+            self._fields(steps),
+            _statistics(self, [s.profile for s in steps], tilt),
+            warnings=() if thin is None else (thin,),
+        )
 
     def refuse_collapse(self, moments: Sequence[Moment], name: str) -> None:
         """The homogeneous states of all moments, before anything is solved.
