@@ -18,9 +18,11 @@ Mask = NDArray[np.bool_]
 
 @njit(cache=True)
 def hold(band: Band, held: Mask) -> None:
-    """Uncouple the held unknowns in place: their rows and columns become zero, their diagonal stays."""
+    """Uncouple the held unknowns in place: their rows and columns become zero, their diagonal positive."""
     n, width = band.shape
     for j in range(n):
+        if held[j]:
+            band[j, 0] = abs(band[j, 0]) or 1.0
         for k in range(1, min(width, n - j)):
             if held[j] or held[j + k]:
                 band[j, k] = 0.0

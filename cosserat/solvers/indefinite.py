@@ -17,7 +17,7 @@ def solve_any(band: Band, right: Vector) -> Vector | None:
     """
     n, width = band.shape[0], band.shape[1] - 1
     general = np.zeros((3 * width + 1, n), order="F")
-    for k in range(width + 1):
+    for k in range(min(width, n - 1) + 1):
         general[2 * width + k, : n - k] = band[: n - k, k]
         general[2 * width - k, k:] = band[: n - k, k]
     factors, pivots, info = dgbtrf(general, width, width, overwrite_ab=1)
