@@ -1,5 +1,6 @@
 """Snakemake on a copy of the repository: what reruns after which change, and what a failing claim leaves behind."""
 
+import base64
 import csv
 import fcntl
 import os
@@ -246,6 +247,18 @@ def test_the_same_command_goes_on_after_a_kill_at_any_moment(checkout):
         code, text = snakemake(checkout, *AGAIN)
         assert code == 0, moment + text
         assert {name: (checkout / name).read_bytes() for name in AGAIN} == before
+
+
+def test_what_was_cut_short_is_made_again(checkout):
+    """Snakemake marks what a job is making; here the job was cut after its file stood and before that was noted."""
+    code, text = snakemake(checkout, AGAIN[0])
+    assert code == 0, text
+    marker = checkout / ".snakemake/incomplete" / base64.urlsafe_b64encode(AGAIN[0].encode()).decode()
+    marker.write_text('{"external_jobid": null}')
+    code, text = snakemake(checkout, AGAIN[0])
+    assert code == 0, text
+    assert "1 of 1 steps" in text
+    assert not marker.exists()
 
 
 def test_a_run_whose_owner_lives_is_waited_for(checkout):
