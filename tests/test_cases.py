@@ -6,7 +6,6 @@ from conftest import ROOT
 import cosserat
 from cosserat.cases.catalogue import parse
 from cosserat.errors import InputError
-from cosserat.models.planar_rod import Geometry, Lumped
 
 BEAM = """
 [mine]
@@ -241,30 +240,16 @@ def test_assumptions_of_the_cases_are_marked():
 def test_lumped_properties_may_vary_along_the_rod():
     """Table 3.1 is an array for each property: a rod stiffer on its right half strains half as much there."""
     import numpy as np
-    from conftest import make_rod
 
-    from cosserat.models.published import PublishedRod
-    from cosserat.models.stiffness import stiffnesses
-    from cosserat.solvers.newton import NewtonSettings, equilibrium
-
-    rod = make_rod(vertices=11, poisson=0)
-    geometry = Geometry.straight(11, 5.0, 0.25)
-    vertex, edge = (
-        Lumped.uniform(n, area=0.25, second_moment=0.25**2 / 12, young=1e9, poisson=0.0)
-        for n in (11, 10)
+    stations = [{"at": "2.5 m"}, {"at": "2.5 m", "young": 2.0}]
+    pulled = cosserat.case("clamped_free").vary(
+        "two_halves",
+        rod={"vertices": 11, "poisson": 0, "stations": stations},
+        gravity=None,
+        forces=[{"at": "last", "along": "E3", "force": 100.0}],
     )
+    strain = cosserat.run(pulled).mu_edge.to_numpy() - 1
     young = np.where(np.arange(10) < 5, 1e9, 2e9)
-    edge = Lumped(edge.area, edge.second_moment, young, young / 2, edge.poisson)
-    body = PublishedRod.of(
-        stiffnesses(geometry, vertex, edge, 5 / 6, rod.calibration, "full", "halved"), geometry
-    )
-    held = np.zeros((11, 4), dtype=bool)
-    held[0] = True
-    load = np.zeros((11, 4))
-    load[-1, 0] = 100.0
-    start = np.hstack([geometry.X, geometry.D])
-    state = equilibrium(body, start.ravel(), load.ravel(), held.ravel(), NewtonSettings(), "two halves")
-    strain = np.diff(state.q.reshape(11, 4)[:, 0]) / geometry.edge_length - 1
     np.testing.assert_allclose(strain, 100.0 / (young * 0.25), rtol=1e-5)
 
 

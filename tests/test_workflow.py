@@ -139,7 +139,7 @@ def test_one_case_edited_reruns_it_and_its_descendants_only(checkout, edited):
 
 
 def test_the_solver_edited_reruns_every_simulation(checkout, edited):
-    edited("cosserat/solvers/newton.py", "_ARMIJO = 1e-4", "_ARMIJO = 2e-4")
+    edited("cosserat/solvers/climb.py", "_SURE = 5.0", "_SURE = 6.0")
     _, outputs = planned(checkout)
     assert {f"cases/{name}.nc" for name in KEPT} <= outputs
     assert set(KEPT) < set(cosserat.published())

@@ -16,8 +16,7 @@ from cosserat.models.rod_problem import RodProblem
 from cosserat.models.rod_statics import refuse_rigid_motion
 from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.solvers.climb import Climb, Point
-from cosserat.solvers.newton import NewtonSettings
+from cosserat.solvers.climb import Climb, NewtonSettings, Point
 from cosserat.solvers.path import Arc, follow, unloaded
 
 Array = NDArray[np.float64]
@@ -67,6 +66,7 @@ class RodPath(RodProblem):
         start = np.hstack([geometry.X, geometry.D])
         refuse_rigid_motion(start, self.held(), name)
         climb = Climb(self.loaded(geometry), self.newton, name)
+        climb.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
         arc = Arc(
             self.arc.first,
             self.arc.longest,

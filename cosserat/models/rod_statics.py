@@ -16,10 +16,9 @@ from cosserat.models.resolution import coarse, refuse_crossing
 from cosserat.models.rod import RodBody
 from cosserat.models.rod_problem import RodProblem
 from cosserat.outcome import Outcome
-from cosserat.solvers.climb import Climb, Point
+from cosserat.solvers.climb import Climb, NewtonSettings, Point
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.motion import System
-from cosserat.solvers.newton import Equilibrium, NewtonSettings
 from cosserat.solvers.path import lead
 
 Array = NDArray[np.float64]
@@ -52,10 +51,11 @@ class RodStatics(RodProblem):
         """
         geometry = self.rod.geometry()
         body, load = self.body(geometry), self.loads(geometry)
-        state, warnings = self.led_to(geometry, body, load, name)
-        fields = _fields(geometry, body, state, load)
+        point, climb = self.led_to(geometry, name)
+        fields = _fields(geometry, body, point, load)
         refuse_crossing(geometry, fields["x"], fields["d"], self.rod.below, name)
-        return Outcome(fields, _statistics(state), warnings=(*warnings, *coarse(fields["d"])))
+        warnings = (*climb.remarks(), *coarse(fields["d"]))
+        return Outcome(fields, _statistics(point, climb), warnings=warnings)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
         """The lowest natural frequencies and shapes of small motions about the equilibrium.
@@ -67,46 +67,28 @@ class RodStatics(RodProblem):
         """
         geometry = self.rod.geometry()
         body, load = self.body(geometry), self.loads(geometry)
-        at_rest = self.led_to(geometry, body, load, name)[0].q
+        point, _ = self.led_to(geometry, name)
+        at_rest = point.q + np.hstack([geometry.X, geometry.D]).ravel()
         system = System(
             body, self.mass(geometry), load.ravel(), self.held().ravel(), 0.0, np.empty((0, load.size))
         )
         return modes(system, at_rest, count, name, anchored=True)
 
-    def led_to(
-        self, geometry: Geometry, body: RodBody, load: Array, name: str
-    ) -> tuple[Equilibrium, tuple[str, ...]]:
-        """The equilibrium that the loads lead to as they grow together, and what is to be said of the way there."""
+    def led_to(self, geometry: Geometry, name: str) -> tuple[Point, Climb]:
+        """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""
         reference = np.hstack([geometry.X, geometry.D])
         refuse_rigid_motion(reference, self.held(), name)
         climb = Climb(self.loaded(geometry), self.newton, name)
         try:
-            found = lead(climb, np.zeros(reference.size))
-            return _as_equilibrium(climb, found, reference.ravel()), tuple(climb.remarks())
+            return lead(climb, np.zeros(reference.size)), climb
         except NotConvergedError as error:
             if error.state is not None:
                 last = climb.at(error.state, error.factor)
                 assert last is not None  # it was one
-                state = _as_equilibrium(climb, last, reference.ravel())
-                error.reached = Outcome(
-                    _fields(geometry, body, state, last.factor * load),
-                    _statistics(state) | {"load_factor_reached": last.factor},
-                )
+                fields = _fields(geometry, self.body(geometry), last, last.factor * self.loads(geometry))
+                reached = {"load_factor_reached": last.factor}
+                error.reached = Outcome(fields, _statistics(last, climb) | reached)
             raise
-
-
-def _as_equilibrium(climb: Climb, point: Point, reference: Array) -> Equilibrium:
-    return Equilibrium(
-        reference + point.q,
-        point.energy,
-        point.reaction,
-        point.iterations,
-        shortened=climb.halvings,
-        shifted=climb.branchings,
-        residual=point.residual,
-        tolerance=point.tolerance,
-        rounding=point.rounding,
-    )
 
 
 def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
@@ -119,15 +101,16 @@ def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
         )
 
 
-def _fields(geometry: Geometry, body: RodBody, state: Equilibrium, load: Array) -> dict[str, Array]:
-    q = state.q.reshape(load.shape)
+def _fields(geometry: Geometry, body: RodBody, point: Point, load: Array) -> dict[str, Array]:
+    u = point.q.reshape(load.shape)
+    q = u + np.hstack([geometry.X, geometry.D])
     x, d = q[:, : len(AXES)], q[:, len(AXES) :]
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
     if isinstance(body, ConsistentRod):
-        own = {"shear": edge_shear(x + body.offset * d, d), "energy_parts": body.energy_terms(state.q)}
+        own = {"shear": edge_shear(x + body.offset * d, d), "energy_parts": body.energy_terms(q.ravel())}
     else:
-        own = {"theta": measured.theta, "energy": body.energy_terms(state.q)}
+        own = {"theta": measured.theta, "energy": body.energy_terms(q.ravel())}
     return own | {
         "xi": arc,
         "xi_edge": (arc[1:] + arc[:-1]) / 2,
@@ -135,24 +118,24 @@ def _fields(geometry: Geometry, body: RodBody, state: Equilibrium, load: Array) 
         "d_ref": geometry.D,
         "x": x,
         "d": d,
-        "u": x - geometry.X,
-        "delta": d - geometry.D,
+        "u": u[:, : len(AXES)],
+        "delta": u[:, len(AXES) :],
         "mu_edge": measured.mu_edge,
         "mu": measured.mu,
         "lam": measured.lam,
         "phi": measured.phi,
         "kappa": measured.kappa,
         "applied_force": load,
-        "support_force": state.reaction.reshape(load.shape),
+        "support_force": point.reaction.reshape(load.shape),
     }
 
 
-def _statistics(state: Equilibrium) -> dict[str, int | float]:
+def _statistics(point: Point, climb: Climb) -> dict[str, int | float]:
     return {
-        "iterations": state.iterations,
-        "shortened_steps": state.shortened,
-        "shifted_hessians": state.shifted,
-        "residual_N": state.residual,
-        "tolerance_N": state.tolerance,
-        "rounding_N": state.rounding,
+        "iterations": climb.iterations,
+        "refused_increments": climb.halvings,
+        "branchings": climb.branchings,
+        "residual_N": point.residual,
+        "tolerance_N": point.tolerance,
+        "rounding_N": point.rounding,
     }

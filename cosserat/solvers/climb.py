@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import NotConvergedError
+from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.solvers.banded import (
     Band,
     Mask,
@@ -26,7 +27,6 @@ from cosserat.solvers.banded import (
     solve_positive,
 )
 from cosserat.solvers.indefinite import softest, solve_any
-from cosserat.solvers.newton import NewtonSettings
 
 Fields = NDArray[np.float64]
 
@@ -36,6 +36,16 @@ _BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answe
 _ROUGH = 16.0  # multiple of the estimate below which a residual that no longer falls is rounding
 _POLISH = 6  # Newton steps beyond the tolerance
 _SURE = 5.0  # multiple of its rounding from which on a force decides to which side a body buckles
+
+
+class NewtonSettings(Parameters):
+    """Tolerances and limits of Newton's method."""
+
+    tolerance: Annotated[float, Quantity("1", above=0, below=1)] = 1e-10
+    """Largest unbalanced force allowed, as a share of the largest load or reaction."""
+    max_iterations: Annotated[int, Count(at_least=1)] = 50
+    load_steps: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
+    """Equal steps in which the load is brought up."""
 
 
 class Loaded(Protocol):
@@ -86,8 +96,9 @@ class Loaded(Protocol):
 class Point:
     """One equilibrium.
 
-    factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance, rounding : as
-    in `newton.Equilibrium` [N].  negative : how many eigenvalues of the Hessian are negative.
+    factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance : largest
+    unbalanced force and the one that was allowed [N].  rounding : largest force that rounding can cause; no
+    residual can be asked to be below it [N].  negative : how many eigenvalues of the Hessian are negative.
     """
 
     q: Vector
@@ -120,9 +131,10 @@ class Climb:
         self.iterations = self.halvings = self.branchings = 0
         self.undecided: list[float] = []
         self.turned_back = False
+        self.residual = self.tolerance = np.inf  # of the last attempt
         self.remedy = (
-            "the path may turn back there: follow it with kind = 'rod path', raise 'newton.max_iterations' if it is "
-            "small, or check supports and loads"
+            "try a smaller load or more 'newton.max_iterations', see where the path goes with kind = 'rod path', and "
+            "check supports and loads"
         )
 
     def remarks(self) -> Iterator[str]:
@@ -158,6 +170,7 @@ class Climb:
             rounding = self.rounding(q)
             scale = max(load, float(np.abs(self.gradient[held]).max(initial=0.0)), largest * (load == 0))
             tolerance = max(allowed * scale, rounding)
+            self.residual, self.tolerance = residual, tolerance
             if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
                 if iteration > 0:
                     return None  # a step went astray, to where everything is stiff
@@ -245,12 +258,19 @@ class Climb:
     def failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
         """An error that says how far the load came and what was tried next."""
         return self.stopped(
-            f"no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}); {self.remedy}", last
+            f"no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}, largest unbalanced force "
+            f"{self.residual:.3g} N, allowed {self.tolerance:.3g} N); {self.remedy}",
+            last,
         )
 
     def stopped(self, reason: str, last: Point | None) -> NotConvergedError:
         """An error that holds the last equilibrium, its unknowns as the body counts them."""
-        error = NotConvergedError(f"{self.name}: {reason}", iterations=self.iterations)
+        error = NotConvergedError(
+            f"{self.name}: {reason}",
+            iterations=self.iterations,
+            residual=self.residual,
+            tolerance=self.tolerance,
+        )
         error.state = None if last is None else last.q
         error.factor = 0.0 if last is None else last.factor
         return error

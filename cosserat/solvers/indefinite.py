@@ -29,7 +29,7 @@ def solve_any(band: Band, right: Vector) -> Vector | None:
 
 def _made_positive(band: Band, right: Vector) -> tuple[Band, Vector | None]:
     """The band with the smallest multiple of the unit matrix tried that makes it positive, and its solution."""
-    largest = float(np.abs(band[:, 0]).max())
+    largest = float(np.abs(band[:, 0]).max()) or 1.0
     trial, step = band.copy(), None
     for shift in _SHIFTS:
         trial[:, 0] = band[:, 0] + shift * largest

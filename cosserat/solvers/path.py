@@ -124,7 +124,6 @@ def follow(climb: Climb, point: Point, arc: Arc) -> Iterator[Point]:
     NotConvergedError : no further point, or the factor goes beyond the limit, or a branch comes back to its beginning;
         the last point is its `state`.
     """
-    climb.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
     yield point
     body, origin, went_away, left = climb.body, None, False, 0
     direction = _tangent(climb, point, None)
