@@ -124,7 +124,7 @@ page.say(
 # half as much for a director that reaches the surface at half the height (E3.10).
 
 # %% tags=["remove-input"]
-page.excerpt(published._assemble, "W_turn = W_theta", "total: float")
+page.source(published._work_of_couples)
 
 # %% [markdown]
 # Line loads act over any stretch of the rod, and held numbers may be moved (`moves`): at rest to a new place, in motion to

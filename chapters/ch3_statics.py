@@ -156,7 +156,7 @@ page.figure(
 page.rows("F3.7")
 
 # %% tags=["remove-input"]
-page.excerpt(published._assemble, "# Second pass", "# Third pass")
+page.excerpt(published.assemble, "# Second pass", "# Third pass")
 
 # %% [markdown]
 # The stiffnesses are those of linear elasticity up to calibration coefficients,

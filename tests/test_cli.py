@@ -32,7 +32,7 @@ def test_run_says_where_the_result_went(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, out, err = call(capsys, "run", "clamped_free")
     assert (code, err) == (0, "")
-    assert "3 Newton iterations" in out
+    assert "2 Newton iterations" in out
     assert out.strip().endswith("wrote clamped_free.nc")
     code, out, _ = call(capsys, "show", "clamped_free.nc")
     assert code == 0
@@ -65,7 +65,7 @@ MY = '[mine]\nlike = "clamped_free"\n'
         ("mine", MY + "rod.poisson = 0.5", "it must be below 0.5"),
         ("mine", MY + "rod.poisson = nan", "it must be a finite number"),
         ("mine", MY + "supports = []", "free to move"),
-        ("mine", MY + 'gravity.g = "1e9 m/s^2"\nnewton.max_iterations = 3', "no equilibrium found"),
+        ("mine", MY + 'gravity.g = "500 m/s^2"\nnewton.max_iterations = 1', "no equilibrium found"),
     ],
 )
 def test_bad_cases_leave_one_sentence_an_exit_code_and_the_old_file(
@@ -137,8 +137,8 @@ def test_bad_files_and_folders(capsys, tmp_path):
         (MY + 'rod.length = "9**9**9**9 m"', "not a number with a unit"),
         (MY + 'rod.length = "3 +- 1 m"', "not a number with a unit"),
         (MY + 'rod.length = "3 parrots"', "whose unit is not known"),
-        (MY + "rod.vertices = 100_000", "rounding the positions makes forces"),
-        (MY + 'gravity.g = "1e300 m/s^2"', "no equilibrium found"),
+        (MY + "rod.vertices = 100_000", "rounding the unknowns makes forces"),
+        (MY + 'gravity.g = "1e300 m/s^2"', "too much beside the loads"),
     ],
 )
 def test_strange_case_files_leave_one_sentence(capsys, tmp_path, text, sentence):
@@ -264,7 +264,10 @@ def test_every_case_has_a_summary(solved):
 def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
     for name in ("worm_at_rest", "soft_robot", "column_path", "vibration_consistent"):
         code, _, err = call(capsys, "run", name, "--output", tmp_path / f"{name}.nc")
-        assert (code, err) == (0, "")
+        assert (code, err.split(":")[:2]) == (
+            0,
+            ["warning", " bifurcation"] if name == "column_path" else [""],
+        )
         code, _, err = call(capsys, "plot", tmp_path / f"{name}.nc")
         assert (code, err) == (0, "")
         assert (tmp_path / f"{name}.svg").stat().st_size > 10_000

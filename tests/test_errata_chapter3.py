@@ -12,7 +12,8 @@ from cosserat import analytic
 from cosserat.errors import UnsupportedRodError
 from cosserat.models.calibration import beam_of
 from cosserat.models.planar_rod import rigid_motions, signed_angle, strains, vertex_tangents
-from cosserat.models.published import PublishedRod, stretching
+from cosserat.models.published import stretching
+from cosserat.models.published_rod import PublishedRod
 from cosserat.table import printed, readouts
 
 

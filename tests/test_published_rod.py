@@ -6,7 +6,7 @@ from conftest import assembled, make_rod, random_state
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cosserat.models import published
+from cosserat.models.published_rod import PublishedRod
 from cosserat.models.planar_rod import rigid_motions, strains
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -60,7 +60,7 @@ def test_each_term_alone_has_its_own_derivatives(seed):
         others = {
             k: np.zeros_like(getattr(full, k)) for k in full._fields if k.startswith("k") and k != name
         }
-        body = published.PublishedRod.of(full._replace(**others), rod.geometry())
+        body = PublishedRod.of(full._replace(**others), rod.geometry())
         _, gradient, hessian = assembled(body, q)
         slope = fourth_order(lambda p, b=body: assembled(b, p)[0], q, direction, 1e-4)
         curve = fourth_order(lambda p, b=body: assembled(b, p)[1], q, direction, 1e-4)

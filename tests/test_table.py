@@ -177,8 +177,12 @@ ALIKE = {
     ("chapter2.py", 0.25),  # where the muscles of Fig. 2.5(b) begin, on a body of length one
     ("chapter2.py", 0.75),  # and where they end
     ("crawlers.py", 0.25),  # widths in a picture
-    ("chapter3.py", 1.35),
     ("chapter3.py", 1.6),
+    ("chapter2.py", 0.79),  # places and angles in a drawing
+    ("gaits.py", 0.78),
+    ("gaits.py", 0.99),
+    ("geometry.py", 0.75),
+    ("geometry.py", 1.35),
 }
 """Literals that are not the published number that they equal."""
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from cosserat.models.consistent import ConsistentRod
 from cosserat.models.drive import Drive
 from cosserat.models.planar_rod import lengths
-from cosserat.models.published import PublishedRod
+from cosserat.models.published_rod import PublishedRod
 from cosserat.solvers.banded import Band, Mask, Vector, band_product
 
 Array = NDArray[np.float64]

@@ -11,9 +11,10 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.models import compliance
 from cosserat.models.compliance import SectionState
-from cosserat.models.consistent import ConsistentRod, coefficients
+from cosserat.models.consistent import ConsistentRod
+from cosserat.models.consistent_reference import coefficients
 from cosserat.models.planar_rod import UNKNOWNS, Geometry
-from cosserat.models.published import PublishedRod
+from cosserat.models.published_rod import PublishedRod
 from cosserat.models.section import Station, edge_masses, lump, mass_share, mean, vertex_cuts
 from cosserat.models.section import share as share_of
 from cosserat.models.stiffness import (

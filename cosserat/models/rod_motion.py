@@ -11,7 +11,7 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat import analytic
-from cosserat.models.consistent import keeping_volume
+from cosserat.models.consistent_reference import keeping_volume
 from cosserat.models.planar_rod import (
     AXES,
     UNKNOWNS,

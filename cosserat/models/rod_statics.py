@@ -66,13 +66,16 @@ class RodStatics(RodProblem):
         UnstableError : there is one, but small motions about it grow.
         """
         geometry = self.rod.geometry()
-        body, load = self.body(geometry), self.loads(geometry)
         point, _ = self.led_to(geometry, name)
         at_rest = point.q + np.hstack([geometry.X, geometry.D]).ravel()
-        system = System(
-            body, self.mass(geometry), load.ravel(), self.held().ravel(), 0.0, np.empty((0, load.size))
+        return modes(self.system(geometry), at_rest, count, name, anchored=True)
+
+    def system(self, geometry: Geometry) -> System:
+        """The rod under its loads as something that may move."""
+        load, held = self.loads(geometry).ravel(), self.held().ravel()
+        return System(
+            self.body(geometry), self.mass(geometry), load, held, 0.0, np.empty((0, held.size))
         )
-        return modes(system, at_rest, count, name, anchored=True)
 
     def led_to(self, geometry: Geometry, name: str) -> tuple[Point, Climb]:
         """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""

@@ -47,8 +47,8 @@ at q, (N, 4).
 
 In a step that leads to `after`, q is its midpoint and `measures` are those of its start: the energy after the step.
 Order 1 writes the gradient at the midpoint, its stresses those of the mean of the measures at both ends; order 2 the
-Hessian at the midpoint with these stresses, but with no less tension than at the start: on the way to an answer a
-compression that is not there must not make it indefinite.
+Hessian at the midpoint with these stresses, but with no less tension than at the start, and the pressures of the start:
+on the way to an answer a stress that is not there must not make it indefinite.
 
 The unknowns are plane vectors, two numbers each.  The second is a direction whose angle may count through whole turns:
 the last of the first row of parameters is the angle within half a turn of which it is counted.
