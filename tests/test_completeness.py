@@ -286,7 +286,12 @@ def test_modules_and_functions_stay_small():
         text = file.read_text()
         assert text.count("\n") <= 400, file
         for node in ast.walk(ast.parse(text)):
-            if isinstance(node, ast.FunctionDef) and node.name not in ("_assemble", "assemble", "_parser", "_march"):
+            if isinstance(node, ast.FunctionDef) and node.name not in (
+                "_assemble",
+                "assemble",
+                "_parser",
+                "_march",
+            ):
                 assert node.end_lineno - node.lineno <= 60, f"{file}: {node.name}"
 
 

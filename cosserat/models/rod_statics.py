@@ -11,9 +11,9 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.models.consistent import ConsistentRod
+from cosserat.models.loaded_rod import LoadedRod
 from cosserat.models.planar_rod import AXES, Geometry, edge_shear, free_motions, strains
 from cosserat.models.resolution import coarse, refuse_crossing
-from cosserat.models.rod import RodBody
 from cosserat.models.rod_problem import RodProblem
 from cosserat.outcome import Outcome
 from cosserat.solvers.climb import Climb, NewtonSettings, Point
@@ -50,9 +50,9 @@ class RodStatics(RodProblem):
         CrossingError : neighbouring sections of the equilibrium cross.
         """
         geometry = self.rod.geometry()
-        body, load = self.body(geometry), self.loads(geometry)
-        point, climb = self.led_to(geometry, name)
-        fields = _fields(geometry, body, point, load)
+        loaded = self.loaded(geometry)
+        point, climb = self.led_to(geometry, loaded, name)
+        fields = _fields(geometry, loaded, point)
         refuse_crossing(geometry, fields["x"], fields["d"], self.rod.below, name)
         warnings = (*climb.remarks(), *coarse(fields["d"]))
         return Outcome(fields, _statistics(point, climb), warnings=warnings)
@@ -66,7 +66,7 @@ class RodStatics(RodProblem):
         UnstableError : there is one, but small motions about it grow.
         """
         geometry = self.rod.geometry()
-        point, _ = self.led_to(geometry, name)
+        point, _ = self.led_to(geometry, self.loaded(geometry), name)
         at_rest = point.q + np.hstack([geometry.X, geometry.D]).ravel()
         return modes(self.system(geometry), at_rest, count, name, anchored=True)
 
@@ -77,19 +77,19 @@ class RodStatics(RodProblem):
             self.body(geometry), self.mass(geometry), load, held, 0.0, np.empty((0, held.size))
         )
 
-    def led_to(self, geometry: Geometry, name: str) -> tuple[Point, Climb]:
+    def led_to(self, geometry: Geometry, loaded: LoadedRod, name: str) -> tuple[Point, Climb]:
         """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""
         reference = np.hstack([geometry.X, geometry.D])
         refuse_rigid_motion(reference, self.held(), name)
-        climb = Climb(self.loaded(geometry), self.newton, name)
+        climb = Climb(loaded, self.newton, name)
         try:
             return lead(climb, np.zeros(reference.size)), climb
         except NotConvergedError as error:
             if error.state is not None:
                 last = climb.at(error.state, error.factor)
                 assert last is not None  # it was one
-                fields = _fields(geometry, self.body(geometry), last, last.factor * self.loads(geometry))
                 reached = {"load_factor_reached": last.factor}
+                fields = _fields(geometry, loaded, last)
                 error.reached = Outcome(fields, _statistics(last, climb) | reached)
             raise
 
@@ -104,16 +104,18 @@ def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
         )
 
 
-def _fields(geometry: Geometry, body: RodBody, point: Point, load: Array) -> dict[str, Array]:
+def _fields(geometry: Geometry, loaded: LoadedRod, point: Point) -> dict[str, Array]:
+    load = point.factor * loaded.dead.reshape(loaded.reference.shape)
     u = point.q.reshape(load.shape)
-    q = u + np.hstack([geometry.X, geometry.D])
-    x, d = q[:, : len(AXES)], q[:, len(AXES) :]
+    x, d = np.split(u + loaded.reference, [len(AXES)], axis=1)
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
+    body = loaded.coupled(point.factor)
+    terms = body.energy_terms(point.q + loaded.base)
     if isinstance(body, ConsistentRod):
-        own = {"shear": edge_shear(x + body.offset * d, d), "energy_parts": body.energy_terms(q.ravel())}
+        own = {"shear": edge_shear(x + body.offset * d, d), "energy_parts": terms}
     else:
-        own = {"theta": measured.theta, "energy": body.energy_terms(q.ravel())}
+        own = {"theta": measured.theta, "energy": terms}
     return own | {
         "xi": arc,
         "xi_edge": (arc[1:] + arc[:-1]) / 2,

@@ -12,6 +12,7 @@ from cosserat.models.planar_rod import Lumped
 from cosserat.parameters import Parameters, Quantity
 
 Array = NDArray[np.float64]
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 class Station(Parameters):
@@ -88,9 +89,8 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
 
 def _gauss(cuts: Array) -> tuple[Array, Array]:
     """Nodes and weights of Gauss's rule on every interval between neighbouring cuts, in order."""
-    nodes, weights = np.polynomial.legendre.leggauss(8)
     half = (cuts[1:, None] - cuts[:-1, None]) / 2
-    return (cuts[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
+    return (cuts[:-1, None] + half * (1 + _NODES)).ravel(), (half * _WEIGHTS).ravel()
 
 
 def vertex_cuts(arc: Array) -> Array:

@@ -184,17 +184,16 @@ class Climb:
             hold(self.band, held)
             step = solve_positive(self.band, unbalanced)
             if residual <= tolerance or stalled(residual, last, rounding):
+                negative = 0 if step is not None else negative_eigenvalues(self.band)
                 reaction = np.where(held, self.gradient, 0.0)
+                if step is not None and share is None:  # the last correction costs one more energy
+                    ahead = body.assemble(q + step, factor, self.gradient, self.band)
+                    nearer = float(np.abs(np.where(held, 0.0, self.gradient)).max())
+                    if nearer < residual:
+                        q, energy, residual = q + step, ahead, nearer
+                        reaction = np.where(held, self.gradient, 0.0)
                 return Point(
-                    q,
-                    factor,
-                    energy,
-                    reaction,
-                    self.iterations,
-                    residual,
-                    tolerance,
-                    rounding,
-                    0 if step is not None else negative_eigenvalues(self.band),
+                    q, factor, energy, reaction, self.iterations, residual, tolerance, rounding, negative
                 )
             last = residual
             if step is None:
