@@ -189,7 +189,9 @@ class Climb:
                 if step is not None and share is None:  # the last correction costs one more energy
                     ahead = body.assemble(q + step, factor, self.gradient, self.band)
                     nearer = float(np.abs(np.where(held, 0.0, self.gradient)).max())
-                    if nearer < residual:
+                    if nearer <= max(
+                        residual, rounding
+                    ):  # where forces drown in rounding, soft motions do not
                         q, energy, residual = q + step, ahead, nearer
                         reaction = np.where(held, self.gradient, 0.0)
                 return Point(
