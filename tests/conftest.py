@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -49,11 +52,39 @@ def assembled(body, q):
 
 
 @pytest.fixture(scope="session")
-def solved():
-    """Every published case, solved once, by name."""
-    import cosserat
+def solved(tmp_path_factory):
+    """Every published case by name, solved when it is first asked for, once for all processes of a run."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
+    return Solved(shared / "solved")
 
-    return {name: cosserat.run(case) for name, case in cosserat.published().items()}
+
+class Solved(Mapping):
+    """Results by the name of their case, kept as files that other processes of the same run read."""
+
+    def __init__(self, folder):
+        self.folder, self.known = folder, {}
+        folder.mkdir(exist_ok=True)
+
+    def __getitem__(self, name):
+        import cosserat
+
+        if name not in self.known:
+            path = self.folder / f"{name}.nc"
+            with (self.folder / f"{name}.lock").open("w") as lock:
+                fcntl.flock(lock, fcntl.LOCK_EX)
+                if not path.exists():
+                    cosserat.save(cosserat.run(name), path)
+            self.known[name] = cosserat.load(path)
+        return self.known[name]
+
+    def __iter__(self):
+        import cosserat
+
+        return iter(cosserat.published())
+
+    def __len__(self):
+        return len(list(iter(self)))
 
 
 @pytest.fixture

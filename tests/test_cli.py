@@ -215,10 +215,14 @@ def test_an_unknown_command_is_refused(capsys):
     assert "invalid choice: 'ran'" in capsys.readouterr().err
 
 
-def test_the_whole_chain_by_hand(capsys, tmp_path):
+def test_the_whole_chain_by_hand(capsys, solved, tmp_path):
     (tmp_path / "cases").mkdir()
-    for name in cosserat.published():
-        assert call(capsys, "run", name, "-o", tmp_path / "cases" / f"{name}.nc")[0] == 0
+    for name in solved:
+        target = tmp_path / "cases" / f"{name}.nc"
+        if name in ("clamped_free", "worm_at_rest"):
+            assert call(capsys, "run", name, "-o", target)[0] == 0
+        else:
+            cosserat.save(solved[name], target)
     table, report = ROOT / "results/tolerances.csv", tmp_path / "report.csv"
     code, out, _ = call(capsys, "measure", "--table", table, "--cases", tmp_path / "cases", "-o", report)
     assert code == 0
@@ -278,7 +282,11 @@ def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
 
 
 @pytest.mark.usefixtures("untraced")
-def test_speed_is_measured(capsys):
+def test_speed_is_measured(capsys, monkeypatch):
+    from cosserat import speed
+
+    monkeypatch.setattr(speed, "_RUNS", 1)
+    monkeypatch.setattr(speed, "_STATICS_RUNS", 1)
     code, out, _ = call(capsys, "speed")
     assert code == 0
     first = [line.split()[0] for line in out.splitlines()]

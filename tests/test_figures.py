@@ -17,9 +17,11 @@ from cosserat.figures.catalogue import FIGURES, draw, draw_to
 from cosserat.figures.style import settings, write
 from cosserat.table import readouts
 
+ONE_OF_EACH = list({entry.module: name for name, entry in FIGURES.items()}.values())
 
-@pytest.mark.parametrize("name", list(FIGURES))
-def test_each_figure_is_the_same_twice(solved, name, tmp_path):
+
+@pytest.mark.parametrize("name", ONE_OF_EACH)
+def test_a_figure_of_each_module_is_the_same_twice(solved, name, tmp_path):
     for number in (1, 2):
         write(
             draw(name, {case: solved[case] for case in FIGURES[name].cases}), tmp_path / f"{number}.svg"

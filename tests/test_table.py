@@ -29,11 +29,10 @@ ATTEMPTED = [row for row in ROWS if row.standing != "not attempted"]
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory, solved):
-    place = tmp_path_factory.mktemp("cases")
-    for name, data in solved.items():
-        cosserat.save(data, place / f"{name}.nc")
-    return place
+def folder(solved):
+    for name in solved:
+        assert solved[name].attrs["case"] == name
+    return solved.folder
 
 
 def a_row(**changes):

@@ -239,7 +239,7 @@ def test_the_same_command_goes_on_after_a_kill_at_any_moment(checkout):
     code, text = snakemake(checkout, *AGAIN)
     assert code == 0, text
     before = {name: (checkout / name).read_bytes() for name in AGAIN}
-    for moment in ("Building DAG", "rule simulate", "Finished jobid", "alone"):
+    for moment in ("Building DAG", "rule simulate", "alone"):
         with started(checkout, *AGAIN, "--forceall") as running:
             words = "rule simulate" if moment == "alone" else moment
             assert words in read_until(running, words)

@@ -174,13 +174,7 @@ class Climb:
             if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
                 if iteration > 0:
                     return None  # a step went astray, to where everything is stiff
-                raise NotConvergedError(
-                    f"{self.name}: rounding the unknowns makes forces up to {rounding:.2g} N, too much beside the "
-                    "loads; use fewer vertices, or loads that strain the body less",
-                    iterations=self.iterations,
-                    residual=residual,
-                    tolerance=tolerance,
-                )
+                raise self._blurred(rounding)
             hold(self.band, held)
             step = solve_positive(self.band, unbalanced)
             if residual <= tolerance or stalled(residual, last, rounding):
@@ -205,6 +199,21 @@ class Climb:
             q = q + min(1.0, body.reach(q, step)) * step
             self.iterations += 1
         return None
+
+    def refuse_blur(self, point: Point) -> None:
+        """Raise NotConvergedError if rounding makes forces at a point that drown the full load."""
+        load = self.body.load(1.0)
+        if point.rounding > _BLUR * float(load.sum()) > 0:
+            raise self._blurred(point.rounding)
+
+    def _blurred(self, rounding: float) -> NotConvergedError:
+        return NotConvergedError(
+            f"{self.name}: rounding the unknowns makes forces up to {rounding:.2g} N, too much beside the loads; use "
+            "fewer vertices, or loads that strain the body less",
+            iterations=self.iterations,
+            residual=self.residual,
+            tolerance=self.tolerance,
+        )
 
     def rounding(self, q: Vector) -> float:
         """Largest force that rounding can cause, by the Hessian assembled last [N]."""

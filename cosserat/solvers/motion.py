@@ -330,6 +330,8 @@ class _Rates:
         acceleration = solve_positive(self.mass, force)
         assert acceleration is not None  # a mass is positive
         slowing = np.where(system.held, 0.0, acceleration - system.drag * v)
+        if system.drive is None and not system.drag:
+            return np.concatenate([v, slowing, np.zeros(2)])
         momentum = band_product(system.mass, v)
         taken = system.drag * float((v * momentum)[~system.held].sum())
         pushed = band_product(system.mass, slowing + gaining) + self.gradient - system.load

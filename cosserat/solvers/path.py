@@ -55,7 +55,9 @@ def lead(climb: Climb, start: Vector) -> Point:
     NotConvergedError : no path leads there, or to no stable equilibrium; the last point is its `state`.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused, not warned of
-        point = _foretold(climb, unloaded(climb, start))
+        point = unloaded(climb, start)
+        climb.refuse_blur(point)
+        point = _foretold(climb, point)
         if point.factor == 1.0:
             return point
         point = climb.at(point.q, point.factor) or point
