@@ -399,7 +399,7 @@ def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
         "shaken",
         start={"shape": "reference", "amplitude": 0.0},
         moves=[{"at": "first", "unknown": "x2", "by": "0.1 mm", "frequency": f1 / 20}],
-        duration=5 / f1,
+        duration=(5 if method == "implicit" else 1) / f1,
         every=0.05 / f1,
         integrator={"method": method, "step": 0.01 / f1},
     )

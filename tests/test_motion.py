@@ -428,15 +428,15 @@ def test_drag_shortens_the_stable_step():
     damped = {"damping": 700.0, "integrator": {"method": "rk4", "step": 2e-5}}
     with pytest.raises(InputError, match=r"only up to 1\.8\d*e-05 s"):
         vibrating(**damped)
-    for damping in (0.0, 5.0, 100.0, 300.0, 700.0):
+    for damping in (0.0, 100.0, 700.0):
         _, system, state = parts_of(BEAM.vary("beam", damping=damping, start={"amplitude": 1e-6}))
         limit = motion.stable_step(system, state.q)
         for share, bounded in ((0.97, True), (1.05, False)):
             assert stays(system, state, share * limit) == bounded, (damping, share)
 
 
-def stays(system, state, step, count=3000):
-    """Whether 3000 steps of the fixed explicit method leave the motion as small as it was."""
+def stays(system, state, step, count=1500):
+    """Whether 1500 steps of the fixed explicit method leave the motion as small as it was."""
     noise = 1e-9 * np.random.default_rng(3).standard_normal(state.q.size)
     start = motion.State(np.where(system.held, state.q, state.q + noise), state.v)
     settings = motion.IntegratorSettings(method="rk4", step=step)

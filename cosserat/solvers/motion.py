@@ -301,7 +301,8 @@ def _packed(state: State) -> Vector:
 
 
 def _unpacked(y: Vector, time: float, angle: float | None) -> State:
-    q, v = np.split(y[:-2], 2)
+    n = y.size // 2 - 1
+    q, v = y[:n], y[n : 2 * n]
     return State(q, v, time, angle, float(y[-2]), float(y[-1]))
 
 
@@ -318,8 +319,8 @@ class _Rates:
         hold(self.mass, system.held)
 
     def __call__(self, time: float, y: Vector) -> Vector:
-        system = self.system
-        q, v = np.split(y[:-2], 2)
+        system, n = self.system, self.gradient.size
+        q, v = y[:n], y[n : 2 * n]
         system.body.differentiate(q, self.gradient)
         force, gaining = system.load - self.gradient, np.zeros_like(v)
         if system.drive is not None:
