@@ -1,11 +1,12 @@
-# `make` builds everything, `make test` tests it; both set up .venv first if needed.
+# `make` builds everything, `make test` tests it, `make test-workflow` runs and kills the workflow itself.
+# Each sets up .venv first if needed.
 
 export PYTHON ?= python3
 export VENV := .venv
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := all
-.PHONY: all test environment
+.PHONY: all test test-workflow environment
 
 all: environment
 	@$(BIN)/snakemake all
@@ -13,8 +14,11 @@ all: environment
 test: environment
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	@$(BIN)/mypy & types=$$!; $(BIN)/pytest --cov --cov-report=term --numprocesses=2 --dist=loadfile; tests=$$?; \
+	@$(BIN)/mypy & types=$$!; $(BIN)/pytest -m "not workflow" --numprocesses=2 --dist=loadfile; tests=$$?; \
 	  wait $$types || { echo "mypy found errors, above" >&2; exit 1; }; exit $$tests
+
+test-workflow: environment
+	$(BIN)/pytest -m workflow
 
 environment:
 	@.ci/environment

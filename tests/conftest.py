@@ -21,11 +21,6 @@ settings.load_profile("project")
 ROOT = Path(__file__).parents[1]
 
 
-def pytest_collection_modifyitems(items):
-    """The longest file first: the files are shared out to two processes in this order."""
-    items.sort(key=lambda item: item.path.name != "test_workflow.py")
-
-
 def make_rod(**changes):
     """The rod of section 3.5 with changes."""
     import cosserat
