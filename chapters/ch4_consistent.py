@@ -57,7 +57,7 @@ from cosserat.solvers import path
 from cosserat.table import readouts
 
 # %% tags=["remove-input"]
-page.excerpt(consistent._assemble, "E, D_a = rod", "if order > 0")
+page.excerpt(consistent._assemble, "wide = (end_a", "if measuring")
 
 # %% [markdown]
 # A section may be free to contract in $\mathbf{E}_1$ (`section = "free"`: then $\Lambda = E\nu/(1-\nu^2)$, a pulled bar answers with
