@@ -66,8 +66,9 @@ class RodStatics(RodProblem):
         UnstableError : there is one, but small motions about it grow.
         """
         geometry = self.rod.geometry()
-        point, _ = self.led_to(geometry, self.loaded(geometry), name)
-        at_rest = point.q + np.hstack([geometry.X, geometry.D]).ravel()
+        loaded = self.loaded(geometry)
+        point, _ = self.led_to(geometry, loaded, name)
+        at_rest = point.q + loaded.reference.ravel()
         return modes(self.system(geometry), at_rest, count, name, anchored=True)
 
     def system(self, geometry: Geometry) -> System:
@@ -79,11 +80,10 @@ class RodStatics(RodProblem):
 
     def led_to(self, geometry: Geometry, loaded: LoadedRod, name: str) -> tuple[Point, Climb]:
         """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""
-        reference = np.hstack([geometry.X, geometry.D])
-        refuse_rigid_motion(reference, self.held(), name)
+        refuse_rigid_motion(loaded.reference, self.held(), name)
         climb = Climb(loaded, self.newton, name)
         try:
-            return lead(climb, np.zeros(reference.size)), climb
+            return lead(climb, np.zeros_like(loaded.dead)), climb
         except NotConvergedError as error:
             if error.state is not None:
                 last = climb.at(error.state, error.factor)
