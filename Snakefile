@@ -85,7 +85,7 @@ rule simulate:
     benchmark:
         "results/benchmarks/simulate/{case}.tsv"
     shell:
-        "python -m cosserat run {wildcards.case} --output {output} > {log} 2>&1"
+        "printf %s {params.case:q} | python -m cosserat run - --output {output} > {log} 2>&1"
 
 
 rule measure:

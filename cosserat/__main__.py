@@ -69,7 +69,11 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("--file", type=Path, help="TOML file of cases (default: the published ones)")
 
     sub = add("run", _run, "solve one case and write its netCDF file")
-    sub.add_argument("case", help="name of a case, as 'cosserat cases' lists it")
+    sub.add_argument(
+        "case",
+        help="name of a case, as 'cosserat cases' lists it; '-' reads one from standard input, as the JSON text in SI "
+        "units that a result holds as its attribute 'parameters'",
+    )
     sub.add_argument(
         "--file", type=Path, help="TOML file that holds the case (default: the published ones)"
     )
@@ -208,12 +212,14 @@ def _cases(options: argparse.Namespace) -> None:
 
 
 def _run(options: argparse.Namespace) -> None:
-    from cosserat.cases.catalogue import find
+    from cosserat.cases.catalogue import find, parse
     from cosserat.data.dataset import save, statistics_of, warnings_of
     from cosserat.data.files import check_destination
     from cosserat.data.parts import Parts
 
-    case = find(options.case, options.file)
+    if options.case == "-" and options.file is not None:
+        raise InputError("'-' reads the case from standard input, so '--file' has no use; leave it out")
+    case = parse(sys.stdin.read()) if options.case == "-" else find(options.case, options.file)
     path = options.output or Path(f"{case.name}.nc")
     check_destination(path, ".nc")
     from cosserat.runner import run

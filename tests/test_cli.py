@@ -1,5 +1,6 @@
 """The command line as a person uses it: help that suffices, sentences for bad input, nothing half-written."""
 
+import io
 import os
 import subprocess
 import sys
@@ -38,6 +39,23 @@ def test_run_says_where_the_result_went(capsys, tmp_path, monkeypatch):
     assert code == 0
     assert "rod.young = 1000000000.0" in out
     assert "centreline displacement" in out
+
+
+def test_a_case_is_read_as_json_from_standard_input(capsys, tmp_path, monkeypatch):
+    """The text that a result carries runs its case again, to the same bytes."""
+    first, again = tmp_path / "first.nc", tmp_path / "again.nc"
+    assert call(capsys, "run", "necking", "--output", first)[0] == 0
+    monkeypatch.setattr("sys.stdin", io.StringIO(cosserat.load(first).attrs["parameters"]))
+    assert call(capsys, "run", "-", "--output", again)[0] == 0
+    assert first.read_bytes() == again.read_bytes()
+    for text in ("", "{}", '{"name": "a", "title": "b", "problem": {"kind": "rod static"}}'):
+        monkeypatch.setattr("sys.stdin", io.StringIO(text))
+        code, _, err = call(capsys, "run", "-")
+        assert code == 2
+        assert "not those of a case" in err
+    code, _, err = call(capsys, "run", "-", "--file", "my.toml")
+    assert code == 2
+    assert "leave it out" in err
 
 
 def test_cases_are_listed(capsys, tmp_path):

@@ -183,7 +183,7 @@ def test_bad_destinations_and_files_are_refused(tmp_path, solved):
         cosserat.load(tmp_path / "bad.nc")
     with pytest.raises(InputError, match="no attribute 'parameters'"):
         files.case_of(xr.Dataset())
-    with pytest.raises(InputError, match="of another version"):
+    with pytest.raises(InputError, match="of this version"):
         files.case_of(xr.Dataset(attrs={"parameters": '{"name": "x"}'}))
 
 

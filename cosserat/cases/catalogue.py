@@ -150,7 +150,7 @@ def _read(file: str | Path) -> dict[str, Any]:
 
 
 def parse(parameters: str) -> Case:
-    """The case that a Dataset's `parameters` attribute holds.
+    """The case that a Dataset's `parameters` attribute holds, as JSON in SI units.
 
     Raises
     ------
@@ -160,8 +160,8 @@ def parse(parameters: str) -> Case:
         return Case.model_validate_json(parameters)
     except ValidationError as error:
         raise InputError(
-            f"the stored parameters are of another version of cosserat ({explain(error, Case, 'parameters')}); "
-            "run the case again"
+            f"the parameters are not those of a case of this version of cosserat ({explain(error, Case, 'parameters')}); "
+            "run the case again by its name"
         ) from None
 
 
