@@ -160,7 +160,8 @@ def parse(parameters: str) -> Case:
         return Case.model_validate_json(parameters)
     except ValidationError as error:
         raise InputError(
-            f"the parameters are not those of a case of this version of cosserat ({explain(error, Case, 'parameters')}); "
+            "the parameters are not those of a case of this version of cosserat "
+            f"({explain(error, Case, 'parameters')}); "
             "run the case again by its name"
         ) from None
 
