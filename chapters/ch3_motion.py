@@ -35,7 +35,7 @@ import cosserat
 from cosserat import analytic
 from cosserat.book import page
 from cosserat.data.dataset import case_of
-from cosserat.models import rod_motion
+from cosserat.models import planar_rod, rod_motion
 from cosserat.models.calibration import beam_of
 from cosserat.solvers import stepping
 from cosserat.table import readouts
@@ -153,7 +153,7 @@ explicit = cosserat.run(
 )
 system, start = beam.system(beam.rod.geometry()), beam.begin()
 every = beam.modes(start.q.size)
-share = every.coordinates(system.mass, [start.q - rod_motion.reference(beam.rod.geometry())])[0]
+share = every.coordinates(system.mass, [start.q - planar_rod.reference(beam.rod.geometry())])[0]
 energy = (every.angular_frequency * share) ** 2 / 2
 stiff = int(np.argmax(energy[1:])) + 1
 assert (

@@ -179,7 +179,7 @@ for side in (1e-1, 1e-2, 1e-3, 1e-4):
     unit = beam.bending_stiffness / beam.length**2
     posed = posed.replace(forces=({"at": "last", "along": "E2", "force": unit},))
     exact, _ = elastica.shearable_tip(1.0, beam.axial_stiffness / unit, beam.shear_stiffness / unit)
-    lines.append((f"{side:g}", f"{abs(posed.solve('thin').fields['u'][-1, 1] / exact - 1):.1e}"))
+    lines.append((f"{side:g}", f"{abs(posed.solve('thin')['u'][-1, 1] / exact - 1):.1e}"))
 page.table(lines, ("thickness over length", "error of the tip across"))
 
 # %% tags=["remove-input"]
@@ -188,7 +188,7 @@ for share in (0.4, 0.02, 2e-4):
     poisson = (1 - share) / 2
     necked = cosserat.case("necking_plane_strain").problem
     necked = necked.replace(rod=necked.rod.replace(poisson=poisson, vertices=21))
-    beam, fields = beam_of(necked), necked.solve("necked").fields
+    beam, fields = beam_of(necked), necked.solve("necked")
     middle = necked.rod.vertices // 2
     far = -poisson * (1 + poisson) * necked.forces[-1].force / beam.axial_stiffness
     lines.append((f"{share:g}", f"{abs((fields['lam'][middle] - 1) / far - 1):.1e}"))

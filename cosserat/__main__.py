@@ -10,7 +10,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from cosserat.data.effort import effort
 from cosserat.errors import CosseratError, CrossingError, DivergedError, InputError, NotConvergedError
 
 RESULTS = Path("results")
@@ -213,7 +212,7 @@ def _cases(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace) -> None:
     from cosserat.cases.catalogue import find, parse
-    from cosserat.data.dataset import save, statistics_of, warnings_of
+    from cosserat.data.dataset import effort, save, statistics_of, warnings_of
     from cosserat.data.files import check_destination
     from cosserat.data.parts import Parts
 
@@ -293,26 +292,19 @@ def _figure(options: argparse.Namespace) -> None:
 def _plot(options: argparse.Namespace) -> None:
     from cosserat.data.dataset import case_of, load, warnings_of
     from cosserat.data.files import check_destination
-    from cosserat.figures import consistent, crawlers, motion, rod
     from cosserat.figures.style import note, settings, write
+    from cosserat.kinds import KINDS
 
     path = options.output or options.file.with_suffix(".svg")
     check_destination(path, ".svg")
     data = load(options.file)
-    drawn = {
-        "rod statics": rod.picture,
-        "rod motion": motion.picture,
-        "rod path": consistent.picture,
-        "posture": crawlers.picture,
-        "crawl": crawlers.picture,
-    }
     kind = case_of(data).problem.kind
-    if kind not in drawn:
+    if not KINDS[kind].picture:
         raise InputError(
             f"{options.file} is of kind '{kind}', which has no picture; see it with 'cosserat show'"
         )
     with settings():
-        figure = drawn[kind](data)
+        figure = KINDS[kind].picture_function()(data)
         note(figure, warnings_of(data))
     write(figure, path)
     print(f"wrote {path}")

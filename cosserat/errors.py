@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     import xarray as xr
 
-    from cosserat.outcome import Outcome
+    from cosserat.solution import Solution
 
 
 class CosseratError(Exception):
@@ -55,7 +55,7 @@ class NotConvergedError(CosseratError):
 
     state: NDArray[np.float64] | None = None
     factor: float = 0.0
-    reached: Outcome | None = None
+    reached: Solution | None = None
     dataset: xr.Dataset | None = None
 
     def __init__(
@@ -82,7 +82,7 @@ class CrossingError(CosseratError):
     reached, dataset : what was reached before, or None, as of NotConvergedError.
     """
 
-    reached: Outcome | None = None
+    reached: Solution | None = None
     dataset: xr.Dataset | None = None
 
 

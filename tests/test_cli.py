@@ -184,8 +184,8 @@ def test_files_that_only_look_like_ours_are_refused(capsys, tmp_path, solved):
         (("show", tmp_path / "a.nc"), f"{tmp_path}/a.nc has no readable attribute 'solver'"),
         (("show", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc has no attribute 'parameters'"),
         (("plot", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc has no attribute 'parameters'"),
-        (("show", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the stored parameters are of another"),
-        (("plot", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the stored parameters are of another"),
+        (("show", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
+        (("plot", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
         (("show", tmp_path), "is a folder"),
         (("run", "necking", "-o", tmp_path / "pipe.nc"), "no ordinary file"),
         (("run", "necking", "-o", tmp_path / "a.png"), "let its name end in '.nc'"),
@@ -277,7 +277,7 @@ print(sorted(set({spared}) & set(sys.modules)))
 
 
 def test_every_case_has_a_summary(solved):
-    from cosserat.data.effort import effort
+    from cosserat.data.dataset import effort
 
     for name, data in solved.items():
         assert effort(data)[0].isdigit() or effort(data).startswith("solve_bvp"), name

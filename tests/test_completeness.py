@@ -20,10 +20,12 @@ CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 
 # Each room may import from the rooms before it, never from those after it.
 ROOMS = (
-    "outcome",
+    "solution",
     "errors",
     "units",
     "parameters",
+    "problem",
+    "kinds",
     "analytic",
     "elastica",
     "solvers",

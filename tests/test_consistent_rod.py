@@ -143,7 +143,7 @@ def test_a_body_is_the_same_whichever_line_it_is_followed_by(centreline):
     """Sag and frequencies of a beam do not depend on the height of its centreline."""
     middle = cosserat.case("clamped_free_consistent").problem
     off = middle.replace(rod=middle.rod.replace(centreline=centreline))
-    sags = [problem.solve("beam").fields["u"][-1, 1] for problem in (middle, off)]
+    sags = [problem.solve("beam")["u"][-1, 1] for problem in (middle, off)]
     assert sags[1] == pytest.approx(sags[0], rel=5e-4)
     one, other = (problem.replace(gravity=None).modes(5).angular_frequency for problem in (middle, off))
     np.testing.assert_allclose(other, one, rtol=1e-9)
@@ -151,7 +151,7 @@ def test_a_body_is_the_same_whichever_line_it_is_followed_by(centreline):
 
 def test_directors_between_two_clamps_are_exact_at_the_vertices(solved):
     problem = cosserat.case("clamped_clamped_consistent").vary("light", gravity={"g": 1e-3}).problem
-    beam, fields = beam_of(problem), problem.solve("light").fields
+    beam, fields = beam_of(problem), problem.solve("light")
     exact = problem.rod.height / 2 * analytic.clamped_clamped_director(beam, 1e-3, fields["xi"])
     np.testing.assert_allclose(fields["delta"][:, 0], exact, atol=1e-7 * np.abs(exact).max())
 
@@ -201,7 +201,7 @@ def test_necking_follows_theory_up_to_near_incompressibility(case, theory, poiss
 def test_no_shear_locking(thickness):
     posed, bending = slender(20, radius=thickness, poisson=0.3)
     pulled = posed.replace(forces=({"at": "last", "along": "E2", "force": 0.1 * bending},))
-    tip = pulled.solve("x").fields["u"][-1, 1]
+    tip = pulled.solve("x")["u"][-1, 1]
     shear = bending / (5 / 6 * posed.rod.young / 2.6 * posed.rod.area)
     assert tip == pytest.approx(elastica.transverse_tip(0.1)[0] + 0.1 * shear, rel=1e-3)
 
@@ -215,7 +215,7 @@ def test_an_incompressible_section_keeps_its_area(share):
         supports=({"at": "first", "hold": ["x3", "x2", "d3"]},),
         forces=({"at": "last", "along": "E3", "force": share * stiff},),
     )
-    data = pulled.solve("x").fields
+    data = pulled.solve("x")
     wide = (data["lam"][1:] + data["lam"][:-1]) / 2
     np.testing.assert_allclose(data["mu_edge"] * wide, 1, atol=1e-5)
     a = data["mu_edge"][0]
@@ -231,11 +231,7 @@ def test_the_elastica_under_a_dead_tip_load(elements, allowed, force):
     unit = bending
     shear = 5 / 6 * posed.rod.young / 2 * posed.rod.area / unit
     sideways, shortening = elastica.shearable_tip(force, posed.rod.young * posed.rod.area / unit, shear)
-    u = (
-        posed.replace(forces=({"at": "last", "along": "E2", "force": force * unit},))
-        .solve("x")
-        .fields["u"][-1]
-    )
+    u = posed.replace(forces=({"at": "last", "along": "E2", "force": force * unit},)).solve("x")["u"][-1]
     assert u[1] == pytest.approx(sideways, abs=allowed)
     assert -u[0] == pytest.approx(shortening, abs=allowed)
     rigid = elastica.transverse_tip(force)
@@ -245,7 +241,7 @@ def test_the_elastica_under_a_dead_tip_load(elements, allowed, force):
 def test_loads_far_beyond_that():
     posed, bending = slender(40)
     done = posed.replace(forces=({"at": "last", "along": "E2", "force": 100 * bending},)).solve("x")
-    assert done.fields["u"][-1, 1] == pytest.approx(elastica.transverse_tip(100.0)[0], abs=2e-3)
+    assert done["u"][-1, 1] == pytest.approx(elastica.transverse_tip(100.0)[0], abs=2e-3)
     assert done.statistics["iterations"] < 100
 
 
@@ -254,8 +250,8 @@ def test_loads_far_beyond_that():
 def test_a_couple_rolls_the_rod_up(turns, elements):
     posed, bending = slender(elements)
     done = posed.replace(couples=({"at": "last", "moment": 2 * np.pi * turns * bending},)).solve("x")
-    assert np.hypot(*done.fields["x"][-1]) < 1e-10
-    energy = done.fields["energy_parts"]
+    assert np.hypot(*done["x"][-1]) < 1e-10
+    energy = done["energy_parts"]
     assert energy[2] == pytest.approx(bending * (2 * np.pi * turns) ** 2 / 2, rel=1e-9)
     assert energy[6] == pytest.approx(-2 * energy[2], rel=1e-9)  # the work of the couple
 
@@ -278,7 +274,7 @@ def column(factor, elements=80, radius=1e-3, aside=0.0):
 @pytest.mark.parametrize("factor", [1.05, 1.5, 3.0])
 @pytest.mark.parametrize("aside", [0.0, 1e-4])
 def test_a_column_beyond_eulers_load_stands_where_the_exact_elastica_stands(factor, aside):
-    x = column(factor, aside=aside).solve("x").fields["x"][-1]
+    x = column(factor, aside=aside).solve("x")["x"][-1]
     sideways, height = elastica.column_tip(factor * np.pi**2 / 4)
     assert abs(x[1]) == pytest.approx(sideways, abs=2e-3)
     assert x[0] == pytest.approx(height, abs=2e-3)
@@ -329,7 +325,7 @@ def test_an_arch_snaps_through(solved):
         "x",
         units_required=False,
     )
-    snapped = statics.solve("x").fields["x"][20, 1]
+    snapped = statics.solve("x")["x"][20, 1]
     assert snapped == pytest.approx(middle[-1], abs=1e-6)
 
 
@@ -408,9 +404,9 @@ def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last
     assert caught.value.state.reshape(-1, 4)[-1, 0] == pytest.approx(-2 * caught.value.factor)
     reached = caught.value.reached
     assert reached.statistics["load_factor_reached"] == caught.value.factor
-    assert reached.fields["applied_force"][-1, 0] == pytest.approx(-2 * stiff * caught.value.factor)
-    assert np.abs(reached.fields["applied_force"] + reached.fields["support_force"]).sum(0)[1] < 1e-3
-    kept = pushed.replace(rod=pushed.rod.replace(barrier=True)).solve("x").fields
+    assert reached["applied_force"][-1, 0] == pytest.approx(-2 * stiff * caught.value.factor)
+    assert np.abs(reached["applied_force"] + reached["support_force"]).sum(0)[1] < 1e-3
+    kept = pushed.replace(rod=pushed.rod.replace(barrier=True)).solve("x")
     assert kept["mu_edge"].min() > 0.1
 
 
@@ -432,11 +428,7 @@ def test_a_path_that_is_given_up_keeps_its_points_on_request(tmp_path, capsys):
 def test_prescribed_motion_of_a_support():
     posed, _ = slender(40)
     both = [*CLAMP, {"at": "last", "hold": ["x3", "x2", "d3", "d2"]}]
-    moved = (
-        posed.replace(supports=both, moves=({"at": "last", "unknown": "x3", "by": -0.3},))
-        .solve("x")
-        .fields
-    )
+    moved = posed.replace(supports=both, moves=({"at": "last", "unknown": "x3", "by": -0.3},)).solve("x")
     assert moved["x"][-1, 0] == pytest.approx(0.7)
     assert np.abs(moved["x"][:, 1]).max() > 0.25  # buckled between its clamps
 
@@ -507,13 +499,13 @@ def test_a_tumbling_stretching_rod_keeps_energy_and_momenta(solved):
 def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
     posed, bending = slender(40)
     bent = posed.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
-    plain = bent.solve("x").fields["u"][-1, 1]
+    plain = bent.solve("x")["u"][-1, 1]
     distance = []
     for elements in (20, 40, 80):
         posed, bending = slender(elements)
         pulled = posed.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
-        with_barrier = pulled.replace(rod=pulled.rod.replace(barrier=True)).solve("x").fields["u"][-1, 1]
-        distance.append(abs(with_barrier - pulled.solve("x").fields["u"][-1, 1]))
+        with_barrier = pulled.replace(rod=pulled.rod.replace(barrier=True)).solve("x")["u"][-1, 1]
+        distance.append(abs(with_barrier - pulled.solve("x")["u"][-1, 1]))
     assert distance[0] > 1e-5
     assert distance[-1] < distance[0] / 8
     assert plain == pytest.approx(0.8107, abs=1e-3)
@@ -552,7 +544,7 @@ def test_a_million_vertices():
     """In memory and in one step, as with few vertices: a hanging bar, whose answer is known."""
     posed = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 1_000_000}).problem
     solved = posed.solve("x")
-    fields = solved.fields
+    fields = solved
     assert solved.statistics["iterations"] == 1
     exact = analytic.hanging_bar_displacement(beam_of(posed), 9.81, fields["xi"])
     assert fields["u"][-1, 0] == pytest.approx(exact[-1], rel=1e-6)
@@ -582,7 +574,7 @@ def test_hinges_and_guides_lose_no_order(supports, compliance):
         loaded = posed.replace(
             supports=supports, forces=({"at": at, "along": "E2", "force": 1e-5 * bending},)
         )
-        tips.append(loaded.solve("x").fields["u"][at, 1] / 1e-5)
+        tips.append(loaded.solve("x")["u"][at, 1] / 1e-5)
     if compliance:
         shear = 5 / 6 * posed.rod.young / 2 * posed.rod.area / bending
         exact = compliance[0] + compliance[1] / shear
@@ -631,7 +623,7 @@ def test_paths_reach_their_load_bent_and_stable(changes):
 def test_a_path_that_ends_early_says_so():
     path = cosserat.run(cosserat.case("arch_path").vary("x", arc={"count": 3}))
     assert '"load_factor_reached": 0.' in path.attrs["solver"]
-    from cosserat.data.effort import effort
+    from cosserat.data.dataset import effort
 
     assert "raise 'arc.count' to go on" in effort(path)
 
@@ -640,8 +632,8 @@ def test_shear_is_that_of_the_edges():
     posed, bending = slender(40, radius=0.05)
     done = posed.replace(forces=({"at": "last", "along": "E2", "force": 1e-3 * bending},)).solve("x")
     shear = 1e-3 * bending / (5 / 6 * posed.rod.young / 2 * posed.rod.area)
-    np.testing.assert_allclose(done.fields["shear"], shear, rtol=1e-3)
-    assert "theta" not in done.fields
+    np.testing.assert_allclose(done["shear"], shear, rtol=1e-3)
+    assert "theta" not in done
 
 
 @pytest.mark.parametrize(
@@ -740,7 +732,7 @@ def test_a_clamp_turned_through_a_whole_turn_winds_the_rod_up():
     both = [*CLAMP, {"at": "last", "hold": ["d3", "d2"]}]
     posed, bending = slender(40)
     wound = posed.replace(supports=both, turns=({"at": "last", "by": 2 * np.pi},)).solve("x")
-    assert wound.fields["energy_parts"].sum() == pytest.approx(bending * (2 * np.pi) ** 2 / 2, rel=1e-3)
+    assert wound["energy_parts"].sum() == pytest.approx(bending * (2 * np.pi) ** 2 / 2, rel=1e-3)
 
 
 def test_a_first_arc_of_any_length_ends_at_the_full_load():

@@ -165,9 +165,10 @@ def test_the_lowest_line_stays_on_the_ground_and_the_centreline_is_as_long_as_it
     fine = RegionSettings(elements=12, degree=10)
     profile, _ = Instant(problem.crawler, problem.loads, regions, "test").solve(fine, None)
     body, z = problem.crawler, np.linspace(0, 1, 20_001)
-    fields = problem.replace(sections=z.size).fields(
+    stored = problem.replace(sections=z.size).fields(
         [profile], [problem.length_along(profile)], [regions]
     )
+    fields = {name: values for name, (_, values) in stored.items()}
     xi, x, along, mu_1 = (fields["xi_section"], *(fields[n][0] for n in ("height", "along", "mu_1")))
     np.testing.assert_allclose(x - body.radius * mu_1, -body.radius, atol=1e-16)
     inside = (np.abs(z[:-1] - 0.3) > 1e-3) & (

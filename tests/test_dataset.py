@@ -20,7 +20,7 @@ import cosserat
 from cosserat.data import dataset as files
 from cosserat.data.variables import LABELS, VARIABLES
 from cosserat.errors import InputError
-from cosserat.outcome import Outcome
+from cosserat.solution import Solution
 
 
 def digest(path):
@@ -190,4 +190,23 @@ def test_bad_destinations_and_files_are_refused(tmp_path, solved):
 def test_values_that_are_not_finite_never_become_a_dataset():
     case = cosserat.case("clamped_free")
     with pytest.raises(ValueError, match="variable 'mu' is not finite"):
-        files.to_dataset(case, Outcome({"mu": np.array([1.0, np.nan])}, {}))
+        files.to_dataset(case, Solution({"mu": (("vertex",), np.array([1.0, np.nan]))}, {}))
+
+
+@pytest.mark.parametrize(
+    ("name", "dims", "shape"),
+    [
+        ("mu", ("vertex",), (3, 2)),
+        ("mu", ("edge",), (3,)),
+        ("x", ("vertex", "axis", "time"), (3, 2, 4)),
+        ("x", ("section", "vertex", "axis"), (3, 2, 4)),
+    ],
+)
+def test_fields_of_other_dimensions_never_become_a_dataset(name, dims, shape):
+    with pytest.raises(ValueError, match=f"variable '{name}' has dimensions"):
+        files.to_dataset(cosserat.case("clamped_free"), Solution({name: (dims, np.zeros(shape))}, {}))
+
+
+def test_unknown_fields_never_become_a_dataset():
+    with pytest.raises(ValueError, match="no such variables: mew"):
+        files.to_dataset(cosserat.case("clamped_free"), Solution({"mew": (("vertex",), np.ones(3))}, {}))

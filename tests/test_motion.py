@@ -6,7 +6,7 @@ import pytest
 import cosserat
 from cosserat import analytic
 from cosserat.errors import DivergedError, InputError, UnstableError
-from cosserat.models import rod_course, rod_motion
+from cosserat.models import planar_rod, rod_course
 from cosserat.models.planar_rod import rigid_motions
 from cosserat.models.rod_course import Course
 from cosserat.solvers import banded, motion
@@ -96,7 +96,7 @@ def test_a_free_rod_keeps_momentum_and_angular_momentum_to_rounding():
 def in_its_first_mode(amplitude, **changes):
     """The beam displaced by a micrometre in its own first mode, in which no stiff mode moves."""
     problem, system, _ = parts_of(BEAM.vary("beam", **changes))
-    start = rod_motion.reference(problem.rod.geometry())
+    start = planar_rod.reference(problem.rod.geometry())
     shape = problem.modes(1).shape[0]
     return system, motion.State(start + amplitude * shape / np.abs(shape).max(), np.zeros(start.size))
 
@@ -140,7 +140,7 @@ def test_both_integrators_agree_on_the_published_case_in_what_they_resolve():
     """
     problem, system, state = parts_of(BEAM)
     found = problem.modes(state.q.size)
-    start = found.coordinates(system.mass, [state.q - rod_motion.reference(problem.rod.geometry())])[0]
+    start = found.coordinates(system.mass, [state.q - planar_rod.reference(problem.rod.geometry())])[0]
     energy = (found.angular_frequency * start) ** 2 / 2
     stiff = int(np.argmax(energy[1:])) + 1
     assert energy.sum() == pytest.approx(system.body.energy(state.q), rel=1e-3)
@@ -217,7 +217,7 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
     system = pushed.system(geometry)
     climb = Climb(pushed.loaded(geometry), pushed.newton, "the column")
     for factor, directions in ((1.2, "1 direction,"), (12.0, "2 directions")):
-        straight = climb.at(np.zeros(system.held.size), factor).q + rod_motion.reference(geometry)
+        straight = climb.at(np.zeros(system.held.size), factor).q + planar_rod.reference(geometry)
         with pytest.raises(UnstableError, match=f"the column: .* unstable in {directions}"):
             modes(system, straight, 1, "the column", anchored=True)
 

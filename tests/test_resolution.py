@@ -8,9 +8,8 @@ import cosserat
 from cosserat.data.dataset import warnings_of
 from cosserat.errors import CrossingError
 from cosserat.models import consistent, published
-from cosserat.models.planar_rod import Geometry, rigid_motions
+from cosserat.models.planar_rod import Geometry, reference, rigid_motions
 from cosserat.models.resolution import surface_stretch, unresolved_energy
-from cosserat.models.rod_motion import reference
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.modes import modes
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import re
 import reprlib
 import tomllib
@@ -10,44 +11,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, ValidationError
+from pydantic import AfterValidator, SerializeAsAny
 from pydantic_core import PydanticCustomError
 
 from cosserat.cases.tables import published_tables, titles
 from cosserat.errors import InputError, path_of
-from cosserat.models.calibration import CalibrationProcedure
-from cosserat.models.convergence import Convergence
-from cosserat.models.earthworm import BodyMasses
-from cosserat.models.peristalsis import Crawl, Posture
-from cosserat.models.rod_motion import RodMotion
-from cosserat.models.rod_path import RodPath
-from cosserat.models.rod_statics import RodStatics
-from cosserat.models.worm_calibration import WormCalibration
-from cosserat.parameters import Parameters, explain, nearest
-
-Problem = (
-    RodStatics
-    | RodMotion
-    | CalibrationProcedure
-    | Posture
-    | Crawl
-    | BodyMasses
-    | WormCalibration
-    | RodPath
-    | Convergence
-)
-KINDS: dict[str, type[Problem]] = {
-    "rod statics": RodStatics,
-    "rod motion": RodMotion,
-    "rod path": RodPath,
-    "calibration": CalibrationProcedure,
-    "convergence": Convergence,
-    "posture": Posture,
-    "crawl": Crawl,
-    "body masses": BodyMasses,
-    "worm calibration": WormCalibration,
-}
-"""Problems by the `kind` that a case names."""
+from cosserat.kinds import KINDS
+from cosserat.parameters import Parameters, nearest
+from cosserat.problem import Problem
 
 
 def _check_name(name: str) -> str:
@@ -64,7 +35,7 @@ class Case(Parameters):
     name: Annotated[str, AfterValidator(_check_name)]
     title: str
     source: str = ""
-    problem: Annotated[Problem, Field(discriminator="kind")]
+    problem: SerializeAsAny[Problem]
 
     def vary(self, name: str, **changes: Any) -> Case:
         """A case of another name with parts of the problem changed: `case.vary("long", rod={"length": "10 m"})`.
@@ -157,12 +128,15 @@ def parse(parameters: str) -> Case:
     InputError : the text is not such a case.
     """
     try:
-        return Case.model_validate_json(parameters)
-    except ValidationError as error:
+        table = json.loads(parameters)
+        if not isinstance(table, dict) or not isinstance(table.get("problem"), dict):
+            raise InputError("there is no table 'problem'")
+        problem = _read_problem(dict(table["problem"]), "problem", units_required=False)
+        return Case.read({**table, "problem": problem}, "case")
+    except (json.JSONDecodeError, InputError) as error:
         raise InputError(
-            "the parameters are not those of a case of this version of cosserat "
-            f"({explain(error, Case, 'parameters')}); "
-            "run the case again by its name"
+            f"the parameters are not those of a case of this version of cosserat ({error}); run the case again by "
+            "its name"
         ) from None
 
 
@@ -174,12 +148,17 @@ def _build(name: str, known: Mapping[str, Any]) -> Case:
     table = _inherit(name, known, ())
     own = known[name]
     title, source = (own.get(key, "") for key in ("title", "source"))  # a title is not inherited
-    kind = table.pop("kind", "")
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise InputError(f"case '{name}': 'kind' is {kind!r}{nearest(str(kind), list(KINDS))}")
-    problem = KINDS[kind].read(table, f"case '{name}'")
+    problem = _read_problem(table, f"case '{name}'", units_required=True)
     about = {"name": name, "title": title or name, "source": source, "problem": problem}
     return Case.read(about, f"case '{name}'")
+
+
+def _read_problem(table: dict[str, Any], name: str, *, units_required: bool) -> Problem:
+    """The problem of a table, as the class of its kind reads it."""
+    kind = table.pop("kind", "")
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise InputError(f"{name}: 'kind' is {kind!r}{nearest(str(kind), list(KINDS))}")
+    return KINDS[kind].problem_class().read(table, name, units_required=units_required)
 
 
 def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Outcomes as xarray Datasets with units, meaning and origin; netCDF files that are whole or absent."""
+"""Solutions as xarray Datasets with units, meaning and origin; netCDF files that are whole or absent."""
 
 from __future__ import annotations
 
@@ -14,29 +14,41 @@ from cosserat.data.files import check_destination, uninterrupted, whole_or_absen
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import InputError, path_of
-from cosserat.outcome import Outcome
+from cosserat.solution import Solution
 
 P = TypeVar("P")
 _FRAME = "frame"
 """Name of a file's dimension of instants, with `time` along it: a dimension named `time` is, to the tools of CF, one of
 dates, and theirs alone may have it.  Here times count from the start, in plain seconds."""
+_ALONG = ("time", "point")
+"""Dimensions that may come before those of one state."""
 THESIS = "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
 
 
-def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
-    """Dress an outcome: dimensions, `units`, `long_name`, `symbol` and `equation` on every variable.
+def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
+    """Dress a solution: `units`, `long_name`, `symbol` and `equation` on every variable.
 
     Global attributes hold the case's parameters, the solver's statistics and the origin; never a clock.
 
     Raises
     ------
-    ValueError : a value is not finite, which no solver may return.
+    ValueError : a value is not finite, or a field is not known or has other dimensions than `data.variables` says.
     """
+    unknown = sorted(set(solution.fields) - set(VARIABLES))
+    if unknown:
+        raise ValueError(f"case '{case.name}': no such variables: {', '.join(unknown)}")
     variables: dict[str, xr.Variable] = {}
     for name, entry in VARIABLES.items():  # in the order of the table, whatever order they came in
-        if name not in outcome.fields:
+        if name not in solution:
             continue
-        values = outcome.fields[name]
+        dims, values = solution.fields[name]
+        if values.ndim != len(dims) or dims not in (
+            entry.dims,
+            *((along, *entry.dims) for along in _ALONG),
+        ):
+            raise ValueError(
+                f"case '{case.name}': variable '{name}' has dimensions {dims} and shape {values.shape}"
+            )
         if not np.isfinite(values).all():
             raise ValueError(f"case '{case.name}': variable '{name}' is not finite")
         about = {
@@ -45,13 +57,11 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
             "symbol": entry.symbol,
             "equation": entry.equation,
         }
-        dims = entry.dims if values.ndim == len(entry.dims) else (outcome.along, *entry.dims)
         variables[name] = xr.Variable(dims, np.asarray(values, dtype=np.float64), about)
     used = {str(dim) for variable in variables.values() for dim in variable.dims}
-    for dim, (labels, meaning) in LABELS.items():
-        if dim not in used:
-            continue
-        variables[dim] = xr.Variable((dim,), list(labels), {"long_name": meaning})
+    for dim, meaning in LABELS.items():
+        if dim in used:
+            variables[dim] = xr.Variable((dim,), list(solution.labels[dim]), {"long_name": meaning})
     dataset = xr.Dataset(variables).set_coords([name for name in COORDINATES if name in variables])
     dataset.attrs = {
         "Conventions": "CF-1.11",
@@ -63,11 +73,11 @@ def to_dataset(case: Case, outcome: Outcome) -> xr.Dataset:
         "history": f"cosserat run {case.name}",
         "case": case.name,
         "parameters": _sorted_json(json.loads(case.model_dump_json())),
-        "solver": _sorted_json(dict(outcome.statistics)),
+        "solver": _sorted_json(dict(solution.statistics)),
         "environment": _sorted_json(environment()),
     }
-    if outcome.warnings:
-        dataset.attrs["warnings"] = "\n".join(outcome.warnings)
+    if solution.warnings:
+        dataset.attrs["warnings"] = "\n".join(solution.warnings)
     return dataset
 
 
@@ -122,6 +132,12 @@ def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
         raise InputError(
             f"{_name(dataset)} has no readable attribute 'solver'; use one that cosserat wrote"
         ) from None
+
+
+def effort(dataset: xr.Dataset) -> str:
+    """What solving took, in a few words, as the problem's kind puts it."""
+    sizes = {str(dim): size for dim, size in dataset.sizes.items()}
+    return case_of(dataset).problem.summary(statistics_of(dataset), sizes)
 
 
 def save(dataset: xr.Dataset, path: str | Path) -> None:

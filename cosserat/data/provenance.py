@@ -11,9 +11,11 @@ from pathlib import Path
 _PACKAGE = Path(__file__).parents[1]
 _COMPUTING = (
     "errors.py",
-    "outcome.py",
+    "solution.py",
     "units.py",
     "parameters.py",
+    "problem.py",
+    "kinds.py",
     "analytic.py",
     "elastica.py",
     "runner.py",

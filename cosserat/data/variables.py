@@ -4,12 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cosserat.models.consistent import TERMS as PARTS
-from cosserat.models.convergence import MEASURES
-from cosserat.models.planar_rod import AXES, UNKNOWNS
-from cosserat.models.published import TERMS
-from cosserat.models.worm_calibration import OUTCOMES
-
 
 @dataclass(frozen=True)
 class Variable:
@@ -19,7 +13,7 @@ class Variable:
         1e-15 m; strains of an edge to that over its length; forces to that strain times the axial stiffness.
     """
 
-    dims: tuple[str, ...]  # of a state; a motion puts `time` before them
+    dims: tuple[str, ...]  # of one state; a motion puts `time` before them, a path `point`
     units: str
     long_name: str
     symbol: str
@@ -27,18 +21,18 @@ class Variable:
     floor: float
 
 
-LABELS: dict[str, tuple[tuple[str, ...], str]] = {
-    "axis": (AXES, "component in the plane of motion"),
-    "unknown": (UNKNOWNS, "unknown of a vertex, eq. (3.3.42)"),
-    "stretching_coefficient": (("c1",), "coefficient of eq. (3.4.13)"),
-    "beam_coefficient": (("c3", "c4", "c5"), "coefficient of eq. (3.4.13)"),
-    "section_coefficient": (("c2", "c6", "c7"), "coefficient of eq. (3.4.13)"),
-    "part": (PARTS, "part of the energy of the consistent rod"),
-    "measure": (MEASURES, "what is compared with an exact answer"),
-    "outcome": (OUTCOMES, "what the calibration of the worm matches"),
-    "term": (TERMS, "term of the strain energy, eq. (3.4.11)"),
+LABELS = {
+    "axis": "component in the plane of motion",
+    "unknown": "unknown of a vertex, eq. (3.3.42)",
+    "stretching_coefficient": "coefficient of eq. (3.4.13)",
+    "beam_coefficient": "coefficient of eq. (3.4.13)",
+    "section_coefficient": "coefficient of eq. (3.4.13)",
+    "part": "part of the energy of the consistent rod",
+    "measure": "what is compared with an exact answer",
+    "outcome": "what the calibration of the worm matches",
+    "term": "term of the strain energy, eq. (3.4.11)",
 }
-"""Labels of the dimensions that are not counted: values and meaning."""
+"""Meaning of the dimensions whose values are names, not numbers."""
 
 COORDINATES = ("xi", "xi_edge", "xi_section", "time", "load_factor", "body_mass")
 """Variables that place the others."""

@@ -6,7 +6,7 @@ largest ordinate.  The logarithms of the coefficients are fitted, so that they s
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from cosserat import analytic
 from cosserat.models.rod_problem import RodProblem
 from cosserat.models.rod_statics import RodStatics
-from cosserat.outcome import Outcome
-from cosserat.parameters import Count, Parameters
+from cosserat.parameters import Count
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.solution import Field, Solution
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
@@ -40,8 +41,16 @@ ASSIGNED = {
 }
 """Which coefficients the thesis finds from which problem."""
 
+_GROUP = {
+    "hanging_bar": "stretching",
+    "clamped_free": "beam",
+    "clamped_clamped": "beam",
+    "necking": "section",
+}
+"""What the coefficients of a problem are called together."""
 
-class CalibrationProcedure(Parameters):
+
+class CalibrationProcedure(Problem):
     """The four problems of section 3.5, and the numbers of vertices at which to calibrate."""
 
     kind: Literal["calibration"] = "calibration"
@@ -51,7 +60,7 @@ class CalibrationProcedure(Parameters):
     clamped_clamped: RodStatics
     necking: RodStatics
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Fit every problem at every mesh, and measure the published coefficients there.
 
         Raises
@@ -59,24 +68,49 @@ class CalibrationProcedure(Parameters):
         NotConvergedError : a solve on the way failed.
         """
         fits = {problem: [self.fit(problem, n, name) for n in self.meshes] for problem in ASSIGNED}
-        fields: dict[str, Array] = {"vertices": np.array(self.meshes, dtype=np.float64)}
+        mesh = ("mesh",)
+        fields: dict[str, Field] = {"vertices": (mesh, np.array(self.meshes, dtype=np.float64))}
         for problem, results in fits.items():
-            fields[f"{problem}_coefficients"] = np.exp([result.x for result in results])
-            fields[f"{problem}_misfit"] = np.array([np.sqrt(2 * result.cost) for result in results])
+            coefficient = f"{_GROUP[problem]}_coefficient"
+            direction = f"{_GROUP[problem]}_direction"
+            fields[f"{problem}_coefficients"] = (
+                (*mesh, coefficient),
+                np.exp([result.x for result in results]),
+            )
+            fields[f"{problem}_misfit"] = (
+                mesh,
+                np.array([np.sqrt(2 * result.cost) for result in results]),
+            )
             found = [
                 sensitivities(self.misfit(problem, n, name), result.x)
                 for n, result in zip(self.meshes, results, strict=True)
             ]
-            fields[f"{problem}_singular_values"] = np.array([size for size, _ in found])
-            fields[f"{problem}_directions"] = np.array([direction for _, direction in found])
-            fields[f"{problem}_published"] = np.array(
-                [self._at_published(problem, n, name) for n in self.meshes]
+            fields[f"{problem}_singular_values"] = (
+                (*mesh, direction),
+                np.array([size for size, _ in found]),
+            )
+            fields[f"{problem}_directions"] = (
+                (*mesh, direction, coefficient),
+                np.array([directions for _, directions in found]),
+            )
+            fields[f"{problem}_published"] = (
+                mesh,
+                np.array([self._at_published(problem, n, name) for n in self.meshes]),
             )
         both = [self.fit_both_beams(n, name) for n in self.meshes]
-        fields["beams_coefficients"] = np.exp([result.x for result in both])
-        fields["beams_misfit"] = np.array([np.sqrt(2 * result.cost) for result in both])
+        fields["beams_coefficients"] = (
+            (*mesh, "beam_coefficient"),
+            np.exp([result.x for result in both]),
+        )
+        fields["beams_misfit"] = (mesh, np.array([np.sqrt(2 * result.cost) for result in both]))
         solves = sum(int(result.nfev) for results in (*fits.values(), both) for result in results)
-        return Outcome(fields, {"misfit_evaluations": solves})
+        labels = {f"{_GROUP[problem]}_coefficient": names for problem, names in ASSIGNED.items()}
+        return Solution(fields, {"misfit_evaluations": solves}, labels)
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of misfits."""
+        return f"{statistics['misfit_evaluations']} evaluations of the misfits"
 
     def fit(self, problem: str, vertices: int, name: str) -> OptimizeResult:
         """Least squares over the coefficients of one problem at one mesh, from the published ones."""
@@ -149,7 +183,7 @@ def _at(posed: RodStatics, vertices: int, values: dict[str, float]) -> RodStatic
 
 
 def _curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
-    fields = posed.solve(name).fields
+    fields = posed.solve(name)
     beam, xi = beam_of(posed), fields["xi"]
     if problem == "necking":
         beta = analytic.necking_decay(beam, "printed")
@@ -161,7 +195,7 @@ def _curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
 
 def _director_curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
     """delta . E3 at the lateral surface of a beam, computed and by eqs. (3.5.4), (3.5.7) [m]."""
-    fields, exact = posed.solve(name).fields, _DIRECTORS[problem]
+    fields, exact = posed.solve(name), _DIRECTORS[problem]
     assert posed.gravity is not None
     directors = exact(beam_of(posed), posed.gravity.g, fields["xi"])
     return fields["delta"][:, 0], posed.rod.height / 2 * directors

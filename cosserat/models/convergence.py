@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -14,8 +14,9 @@ from cosserat import analytic, elastica
 from cosserat.models.calibration import beam_of
 from cosserat.models.rod_problem import PointForce
 from cosserat.models.rod_statics import RodStatics
-from cosserat.outcome import Outcome
-from cosserat.parameters import Count, Parameters
+from cosserat.parameters import Count
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.solution import Field, Solution
 
 Array = NDArray[np.float64]
 Formula = Callable[[analytic.Beam, float, Array], Array]
@@ -41,7 +42,7 @@ _SMALL = 1e-4  # share of the weights taken: exact answers are linear
 _TIP_FORCES = (1.0, 5.0, 10.0)  # of the elastica, in EI / L^2
 
 
-class Convergence(Parameters):
+class Convergence(Problem):
     """Problems with exact answers, and the numbers of vertices at which to solve them."""
 
     kind: Literal["convergence"] = "convergence"
@@ -58,7 +59,7 @@ class Convergence(Parameters):
             raise PydanticCustomError("odd", "'meshes' must be odd, so that a vertex stands at mid-span")
         return self
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Every measure at every mesh.
 
         Raises
@@ -66,8 +67,16 @@ class Convergence(Parameters):
         NotConvergedError : a solve on the way failed.
         """
         errors = np.array([self.errors(n, name) for n in self.meshes]).T
-        fields = {"vertices": np.array(self.meshes, dtype=np.float64), "errors": errors}
-        return Outcome(fields, {"meshes": len(self.meshes)})
+        fields: dict[str, Field] = {
+            "vertices": (("mesh",), np.array(self.meshes, dtype=np.float64)),
+            "errors": (("measure", "mesh"), errors),
+        }
+        return Solution(fields, {"meshes": len(self.meshes)}, {"measure": MEASURES})
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of meshes."""
+        return f"{statistics['meshes']} meshes"
 
     def errors(self, vertices: int, name: str) -> list[float]:
         """The measures at one mesh, in the order of `MEASURES`."""
@@ -88,7 +97,7 @@ class Convergence(Parameters):
 def _bent(posed: RodStatics, displacement: Formula, director: Formula, name: str) -> list[float]:
     """Errors of displacement and directors of a beam under its weight."""
     assert posed.gravity is not None
-    fields, beam, g = posed.solve(name).fields, beam_of(posed), posed.gravity.g
+    fields, beam, g = posed.solve(name), beam_of(posed), posed.gravity.g
     return [
         _share(fields["u"][:, 1], displacement(beam, g, fields["xi"])),
         _share(fields["delta"][:, 0], posed.rod.height / 2 * director(beam, g, fields["xi"])),
@@ -96,7 +105,7 @@ def _bent(posed: RodStatics, displacement: Formula, director: Formula, name: str
 
 
 def _necked(posed: RodStatics, name: str) -> float:
-    beam, fields = beam_of(posed), posed.solve(name).fields
+    beam, fields = beam_of(posed), posed.solve(name)
     decay = analytic.necking_decay(beam, "free section")
     strain = analytic.necking_strain(beam, posed.forces[-1].force, decay, fields["xi"])
     return _share(fields["lam"] - 1, strain)
@@ -109,7 +118,7 @@ def _far(posed: RodStatics, name: str) -> list[float]:
     found = []
     for force in _TIP_FORCES:
         pulled = posed.replace(forces=(PointForce(at="last", along="E2", force=force * unit),))
-        fields = pulled.solve(name).fields
+        fields = pulled.solve(name)
         s = np.minimum(fields["xi"] / beam.length, 1.0)
         shape = elastica.shearable_shape(
             force, beam.axial_stiffness / unit, beam.shear_stiffness / unit, s

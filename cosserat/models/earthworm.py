@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -10,8 +11,9 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.models.peristalsis import Crawl
-from cosserat.outcome import Outcome
-from cosserat.parameters import Parameters, Quantity
+from cosserat.parameters import Quantity
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.solution import Field, Solution
 
 Array = NDArray[np.float64]
 
@@ -75,7 +77,7 @@ def resting_diameter(mass: float) -> float:
     return float(1e-3 * 10**0.6 * (1e3 * mass) ** 0.278)
 
 
-class BodyMasses(Parameters):
+class BodyMasses(Problem):
     """A worm's crawl at many body masses, under one law for its muscles.
 
     Length, radius, mass and durations of the worm are replaced by those of Table 2.1, its loads by those of the law,
@@ -99,7 +101,7 @@ class BodyMasses(Parameters):
             )
         return self
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Stride, speed, frequency and the extreme stretches of segment 50 of every worm.
 
         Raises
@@ -112,7 +114,7 @@ class BodyMasses(Parameters):
             worm.refuse_collapse(worm.gait.moments(worm.step), called)
         table = np.array([_measure(worm, called) for worm, called in worms])
         duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
-        fields = {
+        values = {
             "body_mass": np.array(self.masses),
             "stride": table[:, 0],
             "speed": table[:, 0] / duration,
@@ -122,7 +124,13 @@ class BodyMasses(Parameters):
             "mu_3_least": table[:, 3],
             "mu_3_most": table[:, 4],
         }
-        return Outcome(fields, {"crawls": len(self.masses)})
+        fields: dict[str, Field] = {key: (("mass",), value) for key, value in values.items()}
+        return Solution(fields, {"crawls": len(self.masses)})
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of crawls."""
+        return f"{statistics['crawls']} crawls"
 
     def scaled(self, mass: float) -> Crawl:
         """One stride of the worm of another mass [kg]: Table 2.1 for body and times, `MUSCLE_LAWS` for the loads."""
@@ -144,7 +152,7 @@ class BodyMasses(Parameters):
 
 def _measure(crawl: Crawl, name: str) -> tuple[float, ...]:
     """Stride [m] and extreme mu_1, mu_3 of segment 50."""
-    fields = crawl.solve(name).fields
+    fields = crawl.solve(name)
     at = int(np.argmin(np.abs(crawl.places - SEGMENT_50)))
     mu_1, mu_3 = fields["mu_1"][:, at], fields["mu_3"][:, at]
     stride = float(fields["along"][-1, -1] - fields["along"][0, -1])

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,9 @@ from pydantic_core import PydanticCustomError
 from cosserat.models.gait import Gait, Moment
 from cosserat.models.muscle_regions import Instant, Muscle, Profile, Region, holds_force, refuse_tilt
 from cosserat.models.peristaltic_rod import Crawler, Loads
-from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
@@ -24,9 +25,10 @@ _EMPTY = 1e-6  # a region shorter than this share of the length counts as empty
 _ALIKE = 1e-9  # regions whose mu_1 differs by less are equally fat
 
 
-class CrawlerProblem(Parameters):
+class CrawlerProblem(Problem):
     """What an instant and a crawl have in common."""
 
+    thinned: ClassVar[Mapping[str, int]] = {"time": 40, "section": 20}
     crawler: Crawler
     loads: Loads
     solver: Literal["banded", "collocation"] = "banded"
@@ -67,14 +69,13 @@ class CrawlerProblem(Parameters):
 
     def fields(
         self, profiles: list[Profile], placed: list[Array], regions: list[Sequence[Region]]
-    ) -> dict[str, Array]:
+    ) -> dict[str, Field]:
         """Stored variables, times by sections; `placed` are the positions along the ground at the mesh points."""
         z, body = self.places, self.crawler
         on = [profile.at(z) for profile in profiles]
         mu, slope = np.array([a[0] for a in on]), np.array([a[1] for a in on])
         mu_3, multiplier = np.array([a[2] for a in on]), np.array([a[3] for a in on])
-        fields = {
-            "xi_section": z * body.length,
+        values = {
             "mu_1": mu[..., 0],
             "mu_2": mu[..., 1],
             "mu_3": mu_3,
@@ -84,8 +85,19 @@ class CrawlerProblem(Parameters):
             "advancing": np.array([_advancing(r, z) for r in regions]),
         }
         if body.material.kind == "incompressible":
-            fields["p_coelom"] = self.pressure(mu, multiplier)
-        return fields
+            values["p_coelom"] = self.pressure(mu, multiplier)
+        fields: dict[str, Field] = {key: (("time", "section"), value) for key, value in values.items()}
+        return fields | {"xi_section": (("section",), z * body.length)}
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Instants, and the work of the solver."""
+        how = (
+            f"{statistics['newton_iterations']} Newton iterations"
+            if "newton_iterations" in statistics
+            else f"solve_bvp with up to {statistics['most_nodes']} nodes"
+        )
+        return f"{statistics['instants']} instants, {how}"
 
 
 class Segment(Parameters):
@@ -126,7 +138,7 @@ class Posture(CrawlerProblem):
             )
         return self
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Stretches and shape, the rear end at the origin.
 
         Raises
@@ -137,8 +149,11 @@ class Posture(CrawlerProblem):
         regions = [Region(r.begin, r.end, r.load) for r in self.regions]
         profile, _, tilt = self.solve_instant(regions, None, name)
         fields = self.fields([profile], [self.length_along(profile)], [regions])
-        flat = {key: values if key == "xi_section" else values[0] for key, values in fields.items()}
-        return Outcome(flat, _statistics(self, [profile], tilt))
+        flat = {
+            key: (dims[1:], values[0]) if dims[0] == "time" else (dims, values)
+            for key, (dims, values) in fields.items()
+        }
+        return Solution(flat, _statistics(self, [profile], tilt))
 
 
 @dataclass(frozen=True)
@@ -203,7 +218,7 @@ class Crawl(CrawlerProblem):
             "lies where the body is thin, and crawlers hold on where they are fat; move 'gait.anchor'"
         )
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Every instant of the gait, each placed on the ground by its anchor, eqs. (2.5.10), (2.5.11).
 
         Raises
@@ -211,10 +226,6 @@ class Crawl(CrawlerProblem):
         InputError : the loads collapse a section.  NotConvergedError : an instant has no solution.
         OutOfReachError : the surface cannot stay on the ground.
         """
-        return self.crawl(name, None)
-
-    def crawl(self, name: str, progress: Callable[[float, str], None] | None) -> Outcome:
-        """The same, telling how far it is."""
         moments = self.gait.moments(self.step)
         self.refuse_collapse(moments, name)
         steps: list[_Step] = []
@@ -231,10 +242,9 @@ class Crawl(CrawlerProblem):
                     placed = placed + float((held - after.interpolate(placed, at))[0])
                 steps.append(_Step(stride, moment, profile, placed))
                 tilt = max(tilt, sine)
-            if progress:
-                progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
+            run.progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
         thin = self.thin_anchor_warning()
-        return Outcome(
+        return Solution(
             self._fields(steps),
             _statistics(self, [s.profile for s in steps], tilt),
             warnings=() if thin is None else (thin,),
@@ -257,17 +267,20 @@ class Crawl(CrawlerProblem):
                 when = f"{name} at t = {moment.time:.4g} s"
                 Instant(self.crawler, self.loads, moment.regions, when).refuse_collapse()
 
-    def _fields(self, steps: list[_Step]) -> dict[str, Array]:
+    def _fields(self, steps: list[_Step]) -> dict[str, Field]:
         fields = self.fields(
             [s.profile for s in steps], [s.placed for s in steps], [s.moment.regions for s in steps]
         )
         anchors = np.array([s.moment.anchor for s in steps])
         ground = [s.profile.mesh.interpolate(s.placed, np.array([s.moment.anchor]))[0] for s in steps]
         return {
-            "time": np.array([s.stride * self.gait.duration + s.moment.time for s in steps]),
+            "time": (
+                ("time",),
+                np.array([s.stride * self.gait.duration + s.moment.time for s in steps]),
+            ),
             **fields,
-            "anchor": anchors * self.crawler.length,
-            "anchor_along": np.array(ground),
+            "anchor": (("time",), anchors * self.crawler.length),
+            "anchor_along": (("time",), np.array(ground)),
         }
 
 

@@ -199,6 +199,16 @@ def rigid_motions(q: Array) -> Array:
     return fields
 
 
+def reference(geometry: Geometry) -> Array:
+    """The unknowns of the reference configuration, shape (4 N,)."""
+    return np.hstack([geometry.X, geometry.D]).ravel()
+
+
+def rigid_fields(q: Array) -> Array:
+    """The rigid motions at q, shape (4 N,): two translations and the rotation about the origin, shape (3, 4 N)."""
+    return rigid_motions(q.reshape(-1, len(UNKNOWNS))).reshape(3, -1)
+
+
 def free_motions(q: Array, held: NDArray[np.bool_]) -> Array:
     """How much of the three rigid motions moves no held number, each from 0 to 1: q, held of shape (N, 4) -> (3,)."""
     motions = rigid_motions(q)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, NotConvergedError
-from cosserat.models.planar_rod import UNKNOWNS, Geometry
+from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, reference, rigid_fields
 from cosserat.models.resolution import (
     FAST,
     UNBALANCED,
@@ -20,8 +21,7 @@ from cosserat.models.resolution import (
     unresolved_energy,
 )
 from cosserat.models.rod import RodBody
-from cosserat.models.rod_motion import RodMotion, reference, rigid_fields
-from cosserat.outcome import Outcome
+from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import band_product
 from cosserat.solvers.motion import (
     DAMPED,
@@ -35,6 +35,9 @@ from cosserat.solvers.motion import (
     stable_step,
     step_count,
 )
+
+if TYPE_CHECKING:
+    from cosserat.models.rod_motion import RodMotion
 
 Array = NDArray[np.float64]
 
@@ -85,7 +88,7 @@ class Course:
         """Number of parts in which the run is stored."""
         return -(-self.problem.frames * self.legs // self.stops_per_part)
 
-    def part(self, number: int, state: State) -> tuple[Outcome, State, CosseratError | None]:
+    def part(self, number: int, state: State) -> tuple[Solution, State, CosseratError | None]:
         """States at the stops of one part, from that in which the part before it ended; the first has the start too.
 
         Where the integrator cannot go on, the states before that and its error come back.
@@ -114,7 +117,8 @@ class Course:
             steps += done
         rod = self.problem.rod.body(self.geometry)
         fields = _fields(self.geometry, self.system, rod, states) if states else {}
-        return Outcome(fields, {"steps": steps, **self._judged(states)}), state, stopped
+        statistics = {"steps": steps, **self._judged(states)}
+        return Solution(fields, statistics, {"axis": AXES}), state, stopped
 
     @property
     def step(self) -> float:
@@ -139,25 +143,25 @@ class Course:
             unresolved += unresolved_energy(band, system.mass, system.held, state.v, self.step)
         return {"judged_kinetic_J": kinetic, "unresolved_kinetic_J": unresolved}
 
-    def warnings(self, whole: Outcome) -> tuple[str, ...]:
+    def warnings(self, whole: Solution) -> tuple[str, ...]:
         """What a whole motion does not resolve."""
         return (
-            *self._unbalanced(whole.fields),
+            *self._unbalanced(whole),
             *self._unresolved(whole.statistics),
-            *self._too_fast(whole.fields),
-            *coarse(whole.fields["d"]),
+            *self._too_fast(whole),
+            *coarse(whole["d"]),
             *self._damped_beyond(),
         )
 
-    def _unbalanced(self, fields: Mapping[str, Array]) -> Iterator[str]:
-        energy = fields["kinetic_energy"] + fields["strain_energy"]
-        given = fields["support_work"] - fields["dissipated_energy"] - fields["load_potential"]
+    def _unbalanced(self, whole: Solution) -> Iterator[str]:
+        energy = whole["kinetic_energy"] + whole["strain_energy"]
+        given = whole["support_work"] - whole["dissipated_energy"] - whole["load_potential"]
         missing = np.abs(energy - given - (energy - given)[0])
         size = max(float(np.abs(energy).max()), float(np.abs(given - given[0]).max()))
         if missing.max() > UNBALANCED * size:
             worst = int(missing.argmax())
             yield (
-                f"energy balance: at {fields['time'][worst]:.4g} s, {100 * missing[worst] / size:.2g} % of the energy "
+                f"energy balance: at {whole['time'][worst]:.4g} s, {100 * missing[worst] / size:.2g} % of the energy "
                 "is not accounted for; take a shorter 'integrator.step'"
             )
 
@@ -170,8 +174,8 @@ class Course:
                 "'integrator.step' if they matter, or a start that does not set them off"
             )
 
-    def _too_fast(self, fields: Mapping[str, Array]) -> Iterator[str]:
-        d, rate = fields["d"], fields["d_rate"]
+    def _too_fast(self, whole: Solution) -> Iterator[str]:
+        d, rate = whole["d"], whole["d_rate"]
         turning = (d[..., 0] * rate[..., 1] - d[..., 1] * rate[..., 0]) / (d**2).sum(axis=-1)
         fastest = float(np.abs(turning).max()) * self.step
         if fastest > FAST:
@@ -192,16 +196,30 @@ class Course:
             )
 
 
-def resumed(fields: dict[str, Array]) -> State:
-    """The state in which a stored part ended, from its fields."""
+def resumed(part: Solution) -> State:
+    """The state in which a stored part ended."""
     return State(
-        np.hstack([fields["x"][-1], fields["d"][-1]]).ravel(),
-        np.hstack([fields["x_rate"][-1], fields["d_rate"][-1]]).ravel(),
-        float(fields["time"][-1]),
-        float(fields["first_angle"][-1]),
-        float(fields["dissipated_energy"][-1]),
-        float(fields["support_work"][-1]),
+        np.hstack([part["x"][-1], part["d"][-1]]).ravel(),
+        np.hstack([part["x_rate"][-1], part["d_rate"][-1]]).ravel(),
+        float(part["time"][-1]),
+        float(part["first_angle"][-1]),
+        float(part["dissipated_energy"][-1]),
+        float(part["support_work"][-1]),
     )
+
+
+def joined(parts: list[Solution], legs: int) -> Solution:
+    """One solution: fields along the time are joined, every `legs`-th instant a frame; statistics are summed."""
+    first = parts[0]
+    fields = {
+        name: (
+            dims,
+            np.concatenate([part[name] for part in parts])[::legs] if "time" in dims else values,
+        )
+        for name, (dims, values) in first.fields.items()
+    }
+    statistics = {key: sum(part.statistics[key] for part in parts) for key in first.statistics}
+    return Solution(fields, statistics, first.labels)
 
 
 def _work_of_a_frame(problem: RodMotion, system: System, geometry: Geometry) -> float:
@@ -214,28 +232,32 @@ def _work_of_a_frame(problem: RodMotion, system: System, geometry: Geometry) -> 
     return step_count(problem.between_frames, settings) * (alone + each * problem.rod.vertices)
 
 
-def _fields(geometry: Geometry, system: System, rod: RodBody, states: list[State]) -> dict[str, Array]:
+def _fields(geometry: Geometry, system: System, rod: RodBody, states: list[State]) -> dict[str, Field]:
     q = np.array([state.q for state in states]).reshape(len(states), -1, len(UNKNOWNS))
     v = np.array([state.v for state in states]).reshape(q.shape)
     start = reference(geometry)
     strain = np.array([rod.energy(state.q) for state in states])
     loaded = [body_at(system, s).energy(s.q) - system.load @ (s.q - start) for s in states]
     momenta = np.array([rigid_fields(s.q) @ band_product(system.mass, s.v) for s in states])
-    return {
+    moving, vector = ("time", "vertex", "axis"), ("vertex", "axis")
+    at_times = {
         "time": np.array([state.time for state in states]),
-        "xi": geometry.arc_length,
-        "x_ref": geometry.X,
-        "d_ref": geometry.D,
-        "x": q[..., :2],
-        "d": q[..., 2:],
-        "x_rate": v[..., :2],
-        "d_rate": v[..., 2:],
         "first_angle": np.array([state.angle for state in states]),
         "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
         "strain_energy": strain,
         "load_potential": np.array(loaded) - strain,
         "dissipated_energy": np.array([state.dissipated for state in states]),
         "support_work": np.array([state.driven for state in states]),
-        "momentum": momenta[:, :2],
         "angular_momentum": momenta[:, 2],
+    }
+    fields: dict[str, Field] = {name: (("time",), values) for name, values in at_times.items()}
+    return fields | {
+        "xi": (("vertex",), geometry.arc_length),
+        "x_ref": (vector, geometry.X),
+        "d_ref": (vector, geometry.D),
+        "x": (moving, q[..., :2]),
+        "d": (moving, q[..., 2:]),
+        "x_rate": (moving, v[..., :2]),
+        "d_rate": (moving, v[..., 2:]),
+        "momentum": (("time", "axis"), momenta[:, :2]),
     }

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +15,18 @@ from cosserat import analytic
 from cosserat.models.consistent_reference import keeping_volume
 from cosserat.models.planar_rod import (
     AXES,
-    UNKNOWNS,
     Geometry,
     counted_angles,
     free_motions,
+    reference,
+    rigid_fields,
     rigid_motions,
 )
+from cosserat.models.rod_course import Course, joined, resumed
 from cosserat.models.rod_problem import Direction, RodProblem, unit_vector
 from cosserat.parameters import Parameters, Quantity
+from cosserat.problem import ALONE, Run
+from cosserat.solution import Solution
 from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
 from cosserat.solvers.motion import (
     IntegratorSettings,
@@ -50,6 +55,7 @@ class RodMotion(RodProblem):
     """A rod moving from a start, perhaps damped, under dead loads."""
 
     kind: Literal["rod motion"] = "rod motion"
+    thinned: ClassVar[Mapping[str, int]] = {"time": 40}
     start: Start = Start()
     duration: Annotated[float, Quantity("s", above=0)]
     every: Annotated[float, Quantity("s", above=0)]
@@ -140,12 +146,33 @@ class RodMotion(RodProblem):
         upright = counted_angles(geometry.D)[0]
         return State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))
 
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """The motion at its frames; with a store of parts it resumes where an earlier run was interrupted.
 
-def reference(geometry: Geometry) -> Array:
-    """The unknowns of the reference configuration, shape (4 N,)."""
-    return np.hstack([geometry.X, geometry.D]).ravel()
+        Raises
+        ------
+        InputError : the integrator's fixed step is beyond its stability limit, or stored parts are of another run.
+        NotConvergedError, DivergedError, CrossingError : a step has no solution; the parts before it are stored.
+        """
+        course, state = Course.of(self, name), self.begin()
+        done: list[Solution] = []
+        for number in range(course.parts):
+            part = run.checkpoints.load(number) if run.checkpoints else None
+            if part is not None:
+                state = resumed(part)
+            else:
+                part, state, stopped = course.part(number, state)
+                if run.checkpoints and part.fields:
+                    run.checkpoints.save(number, part, whole=stopped is None)
+                if stopped:
+                    raise stopped
+            done.append(part)
+            reached = part["time"][-1]
+            run.progress((number + 1) / course.parts, f"{reached:.4g} of {self.duration:g} s")
+        whole = joined(done, course.legs)
+        return replace(whole, warnings=course.warnings(whole))
 
-
-def rigid_fields(q: Array) -> Array:
-    """The rigid motions at q, shape (4 N,): two translations and the rotation about the origin, shape (3, 4 N)."""
-    return rigid_motions(q.reshape(-1, len(UNKNOWNS))).reshape(3, -1)
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Frames and steps."""
+        return f"{sizes['time'] - 1} frames in {statistics['steps']} steps"

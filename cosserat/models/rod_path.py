@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -10,12 +11,13 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import CrossingError, NotConvergedError
-from cosserat.models.planar_rod import Geometry
+from cosserat.models.planar_rod import AXES, Geometry
 from cosserat.models.resolution import coarse, refuse_crossing
 from cosserat.models.rod_problem import RodProblem
 from cosserat.models.rod_statics import refuse_rigid_motion
-from cosserat.outcome import Outcome
 from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.problem import ALONE, Run
+from cosserat.solution import Field, Solution
 from cosserat.solvers.climb import Climb, NewtonSettings, Point
 from cosserat.solvers.path import Arc, follow, unloaded
 
@@ -54,7 +56,7 @@ class RodPath(RodProblem):
             )
         return self
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Every point of the path; after 'arc.count' arcs it ends where it is, which the statistics say.
 
         Raises
@@ -84,22 +86,33 @@ class RodPath(RodProblem):
                 points.append(point)
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _outcome(geometry, start, points, climb)
+                error.reached = _solution(geometry, start, points, climb)
             raise
-        return _outcome(geometry, start, points, climb)
+        return _solution(geometry, start, points, climb)
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Points, and how far the load came."""
+        reached = statistics["load_factor_reached"]
+        end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to go on"
+        return (
+            f"{statistics['points']} points, {statistics['unstable_points']} of them unstable, up to {reached:.4g} of "
+            f"the load, {statistics['iterations']} Newton iterations{end}"
+        )
 
 
-def _outcome(geometry: Geometry, start: Array, points: list[Point], climb: Climb) -> Outcome:
+def _solution(geometry: Geometry, start: Array, points: list[Point], climb: Climb) -> Solution:
     q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
-    fields = {
-        "load_factor": np.array([point.factor for point in points]),
-        "stable": np.array([float(point.stable) for point in points]),
-        "xi": geometry.arc_length,
-        "x_ref": geometry.X,
-        "d_ref": geometry.D,
-        "x": q[..., :2],
-        "d": q[..., 2:],
-        "potential": np.array([point.energy for point in points]),
+    along, vector = ("point",), ("vertex", "axis")
+    fields: dict[str, Field] = {
+        "load_factor": (along, np.array([point.factor for point in points])),
+        "stable": (along, np.array([float(point.stable) for point in points])),
+        "xi": (("vertex",), geometry.arc_length),
+        "x_ref": (vector, geometry.X),
+        "d_ref": (vector, geometry.D),
+        "x": ((*along, *vector), q[..., :2]),
+        "d": ((*along, *vector), q[..., 2:]),
+        "potential": (along, np.array([point.energy for point in points])),
     }
     statistics = {
         "points": len(points),
@@ -107,9 +120,9 @@ def _outcome(geometry: Geometry, start: Array, points: list[Point], climb: Climb
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*climb.remarks(), *coarse(fields["d"])]
+    warnings = [*climb.remarks(), *coarse(q[..., 2:])]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"
         )
-    return Outcome(fields, statistics, along="point", warnings=tuple(warnings))
+    return Solution(fields, statistics, {"axis": AXES}, tuple(warnings))

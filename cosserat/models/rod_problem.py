@@ -16,6 +16,7 @@ from cosserat.models.loaded_rod import LoadedRod
 from cosserat.models.planar_rod import UNKNOWNS, Geometry
 from cosserat.models.rod import Rod, RodBody
 from cosserat.parameters import Parameters, Quantity
+from cosserat.problem import Problem
 from cosserat.solvers.banded import band_product
 
 Array = NDArray[np.float64]
@@ -114,7 +115,7 @@ class Turn(Parameters):
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
 
 
-class RodProblem(Parameters):
+class RodProblem(Problem):
     """A rod, what holds it and what pulls it."""
 
     rod: Rod

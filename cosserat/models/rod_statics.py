@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Literal, Self
 
 import numpy as np
@@ -10,12 +12,15 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
+from cosserat.models.consistent import TERMS as PARTS
 from cosserat.models.consistent import ConsistentRod
 from cosserat.models.loaded_rod import LoadedRod
-from cosserat.models.planar_rod import AXES, Geometry, edge_shear, free_motions, strains
+from cosserat.models.planar_rod import AXES, UNKNOWNS, Geometry, edge_shear, free_motions, strains
+from cosserat.models.published import TERMS
 from cosserat.models.resolution import coarse, refuse_crossing
 from cosserat.models.rod_problem import RodProblem
-from cosserat.outcome import Outcome
+from cosserat.problem import ALONE, Run
+from cosserat.solution import Field, Solution
 from cosserat.solvers.climb import Climb, NewtonSettings, Point
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.motion import System
@@ -40,7 +45,7 @@ class RodStatics(RodProblem):
             )
         return self
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Find the equilibrium; `name` is what errors call the case.
 
         Raises
@@ -52,10 +57,17 @@ class RodStatics(RodProblem):
         geometry = self.rod.geometry()
         loaded = self.loaded(geometry)
         point, climb = self.led_to(geometry, loaded, name)
-        fields = _fields(geometry, loaded, point)
-        refuse_crossing(geometry, fields["x"], fields["d"], self.rod.below, name)
-        warnings = (*climb.remarks(), *coarse(fields["d"]))
-        return Outcome(fields, _statistics(point, climb), warnings=warnings)
+        found = _solution(geometry, loaded, point, climb)
+        refuse_crossing(geometry, found["x"], found["d"], self.rod.below, name)
+        return replace(found, warnings=(*climb.remarks(), *coarse(found["d"])))
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Iterations and the unbalanced force that is left."""
+        return (
+            f"{statistics['iterations']} Newton iterations, largest unbalanced force "
+            f"{statistics['residual_N']:.2g} N (allowed {statistics['tolerance_N']:.2g} N)"
+        )
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
         """The lowest natural frequencies and shapes of small motions about the equilibrium.
@@ -88,9 +100,9 @@ class RodStatics(RodProblem):
             if error.state is not None:
                 last = climb.at(error.state, error.factor)
                 assert last is not None  # it was one
+                found = _solution(geometry, loaded, last, climb)
                 reached = {"load_factor_reached": last.factor}
-                fields = _fields(geometry, loaded, last)
-                error.reached = Outcome(fields, _statistics(last, climb) | reached)
+                error.reached = replace(found, statistics=dict(found.statistics) | reached)
             raise
 
 
@@ -104,7 +116,7 @@ def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
         )
 
 
-def _fields(geometry: Geometry, loaded: LoadedRod, point: Point) -> dict[str, Array]:
+def _solution(geometry: Geometry, loaded: LoadedRod, point: Point, climb: Climb) -> Solution:
     load = point.factor * loaded.dead.reshape(loaded.reference.shape)
     u = point.q.reshape(load.shape)
     x, d = np.split(u + loaded.reference, [len(AXES)], axis=1)
@@ -112,31 +124,36 @@ def _fields(geometry: Geometry, loaded: LoadedRod, point: Point) -> dict[str, Ar
     arc = geometry.arc_length
     body = loaded.coupled(point.factor)
     terms = body.energy_terms(point.q + loaded.base)
+    labels = {"axis": AXES, "unknown": UNKNOWNS}
+    own: dict[str, Field]
     if isinstance(body, ConsistentRod):
-        own = {"shear": edge_shear(x + body.offset * d, d), "energy_parts": terms}
+        labels["part"] = PARTS
+        own = {
+            "shear": (("edge",), edge_shear(x + body.offset * d, d)),
+            "energy_parts": (("part",), terms),
+        }
     else:
-        own = {"theta": measured.theta, "energy": terms}
-    return own | {
-        "xi": arc,
-        "xi_edge": (arc[1:] + arc[:-1]) / 2,
-        "x_ref": geometry.X,
-        "d_ref": geometry.D,
-        "x": x,
-        "d": d,
-        "u": u[:, : len(AXES)],
-        "delta": u[:, len(AXES) :],
-        "mu_edge": measured.mu_edge,
-        "mu": measured.mu,
-        "lam": measured.lam,
-        "phi": measured.phi,
-        "kappa": measured.kappa,
-        "applied_force": load,
-        "support_force": point.reaction.reshape(load.shape),
+        labels["term"] = TERMS
+        own = {"theta": (("vertex",), measured.theta), "energy": (("term",), terms)}
+    vector, force = ("vertex", "axis"), ("vertex", "unknown")
+    fields: dict[str, Field] = own | {
+        "xi": (("vertex",), arc),
+        "xi_edge": (("edge",), (arc[1:] + arc[:-1]) / 2),
+        "x_ref": (vector, geometry.X),
+        "d_ref": (vector, geometry.D),
+        "x": (vector, x),
+        "d": (vector, d),
+        "u": (vector, u[:, : len(AXES)]),
+        "delta": (vector, u[:, len(AXES) :]),
+        "mu_edge": (("edge",), measured.mu_edge),
+        "mu": (("vertex",), measured.mu),
+        "lam": (("vertex",), measured.lam),
+        "phi": (("vertex",), measured.phi),
+        "kappa": (("vertex",), measured.kappa),
+        "applied_force": (force, load),
+        "support_force": (force, point.reaction.reshape(load.shape)),
     }
-
-
-def _statistics(point: Point, climb: Climb) -> dict[str, int | float]:
-    return {
+    statistics: dict[str, int | float] = {
         "iterations": climb.iterations,
         "refused_increments": climb.halvings,
         "branchings": climb.branchings,
@@ -144,3 +161,4 @@ def _statistics(point: Point, climb: Climb) -> dict[str, int | float]:
         "tolerance_N": point.tolerance,
         "rounding_N": point.rounding,
     }
+    return Solution(fields, statistics, labels)

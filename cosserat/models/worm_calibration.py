@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -11,15 +12,16 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.models.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50
 from cosserat.models.peristalsis import Crawl
-from cosserat.outcome import Outcome
-from cosserat.parameters import Parameters, Quantity
+from cosserat.parameters import Quantity
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.solution import Field, Solution
 
 Array = NDArray[np.float64]
 OUTCOMES = ("ratio of mu_1", "ratio of mu_3", "p in longitudinal", "p in circular")
 """What is matched: the ratios (2.8.6) of segment 50, circular over longitudinal contraction, and its two pressures."""
 
 
-class WormCalibration(Parameters):
+class WormCalibration(Problem):
     """A worm, and what segment 50 should do in it.
 
     The page says that it calibrated E, D and p "to match the expected outcomes", and not how.  ASSUME least squares
@@ -47,7 +49,7 @@ class WormCalibration(Parameters):
             )
         return self
 
-    def solve(self, name: str) -> Outcome:
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
         """E, D and p of the fit, and what they and the worm's own give as a share of what was measured.
 
         Raises
@@ -64,14 +66,19 @@ class WormCalibration(Parameters):
         start = np.log([body.material_young, loads.anchoring, loads.advancing])
         fit = least_squares(misfit, start, xtol=1e-12, ftol=1e-12, gtol=1e-12)
         young, anchoring, advancing = np.exp(fit.x)
-        fields = {
-            "fitted_young": np.array(young),
-            "fitted_anchoring": np.array(anchoring),
-            "fitted_advancing": np.array(advancing),
-            "fitted_outcomes": fit.fun + 1,
-            "given_outcomes": self.shares(self.worm, name),
+        fields: dict[str, Field] = {
+            "fitted_young": ((), np.array(young)),
+            "fitted_anchoring": ((), np.array(anchoring)),
+            "fitted_advancing": ((), np.array(advancing)),
+            "fitted_outcomes": (("outcome",), fit.fun + 1),
+            "given_outcomes": (("outcome",), self.shares(self.worm, name)),
         }
-        return Outcome(fields, {"misfit_evaluations": int(fit.nfev)})
+        return Solution(fields, {"misfit_evaluations": int(fit.nfev)}, {"outcome": OUTCOMES})
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of misfits."""
+        return f"{statistics['misfit_evaluations']} evaluations of the misfits"
 
     def loaded(self, young: float, anchoring: float, advancing: float) -> Crawl:
         """The worm with this modulus [Pa], force [N] and pressure [Pa]."""

@@ -46,8 +46,8 @@ class Change:
 
 
 def thin(dataset: xr.Dataset) -> xr.Dataset:
-    """What is stored of a motion: some forty frames, and of a crawler some twenty sections, from the first on."""
-    for dim, count in (("time", 40), ("section", 20)):
+    """What is stored of a result: about as many values along each dimension as its kind of problem says."""
+    for dim, count in case_of(dataset).problem.thinned.items():
         if dim in dataset.sizes:
             every = max(1, (dataset.sizes[dim] - 1) // count)
             dataset = dataset.isel({dim: slice(None, None, every)})

@@ -1,0 +1,49 @@
+"""The registry of the kinds of problems: everything that depends on a kind is found from here.
+
+A kind is a class of parameters that can be solved, and a function that draws its result.  Both are named by
+"module:object" and imported when needed, so that the command line answers at once.
+"""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, cast
+
+if TYPE_CHECKING:
+    from cosserat.problem import Problem
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One kind.
+
+    problem : a subclass of `cosserat.problem.Problem`.
+    picture : a function from a Dataset to a figure; empty if `cosserat plot` has none.
+    """
+
+    problem: str
+    picture: str = ""
+
+    def problem_class(self) -> type[Problem]:
+        """The class of its parameters."""
+        return cast("type[Problem]", pkgutil.resolve_name(self.problem))
+
+    def picture_function(self) -> Callable[..., Any]:
+        """The function that draws its result."""
+        return cast("Callable[..., Any]", pkgutil.resolve_name(self.picture))
+
+
+KINDS = {
+    "rod statics": Kind("cosserat.models.rod_statics:RodStatics", "cosserat.figures.rod:picture"),
+    "rod motion": Kind("cosserat.models.rod_motion:RodMotion", "cosserat.figures.motion:picture"),
+    "rod path": Kind("cosserat.models.rod_path:RodPath", "cosserat.figures.consistent:picture"),
+    "calibration": Kind("cosserat.models.calibration:CalibrationProcedure"),
+    "convergence": Kind("cosserat.models.convergence:Convergence"),
+    "posture": Kind("cosserat.models.peristalsis:Posture", "cosserat.figures.crawlers:picture"),
+    "crawl": Kind("cosserat.models.peristalsis:Crawl", "cosserat.figures.crawlers:picture"),
+    "body masses": Kind("cosserat.models.earthworm:BodyMasses"),
+    "worm calibration": Kind("cosserat.models.worm_calibration:WormCalibration"),
+}
+"""Kinds by the word that a case names in `kind`."""

@@ -1,0 +1,58 @@
+"""What every kind of problem has in common: parameters that can be solved."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Protocol
+
+from cosserat.parameters import Parameters
+from cosserat.solution import Solution
+
+Progress = Callable[[float, str], None]
+"""Receives the fraction done, from 0 to 1, and a few words."""
+
+
+class Checkpoints(Protocol):
+    """Numbered parts of a long run, kept so that an interrupted run can resume."""
+
+    def load(self, number: int) -> Solution | None:
+        """A stored part; None if it has not been computed yet."""
+
+    def save(self, number: int, part: Solution, *, whole: bool) -> None:
+        """Store a part; one that is not whole is stored apart, and no run resumes from it."""
+
+
+def _silent(fraction: float, words: str) -> None:
+    """Report nothing."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a problem may use while it is solved: a progress report, and a store of parts."""
+
+    progress: Progress = _silent
+    checkpoints: Checkpoints | None = None
+
+
+ALONE = Run()
+"""A run that reports nothing and stores nothing."""
+
+
+class Problem(Parameters, ABC):
+    """Base of every kind of problem; `cosserat.kinds` lists them."""
+
+    if TYPE_CHECKING:
+        kind: str  # each class names its own
+    thinned: ClassVar[Mapping[str, int]] = {}
+    """Dimensions that a stored reference keeps only about so many values of."""
+
+    @abstractmethod
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Solve the problem; `name` is what errors call the case."""
+
+    @classmethod
+    @abstractmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """What solving took, in a few words, from a result's statistics and the sizes of its dimensions."""
