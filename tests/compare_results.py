@@ -33,7 +33,11 @@ def changes(old: xr.Dataset, new: xr.Dataset, *, bits: bool) -> list[tuple[str, 
     ]
     for name in (key for key in new.variables if key in old.variables):
         before, after = old[name], new[name]
-        if before.dims != after.dims or before.shape != after.shape or before.dtype.kind != after.dtype.kind:
+        if (
+            before.dims != after.dims
+            or before.shape != after.shape
+            or before.dtype.kind != after.dtype.kind
+        ):
             found.append((f"{name} has another shape", np.inf, False))
         elif before.dtype.kind == "f":
             change = float(np.abs(before.to_numpy() - after.to_numpy()).max(initial=0.0))
