@@ -505,3 +505,19 @@ def test_E3_29_the_necked_bars_directors_only_stretch(solved):
     across = np.abs(solved["necking"].delta.sel(axis="E2")).max()
     assert along["necking"] < 1e-9 * across
     assert along["clamped_free"] > 1e-3
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-3])
+def test_E3_30_the_printed_share_of_a_director_is_a_length(unit):
+    """Lower surfaces that meet are no length apart by H / D - 1, in any unit; by H - D as printed they are not."""
+    low, height, edge = 0.8, 0.5 / unit, 0.2 / unit
+    length = (1 - low) * height  # of a director
+    reach = height - length  # from the centreline to the lower surface
+    lean = np.arcsin(edge / 2 / reach)
+    directors = [length * np.array([sign * np.sin(lean), np.cos(lean)]) for sign in (-1, 1)]
+
+    def apart(share):
+        return np.linalg.norm(share * directors[0] + np.array([edge, 0]) - share * directors[1]) / edge
+
+    assert apart(height / length - 1) < 1e-12
+    assert apart(height - length) > 0.1
