@@ -156,8 +156,8 @@ page.figure(
 page.rows("F3.7")
 
 # %% [markdown]
-# What this does not stop is two neighbouring sections that shear, or bend, into each other. Where that is to be expected,
-# the page asks for an energy that grows without bound as their upper ends meet,
+# What this does not stop is two neighbouring sections that shear, or bend (E3.31), into each other. Where that is to be
+# expected, the page asks for an energy that grows without bound as their upper ends meet,
 #
 # $$
 # \|{}_{K+1}\mathbf{d} + {}^K\mathbf{e} - {}_K\mathbf{d}\| \rightarrow 0 ,
