@@ -97,6 +97,39 @@ def test_kinetic_energy_and_momenta_are_those_of_the_points_of_the_sections(seed
     assert own.sum() == pytest.approx((mass * turning(at, velocity)).sum(), rel=1e-12, abs=1e-12)
 
 
+@pytest.mark.parametrize("centreline", [0.3, 0.5, 0.8])
+def test_the_consistent_mass_is_that_of_straight_edges_and_of_their_ends_in_the_mean(centreline):
+    """By quadrature over edges and sections, with a density that varies and steps inside an edge."""
+    stations = [{"at": 0.1}, {"at": 0.37, "density": 2.0}, {"at": 0.37, "density": 0.5, "width": 1.4}]
+    case = cosserat.case("vibration_consistent").vary(
+        "x", rod={"centreline": centreline, "vertices": 6, "stations": stations}
+    )
+    problem = case.problem
+    rod, geometry = problem.rod, problem.rod.geometry()
+    rng = np.random.default_rng(4)
+    v, w = rng.uniform(-1, 1, (2, rod.vertices, 2))
+    nodes, weights = np.polynomial.legendre.leggauss(6)
+    place = (nodes / 2 + 0.5 - centreline) * rod.height / geometry.director_length[0]
+
+    def section(v, w):
+        """Twice the kinetic energy of a section per mass."""
+        return weights / 2 @ ((v + place[:, None] * w) ** 2).sum(axis=1)
+
+    straight = ends = 0.0
+    xi = geometry.arc_length
+    for K, (a, b) in enumerate(itertools.pairwise(xi)):
+        cuts = [a, *(p for p in (0.1, 0.37) if a < p < b), b]
+        for low, high in itertools.pairwise(cuts):
+            for s, share in zip((low + high + (high - low) * nodes) / 2, weights / 2, strict=True):
+                density = np.interp(s, [0.1, 0.37], [1.0, 2.0]) if s < 0.37 else 0.5 * 1.4
+                mass, t = rod.line_density * density * share * (high - low), (s - a) / (b - a)
+                straight += mass * section((1 - t) * v[K] + t * v[K + 1], (1 - t) * w[K] + t * w[K + 1])
+                ends += mass * ((1 - t) * section(v[K], w[K]) + t * section(v[K + 1], w[K + 1]))
+    rate = np.hstack([v, w]).ravel()
+    found = rate @ to_dense(problem.mass(geometry)) @ rate
+    assert found == pytest.approx((straight + ends) / 2, rel=1e-12)
+
+
 def test_stiffnesses_are_made_of_the_means_of_table_3_1():
     """k1 ... k7 of (3.4.13), where height, width, E and nu vary and step: means (3.4.8), (3.4.9) by quadrature.
 
