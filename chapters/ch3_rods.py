@@ -15,6 +15,8 @@
 # answer known from elsewhere.
 
 # %% tags=["remove-cell"]
+import numpy as np
+
 import cosserat
 from cosserat.book import page
 from cosserat.models import published, rod_problem, section
@@ -57,6 +59,42 @@ of_two, of_one = (
 print(
     f"A bar of two materials hangs with its tip {1e3 * of_two:.3f} mm down, the uniform one {1e3 * of_one:.3f} mm."
 )
+
+# %% tags=["remove-input"]
+rod = bar.problem.rod
+arc, joint = rod.geometry().arc_length, rod.stations[0].at
+of_vertices, of_edges = section.lump(
+    rod.stations,
+    arc,
+    area=rod.area,
+    second_moment=rod.second_moment,
+    young=rod.young,
+    poisson=rod.poisson,
+)
+edge = int(np.searchsorted(arc, joint)) - 1
+near = [
+    (f"{kind} {k}", lumped, k)
+    for kind, lumped in (("vertex", of_vertices), ("edge", of_edges))
+    for k in (edge - 1, edge, edge + 1)
+]
+properties = {
+    "A [m\u00b2]": "area",
+    "I about the centreline [m\u2074]": "second_moment",
+    "E [Pa]": "young",
+    "G [Pa]": "shear",
+    "\u03bd": "poisson",
+}
+page.table(
+    [
+        (name, *(f"{getattr(lumped, key)[k]:.4g}" for _, lumped, k in near))
+        for name, key in properties.items()
+    ],
+    ("Table 3.1 around the joint", *(where for where, _, _ in near)),
+)
+
+# %% tags=["remove-cell"]
+assert arc[edge] < joint < arc[edge + 1]
+assert 0.3 * rod.young < of_edges.young[edge] < rod.young
 
 # %% [markdown]
 # The joint lies inside an edge, and there the averages of Table 3.1 cost accuracy: what adds up along a bar is compliance,

@@ -29,7 +29,7 @@ import numpy as np
 from cosserat import analytic
 from cosserat.book import page
 from cosserat.data.dataset import case_of, statistics_of
-from cosserat.models import planar_rod, published, stiffness
+from cosserat.models import planar_rod, published, resolution, stiffness
 from cosserat.solvers import path
 from cosserat.table import printed, readouts
 
@@ -154,6 +154,21 @@ page.figure(
 
 # %% tags=["remove-input"]
 page.rows("F3.7")
+
+# %% [markdown]
+# What this does not stop is two neighbouring sections that shear, or bend (E3.31), into each other. Where that is to be
+# expected, the page asks for an energy that grows without bound as their upper ends meet,
+#
+# $$
+# \|{}_{K+1}\mathbf{d} + {}^K\mathbf{e} - {}_K\mathbf{d}\| \rightarrow 0 ,
+# $$
+#
+# and, for a centreline close to the upper surface, as their lower ends do (E3.30). Neither energy of this library has such
+# a term. Instead an answer whose sections cross, at either surface, is refused by name: at rest, along a path, and in
+# motion at the instants that are stored.
+
+# %% tags=["remove-input"]
+page.source(resolution.surface_stretch)
 
 # %% tags=["remove-input"]
 page.excerpt(published.assemble, "# Second pass", "# Third pass")

@@ -198,6 +198,7 @@ page.table(lines, ("1 - 2 nu", "error of the section strain far from the ends, p
 # ## What is still outside
 #
 # Sections stay plane and stretch as one: a section that warps, or bends across itself as a wide strip does when it is bent,
-# is not described, as section 1.2 of the thesis warns. The rod is planar. Its law is linear in its own measures, which are
+# is not described, as section 1.2 of the thesis warns. The rod is planar, touches nothing, and has neither actuators nor
+# branches: what else of the thesis is not here is a page of its own, *What is left out*. Its law is linear in its own measures, which are
 # not those of any material at strains of order one. Speed beside other packages is measured by `snakemake peers`, which
 # needs a network and is the next page; `cosserat speed` times this machine alone.

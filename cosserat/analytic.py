@@ -103,7 +103,7 @@ def first_root() -> float:
 
 
 def first_beam_mode(length: float, xi: Array) -> tuple[Array, Array]:
-    """First mode of a clamped-free beam, eq. (3.5.16), with a tip displacement of one, and its slope [1/m]."""
+    """First mode of a clamped-free beam, eqs. (3.5.12), (3.5.16), tip displacement one, and its slope [1/m]."""
     b = first_root()
     ratio = (np.cos(b) + np.cosh(b)) / (
         np.sin(b) + np.sinh(b)

@@ -7,6 +7,7 @@ import pytest
 from conftest import make_rod
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 import cosserat
 from cosserat.analytic import Beam, first_beam_mode, first_frequency
@@ -94,6 +95,89 @@ def test_kinetic_energy_and_momenta_are_those_of_the_points_of_the_sections(seed
 
     own = turning(x, momenta[:, :2]) + turning(d, momenta[:, 2:])  # (3.3.32)
     assert own.sum() == pytest.approx((mass * turning(at, velocity)).sum(), rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize("centreline", [0.3, 0.5, 0.8])
+def test_the_consistent_mass_is_that_of_straight_edges_and_of_their_ends_in_the_mean(centreline):
+    """By quadrature over edges and sections, with a density that varies and steps inside an edge."""
+    stations = [{"at": 0.1}, {"at": 0.37, "density": 2.0}, {"at": 0.37, "density": 0.5, "width": 1.4}]
+    case = cosserat.case("vibration_consistent").vary(
+        "x", rod={"centreline": centreline, "vertices": 6, "stations": stations}
+    )
+    problem = case.problem
+    rod, geometry = problem.rod, problem.rod.geometry()
+    rng = np.random.default_rng(4)
+    v, w = rng.uniform(-1, 1, (2, rod.vertices, 2))
+    nodes, weights = np.polynomial.legendre.leggauss(6)
+    place = (nodes / 2 + 0.5 - centreline) * rod.height / geometry.director_length[0]
+
+    def section(v, w):
+        """Twice the kinetic energy of a section per mass."""
+        return weights / 2 @ ((v + place[:, None] * w) ** 2).sum(axis=1)
+
+    straight = ends = 0.0
+    xi = geometry.arc_length
+    for K, (a, b) in enumerate(itertools.pairwise(xi)):
+        cuts = [a, *(p for p in (0.1, 0.37) if a < p < b), b]
+        for low, high in itertools.pairwise(cuts):
+            for s, share in zip((low + high + (high - low) * nodes) / 2, weights / 2, strict=True):
+                density = np.interp(s, [0.1, 0.37], [1.0, 2.0]) if s < 0.37 else 0.5 * 1.4
+                mass, t = rod.line_density * density * share * (high - low), (s - a) / (b - a)
+                straight += mass * section((1 - t) * v[K] + t * v[K + 1], (1 - t) * w[K] + t * w[K + 1])
+                ends += mass * ((1 - t) * section(v[K], w[K]) + t * section(v[K + 1], w[K + 1]))
+    rate = np.hstack([v, w]).ravel()
+    found = rate @ to_dense(problem.mass(geometry)) @ rate
+    assert found == pytest.approx((straight + ends) / 2, rel=1e-12)
+
+
+def test_stiffnesses_are_made_of_the_means_of_table_3_1():
+    """k1 ... k7 of (3.4.13), where height, width, E and nu vary and step: means (3.4.8), (3.4.9) by quadrature.
+
+    Of a uniform rod the means over the parts of the vertices and over the edges are the same; of this one they are not.
+    """
+    at, low = [1.0, 3.1, 3.1, 4.0], 0.3
+    shares = {
+        "height": [1.0, 0.6, 0.8, 0.5],
+        "width": [1.0, 1.7, 0.9, 1.2],
+        "young": [1.0, 2.0, 0.4, 0.7],
+        "poisson": [1.0, 0.5, 1.2, 0.9],
+    }
+    stations = [
+        {"at": a, **{name: values[k] for name, values in shares.items()}} for k, a in enumerate(at)
+    ]
+    rod = cosserat.case("necking").vary("x", rod={"stations": stations, "centreline": low}).problem.rod
+    rod = rod.replace(vertices=7)
+    geometry = rod.geometry()
+    found, c = rod.body(geometry).stiffness, rod.calibration
+
+    def local(xi):
+        side = [0, 1] if xi < 3.1 else [2, 3]
+        H, W, E, nu = (np.interp(xi, np.array(at)[side], np.array(v)[side]) for v in shares.values())
+        H, W, E, nu = 0.5 * H, 0.5 * W, 1e9 * E, 0.3 * nu
+        return W * H, W * H**3 / 12 + W * H * ((0.5 - low) * H) ** 2, E, E / (2 * (1 + nu)), nu
+
+    def means(a, b):
+        cuts = [p for p in (1.0, 3.1, 4.0) if a < p < b]
+        return [
+            quad(lambda s, i=i: local(s)[i], a, b, points=cuts or None)[0] / (b - a) for i in range(5)
+        ]
+
+    xi = geometry.arc_length
+    edges = np.array([means(a, b) for a, b in itertools.pairwise(xi)])
+    inner = np.array([means(a, b) for a, b in itertools.pairwise((xi[1:] + xi[:-1]) / 2)])
+    A, second, E, G, nu = np.vstack([edges[:1], inner, edges[-1:]]).T  # (3.4.10) without its half, E3.9
+    eA, eI, eE, _, eNu = edges.T
+    expected = {
+        "k1": c.c1 * eE * eA * (1 - eNu) / ((1 + eNu) * (1 - 2 * eNu)),
+        "k2": c.c2 * E * A * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
+        "k3": c.c3 * E * second,
+        "k4": c.c4 * 5 / 6 * G * A,
+        "k5": c.c5 * eE * eI,
+        "k6": c.c6 * eE * eI / (1 + eNu),
+        "k7": c.c7 / 2 * E * A * nu / ((1 + nu) * (1 - 2 * nu)),  # half the coupling, E3.2
+    }
+    for name, value in expected.items():
+        np.testing.assert_allclose(getattr(found, name), value, rtol=1e-9, err_msg=name)
 
 
 def test_bending_of_a_curved_rod_costs_as_eulers_elastica():

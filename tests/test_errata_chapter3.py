@@ -11,7 +11,7 @@ import cosserat
 from cosserat import analytic
 from cosserat.errors import UnsupportedRodError
 from cosserat.models.calibration import beam_of
-from cosserat.models.planar_rod import rigid_motions, signed_angle, strains, vertex_tangents
+from cosserat.models.planar_rod import Geometry, rigid_motions, signed_angle, strains, vertex_tangents
 from cosserat.models.published import stretching
 from cosserat.models.published_rod import PublishedRod
 from cosserat.table import printed, readouts
@@ -505,3 +505,37 @@ def test_E3_29_the_necked_bars_directors_only_stretch(solved):
     across = np.abs(solved["necking"].delta.sel(axis="E2")).max()
     assert along["necking"] < 1e-9 * across
     assert along["clamped_free"] > 1e-3
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-3])
+def test_E3_30_the_printed_share_of_a_director_is_a_length(unit):
+    """Lower surfaces that meet are no length apart by H / D - 1, in any unit; by H - D as printed they are not."""
+    low, height, edge = 0.8, 0.5 / unit, 0.2 / unit
+    length = (1 - low) * height  # of a director
+    reach = height - length  # from the centreline to the lower surface
+    lean = np.arcsin(edge / 2 / reach)
+    directors = [length * np.array([sign * np.sin(lean), np.cos(lean)]) for sign in (-1, 1)]
+
+    def apart(share):
+        return np.linalg.norm(share * directors[0] + np.array([edge, 0]) - share * directors[1]) / edge
+
+    assert apart(height / length - 1) < 1e-12
+    assert apart(height - length) > 0.1
+
+
+def test_E3_31_sections_of_a_rod_that_is_only_bent_cross_with_a_finite_energy():
+    """On circles of half a metre and of a fifth of a metre, the rod half a metre high, without shear."""
+    rod = make_rod(vertices=41, poisson=0.0)
+    straight = rod.geometry()
+    for radius, crosses in ((0.5, False), (0.2, True)):
+        bent = Geometry.arc(41, rod.length, straight.director_length, 1 / radius)
+        found = strains(straight, bent.X, bent.D)
+        assert np.abs(found.theta).max() < 1e-12
+        np.testing.assert_allclose(found.mu_edge, bent.edge_length / straight.edge_length)
+        terms = rod.body(straight).energy_terms(np.hstack([bent.X, bent.D]).ravel())
+        assert np.isfinite(terms).all()
+        assert np.abs(terms[3:5]).max() < 1e-9 * terms[2]  # neither shear nor its gradients
+        tips, edges = np.diff(bent.X + bent.D, axis=0), np.diff(bent.X, axis=0)
+        ahead = (tips * edges).sum(axis=1)[1:-1] > 0  # the end edges turn by half as much
+        assert ahead.all() != crosses
+        assert ahead.any() != crosses

@@ -21,7 +21,8 @@ FORMS = {
 }
 """How a folder cites an equation, besides (1.2.3)."""
 RANGE = r"\((?P<section>[123]\.\d)\.(?P<first>\d{1,3})\)(?:_?\d)?(?:-|\s+to\s+)\((?P=section)\.(?P<last>\d{1,3})\)"
-TABLE = r"Table (\d\.\d+)"
+TABLE = r'"T(?:able )?(\d\.\d+)\b'
+"""How a chapter shows a table of the thesis: as rows "T2.1", or with "Table 3.1 ..." over a column."""
 
 
 def cited(text, folder="tests"):
@@ -58,7 +59,12 @@ def used():
             *(cited(text, file.relative_to(ROOT).parts[0]) for file, text in texts.items())
         ),
         "figures": {match[1] for match in drawn if match},
-        "tables": {name for text in texts.values() for name in re.findall(TABLE, text)},
+        "tables": {
+            name
+            for file, text in texts.items()
+            if file.parent.name == "chapters"
+            for name in re.findall(TABLE, text)
+        },
     }
 
 

@@ -9,7 +9,7 @@ from cosserat.data.dataset import warnings_of
 from cosserat.errors import CrossingError
 from cosserat.models import consistent, published
 from cosserat.models.planar_rod import Geometry, reference, rigid_motions
-from cosserat.models.resolution import surface_stretch, unresolved_energy
+from cosserat.models.resolution import refuse_crossing, surface_stretch, unresolved_energy
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.modes import modes
 
@@ -225,6 +225,40 @@ def test_sections_that_cross_are_refused_by_name(like):
         CrossingError, match=r"case 'tight': the sections of vertices \d+ and \d+ cross at the"
     ):
         cosserat.run(tight)
+
+
+def leaning(rod, surface, gap):
+    """Sections 1 and 2 of a straight rod lean until `gap` of an edge is left between them at one surface."""
+    geometry = rod.geometry()
+    x, d = geometry.X.copy(), geometry.D.copy()
+    reach = np.hypot(*d[1]) * (1.0 if surface == "upper" else rod.below)
+    lean = np.arcsin((1 - gap) * geometry.edge_length[1] / (2 * reach))
+    turn = -lean if surface == "upper" else lean
+    for K, angle in ((1, turn), (2, -turn)):
+        c, s = np.cos(angle), np.sin(angle)
+        d[K] = np.array([[c, -s], [s, c]]) @ d[K]
+    return geometry, x, d
+
+
+@pytest.mark.parametrize("energy", ["published", "consistent"])
+@pytest.mark.parametrize(("surface", "centreline"), [("upper", 0.5), ("upper", 0.2), ("lower", 0.8)])
+def test_sections_that_shear_into_each_other_are_refused_where_their_surfaces_meet(
+    surface, centreline, energy
+):
+    """The two displays after (3.4.11), the second with (H / D - 1) d (E3.30): the energy alone does not stop them."""
+    own = {"energy": "consistent", "calibration": "none"} if energy == "consistent" else {}
+    rod = cosserat.case("clamped_free").vary("x", rod={"centreline": centreline, **own}).problem.rod
+    for gap in (0.01, -0.01):
+        geometry, x, d = leaning(rod, surface, gap)
+        share = -1.0 if surface == "upper" else rod.below
+        apart = np.linalg.norm(share * d[1] + x[2] - x[1] - share * d[2])
+        assert apart == pytest.approx(0.01 * geometry.edge_length[1], rel=1e-9)
+        assert np.isfinite(rod.body(geometry).energy(np.hstack([x, d]).ravel()))
+        if gap > 0:
+            refuse_crossing(geometry, x, d, rod.below, "x")
+        else:
+            with pytest.raises(CrossingError, match=f"vertices 1 and 2 cross at the {surface} surface"):
+                refuse_crossing(geometry, x, d, rod.below, "x")
 
 
 def test_a_path_and_a_motion_stop_before_sections_cross(tmp_path):

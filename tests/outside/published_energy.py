@@ -138,8 +138,8 @@ def _gradient(x, d, h, L, D, k1, k2, k3, k4, k5, k6, k7):
     return on_x, d * (1j * by_theta / (r * r) + by_lam / (D * r))
 
 
-def lowest_frequency(beam):
-    """Of the clamped beam about its reference [rad/s], by central differences of the gradient."""
+def frequencies(beam, count):
+    """The lowest of the clamped beam about its reference [rad/s], by central differences of the gradient."""
     x, d = beam.reference
     n = x.size - 1
     start = np.concatenate([x[1:], d[1:]]).view(float)
@@ -154,7 +154,12 @@ def lowest_frequency(beam):
     hessian = np.array(columns)
     own, turning = beam.mass
     mass = np.repeat(np.concatenate([own[1:], turning[1:]]), 2)
-    return np.sqrt(eigh((hessian + hessian.T) / 2, np.diag(mass), eigvals_only=True)[0])
+    return np.sqrt(eigh((hessian + hessian.T) / 2, np.diag(mass), eigvals_only=True)[:count])
+
+
+def lowest_frequency(beam):
+    """The first of `frequencies`."""
+    return frequencies(beam, 1)[0]
 
 
 def first_beam_mode(length, xi):

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import cosserat
+from cosserat import elastica
+from cosserat.models.calibration import beam_of
 
 from . import closed, timoshenko
 from .cases import ORDER, frequencies, inputs, last, piece, run
@@ -177,6 +179,15 @@ def test_the_bar_of_two_materials_that_hangs(vertices):
     assert exact == pytest.approx(0.63765e-3, abs=5e-9)
     tip = cosserat.run(bar).u.sel(axis="E3")[-1].item()
     assert tip == pytest.approx(exact, rel=1 / vertices**2)
+
+
+def test_the_exact_beam_that_judges_the_vibrating_one_is_that_of_transfer_matrices():
+    """Its first period, 0.06230951 s, also by a determinant of a third code."""
+    beam = beam_of(cosserat.case("vibration_consistent").problem)
+    found = elastica.timoshenko_frequencies(beam, 3) / (2 * np.pi)
+    right = timoshenko.frequencies([timoshenko.Piece.rectangle(1.0, 0.1, 0.1, 1e9, 10.0)], 3)
+    np.testing.assert_allclose(found, right, rtol=1e-8)
+    assert 1 / right[0] == pytest.approx(0.06230951, abs=5e-9)
 
 
 def test_each_input_is_a_case():

@@ -8,7 +8,7 @@ import pytest
 
 import cosserat
 
-from .published_energy import VIBRATION, energy, gradient, lowest_frequency, plucked
+from .published_energy import VIBRATION, energy, frequencies, gradient, lowest_frequency, plucked
 
 TIMES = np.arange(11) / 10
 RIGHT = (
@@ -86,6 +86,16 @@ def test_the_gradient_is_that_of_the_energy(poisson):
 def test_the_lowest_frequency_is_that_of_the_page():
     """105.44 rad/s: with (3.5.15) a period of the kinetic energy of 0.0298 s."""
     assert np.pi / lowest_frequency(VIBRATION) == pytest.approx(0.029795, abs=1e-6)
+
+
+@pytest.mark.parametrize(("c4", "lowest"), [(2.0, 101.01406), (20.0, 105.44195)])
+def test_four_frequencies_are_those_of_the_package(c4, lowest):
+    """The lowest also as a third code found it."""
+    c = (*VIBRATION.c[:3], c4, *VIBRATION.c[4:])
+    right = frequencies(replace(VIBRATION, c=c), 4)
+    assert right[0] == pytest.approx(lowest, rel=1e-6)
+    found = cosserat.case(f"vibration_c4_{c4:.0f}").problem.modes(4).angular_frequency
+    np.testing.assert_allclose(found, right, rtol=1e-6)
 
 
 def test_a_short_run_starts_as_the_long_one():
