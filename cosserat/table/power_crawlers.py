@@ -22,6 +22,13 @@ Array = NDArray[np.float64]
 
 ROBOT = ("soft_robot",)
 WORM = ("worm_printed", "worm")
+READINGS = (
+    "worm_printed_early",
+    "worm_balanced",
+    "worm_balanced_early",
+    "worm_early",
+    "worm_clipped",
+)
 REST = ("worm_at_rest",)
 SIZES = ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip")
 FIT = ("worm_calibration_printed", "worm_calibration")
@@ -47,7 +54,14 @@ def _inputs(
     *groups: tuple[str, ...],
     unseen: str = "",
 ) -> list[Change]:
-    names = {ROBOT: "robot", WORM: "worm", REST: "worm at rest", SIZES: "sizes", FIT: "calibration"}
+    names = {
+        ROBOT: "robot",
+        WORM: "worm",
+        READINGS: "other readings of the worm",
+        REST: "worm at rest",
+        SIZES: "sizes",
+        FIT: "calibration",
+    }
     inner = {SIZES: "worm.", FIT: "worm."}
     return [
         Change(f"{names[group]}: {what}", group, (inner.get(group, "") + place,), edit, unseen=unseen)
@@ -139,7 +153,8 @@ def _moved(track: int, point: int, to: float) -> Callable[[Any], Any]:
     return edit
 
 
-_EARLY = PRINTED["worm_early"]["gait.anchor"].value
+_EARLY: Any = PRINTED["worm_early"]["gait.anchor"].value
+_BETWEEN = [[_EARLY[0][0], [0.4, 0.45]], [[0.4, 0], [1, 0]], _EARLY[2]]
 _ROBOT_EARLY = [[[0, 0], [1.9, 0]], [[1.9, 1], [4, 1]]]
 
 
@@ -149,15 +164,15 @@ def _two_tracks(to: float) -> Callable[[Any], Any]:
 
 
 CHANGES: tuple[Change, ...] = (
-    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), ROBOT, WORM, REST, SIZES),
+    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), ROBOT, WORM, READINGS, REST, SIZES),
     *_inputs("nu = 0.301", "crawler.material.poisson", _to(0.301), ROBOT),
     *_inputs("R x 1.01", "crawler.radius", _times(1.01), ROBOT, WORM, REST),
     *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), ROBOT, WORM, REST),
     *_inputs("rho_0* x 1.01", "crawler.density", _times(1.01), ROBOT),
     *_inputs("m x 1.01", "crawler.mass", _times(1.01), WORM, REST),
     *_inputs("g x 1.01", "loads.gravity", _times(1.01), ROBOT, WORM, REST),
-    *_inputs("D x 1.01", "loads.anchoring", _times(1.01), ROBOT, WORM),
-    *_inputs("p x 1.01", "loads.advancing", _times(1.01), ROBOT, WORM),
+    *_inputs("D x 1.01", "loads.anchoring", _times(1.01), ROBOT, WORM, READINGS),
+    *_inputs("p x 1.01", "loads.advancing", _times(1.01), ROBOT, WORM, READINGS),
     *_inputs("D x 1.1", "loads.anchoring", _times(1.1), SIZES),
     *_inputs("p x 1.1", "loads.advancing", _times(1.1), SIZES),
     *_inputs("a pause of 6 s", "gait.phases", _to([6, 7.5, 2.5, 7.5]), ROBOT, unseen=_QUASISTATIC),
@@ -167,6 +182,7 @@ CHANGES: tuple[Change, ...] = (
     *_inputs("eta slower first", "gait.eta", _moved(0, 1, 0.9), ROBOT, unseen=_HOLDS),
     *_inputs("front anchor a tenth of a phase early", "gait.anchor", _to(_ROBOT_EARLY), ROBOT),
     *_inputs("rear anchor from t_p/3 on", "gait.anchor", _to(_EARLY), WORM),
+    *_inputs("another rear anchor", "gait.anchor", _to(_BETWEEN), READINGS),
     *_inputs("gamma = 0.8 at t_p/2", "gait.gamma", _moved(0, 1, 0.8), WORM, unseen=_UNTIL_HALF),
     *_inputs("gamma = 0.45 at t_p", "gait.gamma", _moved(0, 2, 0.45), WORM),
     *_inputs("eta from 0.55", "gait.eta", _two_tracks(0.55), WORM),
