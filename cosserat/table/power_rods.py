@@ -156,10 +156,7 @@ CHANGES: tuple[Change, ...] = (
         "rod.vertices",
         lambda _: 21,
         ("hanging bar", "beams", "necking", "vibration"),
-        {
-            "hanging bar": _EXACT,
-            "necking": "one vertex lies in each layer, and with 21 the curve is nearer to the page's than with 20",
-        },
+        {"hanging bar": _EXACT},
     ),
     *_inputs("nu + 0.05", "rod.poisson", _plus(0.05)),
     *_inputs(
@@ -249,7 +246,7 @@ CHANGES: tuple[Change, ...] = (
             ("hanging bar", "wells made quadratic", quadratic_wells, True),
             ("beams", "wells made quadratic", quadratic_wells, True),
             ("beams", "tan^2 made the square", square_of_the_angle, True),
-            ("necking", "wells made quadratic", quadratic_wells, True),
+            ("necking", "wells made quadratic", quadratic_wells, False),
         )
     ],
 )
