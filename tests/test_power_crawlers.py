@@ -29,14 +29,16 @@ def test_a_change_is_noticed_or_says_why_not(what):
     assert notices(change, ROWS).sound
 
 
-@pytest.mark.parametrize("case", ["soft_robot", "worm", "worm_at_rest", "worm_calibration"])
+@pytest.mark.parametrize(
+    "case", ["soft_robot", "worm", "worm_at_rest", "worm_masses", "worm_calibration"]
+)
 def test_every_printed_number_of_a_case_is_changed_once(case):
-    """Of a worm that is a part of a case, in the case of that worm."""
+    """Its gait too; of a worm that is a part of a case, in the case of that worm."""
     changed = {place for change in CHANGES if case in change.cases for place in change.places}
     numbers = {
         place
         for place, held in printed.PRINTED[case].items()
-        if (held.unit or place.startswith("gait")) and not place.startswith("worm.")
+        if held.unit or place.startswith("gait")
         if not held.unit or held.si != 0  # of muscles at rest there is nothing to scale
     }
     assert numbers - changed - {"gait.at_rest"} == set()

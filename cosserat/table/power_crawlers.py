@@ -36,6 +36,8 @@ FIT = ("worm_calibration_printed", "worm_calibration")
 _QUASISTATIC = "every instant is in equilibrium, and what is printed depends on their order alone"
 _HOLDS = "from where eta begins the head holds, whatever its speed is"
 _UNTIL_HALF = "the head goes on until gamma is at 0.5, whatever its speed was"
+_START = "the fit starts there and ends where it does from any start"
+_OWN_SIZE = "each worm has its own mass, and its length by Table 2.1"
 _PLATEAUS = "both contractions are plateaus, and what is printed is the same along each"
 
 
@@ -60,7 +62,7 @@ def _inputs(
         READINGS: "other readings of the worm",
         REST: "worm at rest",
         SIZES: "sizes",
-        FIT: "calibration",
+        FIT: "calibration of the worm",
     }
     inner = {SIZES: "worm.", FIT: "worm."}
     return [
@@ -166,15 +168,20 @@ def _two_tracks(to: float) -> Callable[[Any], Any]:
 CHANGES: tuple[Change, ...] = (
     *_inputs("E x 1.01", "crawler.material.young", _times(1.01), ROBOT, WORM, READINGS, REST, SIZES),
     *_inputs("nu = 0.301", "crawler.material.poisson", _to(0.301), ROBOT),
-    *_inputs("R x 1.01", "crawler.radius", _times(1.01), ROBOT, WORM, REST),
-    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), ROBOT, WORM, REST),
+    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), FIT, unseen=_START),
+    *_inputs("R x 1.01", "crawler.radius", _times(1.01), ROBOT, WORM, REST, SIZES, FIT),
+    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), ROBOT, WORM, REST, FIT),
+    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), SIZES, unseen=_OWN_SIZE),
     *_inputs("rho_0* x 1.01", "crawler.density", _times(1.01), ROBOT),
-    *_inputs("m x 1.01", "crawler.mass", _times(1.01), WORM, REST),
-    *_inputs("g x 1.01", "loads.gravity", _times(1.01), ROBOT, WORM, REST),
+    *_inputs("m x 1.01", "crawler.mass", _times(1.01), WORM, REST, FIT),
+    *_inputs("m x 1.01", "crawler.mass", _times(1.01), SIZES, unseen=_OWN_SIZE),
+    *_inputs("g x 1.01", "loads.gravity", _times(1.01), ROBOT, WORM, REST, SIZES, FIT),
     *_inputs("D x 1.01", "loads.anchoring", _times(1.01), ROBOT, WORM, READINGS),
     *_inputs("p x 1.01", "loads.advancing", _times(1.01), ROBOT, WORM, READINGS),
     *_inputs("D x 1.1", "loads.anchoring", _times(1.1), SIZES),
     *_inputs("p x 1.1", "loads.advancing", _times(1.1), SIZES),
+    *_inputs("D x 1.1", "loads.anchoring", _times(1.1), FIT, unseen=_START),
+    *_inputs("p x 1.1", "loads.advancing", _times(1.1), FIT, unseen=_START),
     *_inputs("a pause of 6 s", "gait.phases", _to([6, 7.5, 2.5, 7.5]), ROBOT, unseen=_QUASISTATIC),
     *_inputs("v x 2", "gait.phases", _to([5, 3.75, 1.25, 3.75]), ROBOT, unseen=_QUASISTATIC),
     *_inputs("t_p, t_s x 2", "gait.phases", _to([6.3, 3.5]), WORM, unseen=_QUASISTATIC),
@@ -209,7 +216,7 @@ CHANGES: tuple[Change, ...] = (
         for name in ("resting_length", "resting_diameter", "protrusion_time", "stance_time")
     ),
     *(
-        Change(f"calibration: {name} x 1.01", FIT, (name,), _times(1.01))
+        Change(f"calibration of the worm: {name} x 1.01", FIT, (name,), _times(1.01))
         for name in ("mu_1_ratio", "mu_3_ratio", "p_longitudinal", "p_circular")
     ),
 )
