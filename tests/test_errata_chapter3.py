@@ -449,7 +449,7 @@ def test_E3_25_the_beam_with_low_shear_stiffness_is_nearer_to_bernoulli_and_eule
 
 
 def half_period(c4, k, end_area):
-    """Of the lowest mode of the vibrating beam, assembled from (3.4.11) and Table 3.1 for small angles; c3, c5 printed."""
+    """Of the lowest mode of the vibrating beam, by (3.4.11) and Table 3.1 for small angles; c3 and c5 as printed."""
     count, length, side = 20, 1.0, 0.1
     young, area, second = 1e9, side**2, side**4 / 12
     edge = length / (count - 1)
