@@ -6,6 +6,7 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 from conftest import assembled, make_rod, random_state
+from scipy.linalg import eigh
 
 import cosserat
 from cosserat import analytic
@@ -447,14 +448,57 @@ def test_E3_25_the_beam_with_low_shear_stiffness_is_nearer_to_bernoulli_and_eule
     np.testing.assert_allclose([low, high], exact, rtol=2e-3)
 
 
-def test_E3_26_the_necked_bar_grows_by_less_than_its_modulus_says(solved):
-    grown = readouts.READOUTS["necking_elongation"](solved["necking"])
-    assert grown.measured / grown.expected == pytest.approx(0.8434, abs=1e-4)
-    nu, r = 0.3, 0.5 * 1.66 * 0.3 / 0.7
-    far = (1 + nu) * (1 - 2 * nu) / (1 - nu) / (1 - r**2)
-    middle = solved["necking"].mu_edge.to_numpy()[8:11].mean() - 1
-    assert far == pytest.approx(0.850, abs=1e-3)
-    assert middle / (grown.expected / 5) == pytest.approx(far, rel=1e-3)
+def half_period(c4, k, end_area):
+    """Of the lowest mode of the vibrating beam, by (3.4.11) and Table 3.1 for small angles; c3 and c5 as printed."""
+    count, length, side = 20, 1.0, 0.1
+    young, area, second = 1e9, side**2, side**4 / 12
+    edge = length / (count - 1)
+    part = np.array([0.5, *[1.0] * (count - 2), 0.5]) * edge
+    areas = area * np.array([end_area, *[1.0] * (count - 2), end_area])
+    along = np.diff(np.eye(count), axis=0) / edge  # angles of the edges, from the places of the vertices
+    bent = np.diff(along, axis=0) / edge
+    tangent = np.vstack([along[:1], (along[:-1] + along[1:]) / 2, along[-1:]])
+    sheared = np.hstack([tangent, -np.eye(count)])  # places, then angles of the directors
+    stiff = sheared.T @ ((c4 * k * young / 2 * areas * part)[:, None] * sheared)
+    stiff += young * second * edge * (change := np.diff(sheared, axis=0) / edge).T @ change
+    stiff[:count, :count] += 0.99 * young * second * edge * bent.T @ bent
+    mass = np.diag(1e3 * np.concatenate([area * part, second * part]))
+    free = np.r_[1:count, count + 1 : 2 * count]
+    return np.pi / np.sqrt(
+        eigh(stiff[np.ix_(free, free)], mass[np.ix_(free, free)], eigvals_only=True)[0]
+    )
+
+
+def test_E3_25_the_same_beam_is_nearer_in_every_reading_of_areas_and_shear_correction():
+    """Of (3.4.10), E3.9, and of k, E3.17; with halved areas the other beam has the printed 0.03 s."""
+    by_formula = np.pi / analytic.first_frequency(printed.beam("vibration_c4_20"))
+    for ends, share in (("full", 1.0), ("halved", 0.5)):
+        for k in (5 / 6, 1.0):
+            low, high = (half_period(c4, k, share) for c4 in (2, 20))
+            assert abs(low - by_formula) < abs(high - by_formula)
+            for c4, exact in ((2, low), (20, high)):
+                rod = {"end_sections": ends, "shear_correction": k}
+                posed = cosserat.case(f"vibration_c4_{c4}").vary("x", rod=rod).problem
+                found = np.pi / posed.modes(1).angular_frequency[0]
+                assert found == pytest.approx(exact, rel=1e-8)
+    assert half_period(2, 5 / 6, 0.5) == pytest.approx(0.0318, abs=5e-5)
+    assert half_period(20, 5 / 6, 0.5) == pytest.approx(0.0300, abs=5e-5)
+
+
+def test_E3_26_the_necked_bar_grows_by_another_length_than_its_modulus_says(solved):
+    """With half the Poisson term of (3.4.11) by less, with the printed one, E3.2, by more."""
+    nu = 0.3
+    for name, half, whole, middle in (
+        ("necking", 0.5, 0.8434, 0.850),
+        ("necking_printed", 1.0, 1.4381, 1.505),
+    ):
+        grown = readouts.READOUTS["necking_elongation"](solved[name])
+        assert grown.measured / grown.expected == pytest.approx(whole, abs=1e-4)
+        r = half * 1.66 * nu / (1 - nu)
+        far = (1 + nu) * (1 - 2 * nu) / (1 - nu) / (1 - r**2)
+        assert far == pytest.approx(middle, abs=1e-3)
+        stretched = solved[name].mu_edge.to_numpy()[8:11].mean() - 1
+        assert stretched / (grown.expected / 5) == pytest.approx(far, rel=1e-3)
     straight = cosserat.run(cosserat.case("necking").vary("no_poisson", rod={"poisson": 0}))
     assert readouts.READOUTS["necking_elongation"](straight).measured == pytest.approx(2e-5, rel=1e-5)
 

@@ -6,7 +6,7 @@ from conftest import ROOT
 import cosserat
 from cosserat.table import printed
 from cosserat.table.power import notices
-from cosserat.table.power_crawlers import CHANGES, FIT, REST, ROBOT, SIZES, WORM
+from cosserat.table.power_crawlers import CHANGES, FIT, READINGS, REST, ROBOT, SIZES, WORM
 from cosserat.table.tolerances import read_table
 
 ROWS = read_table(ROOT / "results/tolerances.csv")
@@ -29,14 +29,16 @@ def test_a_change_is_noticed_or_says_why_not(what):
     assert notices(change, ROWS).sound
 
 
-@pytest.mark.parametrize("case", ["soft_robot", "worm", "worm_at_rest", "worm_calibration"])
+@pytest.mark.parametrize(
+    "case", ["soft_robot", "worm", "worm_at_rest", "worm_masses", "worm_calibration"]
+)
 def test_every_printed_number_of_a_case_is_changed_once(case):
-    """Of a worm that is a part of a case, in the case of that worm."""
+    """Its gait too; of a worm that is a part of a case, in the case of that worm."""
     changed = {place for change in CHANGES if case in change.cases for place in change.places}
     numbers = {
         place
         for place, held in printed.PRINTED[case].items()
-        if (held.unit or place.startswith("gait")) and not place.startswith("worm.")
+        if held.unit or place.startswith("gait")
         if not held.unit or held.si != 0  # of muscles at rest there is nothing to scale
     }
     assert numbers - changed - {"gait.at_rest"} == set()
@@ -46,7 +48,7 @@ def test_what_is_changed_is_of_the_thesis_and_has_a_name_of_its_own():
     names = [change.what for change in CHANGES]
     assert len(set(names)) == len(names) > 50
     asked = {case for change in CHANGES for case in change.cases}
-    assert asked == {*ROBOT, *WORM, *REST, *SIZES, *FIT}
+    assert asked == {*ROBOT, *WORM, *READINGS, *REST, *SIZES, *FIT}
     assert asked <= set(cosserat.published())
     for case in asked:
         assert any(row.case == case for row in ROWS)

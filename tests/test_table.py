@@ -351,10 +351,14 @@ def test_a_summary_counts_numbers_by_their_best_reading_and_names_what_is_missed
     text = summary(report)
     assert text.startswith(
         "Of the thesis's 5 numbers, curves and statements: 1 reproduced as printed, 1 only with a misprint that the "
-        "errata name, 2 missed (the worst, c, by 20 %), 1 arithmetic on other numbers of the page. "
-        "Of 1 exact answers that judge our own rod it meets 1.\n"
+        "errata name, 2 missed (the worst, c, by 20 %), 1 arithmetic on other numbers of the page "
+        "(1 of them not as printed). Of 1 exact answers that judge our own rod it meets 1.\n"
     )
     assert "Missed, in the nearest reading by: c 20 %, d 3 %\n" in text
+    assert (
+        "Other readings of the same numbers: 2 rows; without them 2 of 4 numbers that something is solved for are met."
+        in text
+    )
     assert "Measurements of its sources: 1 rows, 0 of them met." in text
 
 

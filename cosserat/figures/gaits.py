@@ -15,6 +15,7 @@ from cosserat.figures import crawlers
 from cosserat.figures.style import COMPUTED, EXACT, INK, canvas
 from cosserat.models.peristalsis import Crawl
 from cosserat.table.crawl_readouts import crawl
+from cosserat.table.printed import number
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -51,7 +52,7 @@ def fig_2_7(data: Data) -> Figure:
     return figure
 
 
-T_STEP = 0.01
+T_STEP = number("soft_robot", "t_step")
 """Time between the discrete values of Fig. 2.8 [s]."""
 
 

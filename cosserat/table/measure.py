@@ -85,8 +85,11 @@ def summary(report: Sequence[Mapping[str, str]]) -> str:
             + ", ".join(f"{number} {100 * share:.2g} %" for number, share in missed.items())
         )
     of_thesis = _of_thesis(report)
+    solved = [row for row in of_thesis if row["standing"] not in ("recomputed", "not attempted")]
+    first = [row for row in solved if not row["reading_of"]]
     lines.append(
-        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows."
+        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows; without them "
+        f"{_met(first)} of {len(first)} numbers that something is solved for are met."
     )
     lines.append(
         _within("Measurements of its sources", [r for r in report if r["kind"] == "literature"])
@@ -105,11 +108,17 @@ def sentence(report: Sequence[Mapping[str, str]]) -> str:
         number, share = missed[0]
         worst = f"missed (the worst, {number}, by {100 * share:.2g} %)"
         parts = [part.replace("missed", worst) for part in parts]
+    sums = [row for row in _of_thesis(report) if row["standing"] == "recomputed"]
+    others = len(sums) - _met(sums)
+    if others:
+        parts = [
+            f"{part} ({others} of them not as printed)" if "arithmetic" in part else part
+            for part in parts
+        ]
     own = [row for row in report if row["id"].startswith("C-")]
-    met = sum(row["claim"] == "within" for row in own)
     return (
         f"Of the thesis's {len(came)} numbers, curves and statements: {', '.join(parts)}. "
-        f"Of {len(own)} exact answers that judge our own rod it meets {met}."
+        f"Of {len(own)} exact answers that judge our own rod it meets {_met(own)}."
     )
 
 
@@ -129,7 +138,11 @@ def _missed(report: Sequence[Mapping[str, str]]) -> dict[str, float]:
 
 
 def _within(what: str, rows: Sequence[Mapping[str, str]]) -> str:
-    return f"{what}: {len(rows)} rows, {sum(row['claim'] == 'within' for row in rows)} of them met."
+    return f"{what}: {len(rows)} rows, {_met(rows)} of them met."
+
+
+def _met(rows: Sequence[Mapping[str, str]]) -> int:
+    return sum(row["claim"] == "within" for row in rows)
 
 
 def check(report: list[dict[str, str]]) -> str:

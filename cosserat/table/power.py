@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from cosserat.cases.catalogue import Case, find
-from cosserat.errors import CosseratError, OutOfToleranceError
+from cosserat.errors import CosseratError, InputError, OutOfToleranceError
 from cosserat.runner import run
 from cosserat.table.measure import judge
 from cosserat.table.tolerances import Judged, Row
@@ -83,13 +83,20 @@ def edited(case: Case, change: Change) -> Case:
 
 
 def notices(change: Change, rows: Sequence[Row]) -> Noticed:
-    """Which rows notice; those of a case that no longer has an answer all do."""
+    """Which rows notice; those of a case that no longer has an answer all do.
+
+    Raises
+    ------
+    InputError : the change is no case, so that nothing was tried.
+    """
     found: list[str] = []
     with change.physics():
         for name in change.cases:
             asked = [row for row in rows if row.case == name]
             try:
                 data = {name: run(edited(find(name), change))}
+            except InputError:
+                raise
             except CosseratError as error:
                 found += [f"{row.id} (no answer: {type(error).__name__})" for row in asked]
                 continue

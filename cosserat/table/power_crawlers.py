@@ -22,6 +22,13 @@ Array = NDArray[np.float64]
 
 ROBOT = ("soft_robot",)
 WORM = ("worm_printed", "worm")
+READINGS = (
+    "worm_printed_early",
+    "worm_balanced",
+    "worm_balanced_early",
+    "worm_early",
+    "worm_clipped",
+)
 REST = ("worm_at_rest",)
 SIZES = ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip")
 FIT = ("worm_calibration_printed", "worm_calibration")
@@ -29,6 +36,8 @@ FIT = ("worm_calibration_printed", "worm_calibration")
 _QUASISTATIC = "every instant is in equilibrium, and what is printed depends on their order alone"
 _HOLDS = "from where eta begins the head holds, whatever its speed is"
 _UNTIL_HALF = "the head goes on until gamma is at 0.5, whatever its speed was"
+_START = "the fit starts there and ends where it does from any start"
+_OWN_SIZE = "each worm has its own mass, and its length by Table 2.1"
 _PLATEAUS = "both contractions are plateaus, and what is printed is the same along each"
 
 
@@ -47,7 +56,14 @@ def _inputs(
     *groups: tuple[str, ...],
     unseen: str = "",
 ) -> list[Change]:
-    names = {ROBOT: "robot", WORM: "worm", REST: "worm at rest", SIZES: "sizes", FIT: "calibration"}
+    names = {
+        ROBOT: "robot",
+        WORM: "worm",
+        READINGS: "other readings of the worm",
+        REST: "worm at rest",
+        SIZES: "sizes",
+        FIT: "calibration of the worm",
+    }
     inner = {SIZES: "worm.", FIT: "worm."}
     return [
         Change(f"{names[group]}: {what}", group, (inner.get(group, "") + place,), edit, unseen=unseen)
@@ -139,7 +155,8 @@ def _moved(track: int, point: int, to: float) -> Callable[[Any], Any]:
     return edit
 
 
-_EARLY = PRINTED["worm_early"]["gait.anchor"].value
+_EARLY: Any = PRINTED["worm_early"]["gait.anchor"].value
+_BETWEEN = [[_EARLY[0][0], [0.4, 0.45]], [[0.4, 0], [1, 0]], _EARLY[2]]
 _ROBOT_EARLY = [[[0, 0], [1.9, 0]], [[1.9, 1], [4, 1]]]
 
 
@@ -149,17 +166,22 @@ def _two_tracks(to: float) -> Callable[[Any], Any]:
 
 
 CHANGES: tuple[Change, ...] = (
-    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), ROBOT, WORM, REST, SIZES),
+    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), ROBOT, WORM, READINGS, REST, SIZES),
     *_inputs("nu = 0.301", "crawler.material.poisson", _to(0.301), ROBOT),
-    *_inputs("R x 1.01", "crawler.radius", _times(1.01), ROBOT, WORM, REST),
-    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), ROBOT, WORM, REST),
+    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), FIT, unseen=_START),
+    *_inputs("R x 1.01", "crawler.radius", _times(1.01), ROBOT, WORM, REST, SIZES, FIT),
+    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), ROBOT, WORM, REST, FIT),
+    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), SIZES, unseen=_OWN_SIZE),
     *_inputs("rho_0* x 1.01", "crawler.density", _times(1.01), ROBOT),
-    *_inputs("m x 1.01", "crawler.mass", _times(1.01), WORM, REST),
-    *_inputs("g x 1.01", "loads.gravity", _times(1.01), ROBOT, WORM, REST),
-    *_inputs("D x 1.01", "loads.anchoring", _times(1.01), ROBOT, WORM),
-    *_inputs("p x 1.01", "loads.advancing", _times(1.01), ROBOT, WORM),
+    *_inputs("m x 1.01", "crawler.mass", _times(1.01), WORM, REST, FIT),
+    *_inputs("m x 1.01", "crawler.mass", _times(1.01), SIZES, unseen=_OWN_SIZE),
+    *_inputs("g x 1.01", "loads.gravity", _times(1.01), ROBOT, WORM, REST, SIZES, FIT),
+    *_inputs("D x 1.01", "loads.anchoring", _times(1.01), ROBOT, WORM, READINGS),
+    *_inputs("p x 1.01", "loads.advancing", _times(1.01), ROBOT, WORM, READINGS),
     *_inputs("D x 1.1", "loads.anchoring", _times(1.1), SIZES),
     *_inputs("p x 1.1", "loads.advancing", _times(1.1), SIZES),
+    *_inputs("D x 1.1", "loads.anchoring", _times(1.1), FIT, unseen=_START),
+    *_inputs("p x 1.1", "loads.advancing", _times(1.1), FIT, unseen=_START),
     *_inputs("a pause of 6 s", "gait.phases", _to([6, 7.5, 2.5, 7.5]), ROBOT, unseen=_QUASISTATIC),
     *_inputs("v x 2", "gait.phases", _to([5, 3.75, 1.25, 3.75]), ROBOT, unseen=_QUASISTATIC),
     *_inputs("t_p, t_s x 2", "gait.phases", _to([6.3, 3.5]), WORM, unseen=_QUASISTATIC),
@@ -167,6 +189,7 @@ CHANGES: tuple[Change, ...] = (
     *_inputs("eta slower first", "gait.eta", _moved(0, 1, 0.9), ROBOT, unseen=_HOLDS),
     *_inputs("front anchor a tenth of a phase early", "gait.anchor", _to(_ROBOT_EARLY), ROBOT),
     *_inputs("rear anchor from t_p/3 on", "gait.anchor", _to(_EARLY), WORM),
+    *_inputs("another rear anchor", "gait.anchor", _to(_BETWEEN), READINGS),
     *_inputs("gamma = 0.8 at t_p/2", "gait.gamma", _moved(0, 1, 0.8), WORM, unseen=_UNTIL_HALF),
     *_inputs("gamma = 0.45 at t_p", "gait.gamma", _moved(0, 2, 0.45), WORM),
     *_inputs("eta from 0.55", "gait.eta", _two_tracks(0.55), WORM),
@@ -193,7 +216,7 @@ CHANGES: tuple[Change, ...] = (
         for name in ("resting_length", "resting_diameter", "protrusion_time", "stance_time")
     ),
     *(
-        Change(f"calibration: {name} x 1.01", FIT, (name,), _times(1.01))
+        Change(f"calibration of the worm: {name} x 1.01", FIT, (name,), _times(1.01))
         for name in ("mu_1_ratio", "mu_3_ratio", "p_longitudinal", "p_circular")
     ),
 )
