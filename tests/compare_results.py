@@ -1,7 +1,7 @@
 """Compare two folders of results, of the code before a change and after: `python -m tests.compare_results OLD NEW`.
 
-Prints the largest change of every variable of every case, and fails if one is larger than allowed: with `--bits` none at
-all, else 1e-9 of the variable's largest value or its round-off floor.  Variables and labels that were renamed are
+Prints the largest change of every variable of every case, and fails if one is larger than allowed: with `--bits` none
+at all, else 1e-9 of the variable's largest value or its round-off floor.  Variables and labels that were renamed are
 compared by the table below.  The attributes `source` and `parameters` may differ; every other one may not.
 """
 
