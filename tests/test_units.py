@@ -91,6 +91,8 @@ REFUSED = [
     ("rad", "pi/6", "in no unit at all"),
     ("rad", "5 %", "in %, a ratio and not an angle"),
     ("1", "0.3 rad", "in rad, an angle and not a ratio"),
+    ("1", "5 dB", "in dB, whose zero is not zero"),
+    ("1", "0 Np", "in Np, whose zero is not zero"),
     ("Hz", "20 rad/s", "in rad/s, an angular speed and not a frequency"),
     ("Hz", "60 rpm", "in rpm, an angular speed and not a frequency"),
     ("rad/s", "20 Hz", "in Hz, a frequency and not an angular speed"),
