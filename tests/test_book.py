@@ -121,10 +121,13 @@ def test_a_book_replaces_a_book_and_an_empty_folder(notebooks, book, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["book", "empty"]
 
 
+@pytest.mark.parametrize("listed", [True, False])
 @pytest.mark.parametrize(
     "name", ["thesis.tex", "mine.html", "_static/mine.css", "sub/mine.txt", "empty/"]
 )
-def test_a_file_of_the_user_in_a_book_stays_and_is_named(notebooks, book, name):
+def test_a_file_of_the_user_in_a_book_stays_and_is_named(notebooks, book, name, listed):
+    if not listed:
+        (book / ".cosserat-book").unlink()  # as books were before
     path = book / name
     path.parent.mkdir(exist_ok=True)
     path.mkdir() if name.endswith("/") else path.write_text("mine")
