@@ -18,6 +18,7 @@ from conftest import ROOT
 
 import cosserat
 from cosserat.data import dataset as files
+from cosserat.data.parts import Parts
 from cosserat.data.variables import LABELS, VARIABLES
 from cosserat.errors import InputError
 from cosserat.outcome import Outcome
@@ -191,3 +192,16 @@ def test_values_that_are_not_finite_never_become_a_dataset():
     case = cosserat.case("clamped_free")
     with pytest.raises(ValueError, match="variable 'mu' is not finite"):
         files.to_dataset(case, Outcome({"mu": np.array([1.0, np.nan])}, {}))
+
+
+def test_parts_are_forgotten_with_their_folder_and_what_else_is_in_it_stays(tmp_path):
+    parts = Parts(tmp_path / "x.nc")
+    parts.folder.mkdir()
+    for name in ("00000.nc", "00001.nc", "stopped.nc", ".00002.nc.machine.12.part", "notes.txt"):
+        (parts.folder / name).touch()
+    parts.remove()
+    assert [file.name for file in parts.folder.iterdir()] == ["notes.txt"]
+    (parts.folder / "notes.txt").unlink()
+    parts.remove()
+    assert not parts.folder.exists()
+    parts.remove()
