@@ -196,3 +196,22 @@ def test_an_environment_whose_python_has_gone_is_made_anew(folder):
     assert set_up(folder) == (0, 1)
     (folder / ".venv/bin/python").unlink()
     assert set_up(folder) == (0, 2)
+
+
+@pytest.mark.parametrize("home", ["", "/dev/null/none", "here"])
+def test_without_a_home_to_write_to_the_workflow_keeps_its_files_in_the_checkout(folder, home):
+    assert set_up(folder) == (0, 1)
+    stub = folder / ".venv/bin/snakemake"
+    stub.write_text('#!/bin/sh\necho "cache ${XDG_CACHE_HOME-none} ${MPLCONFIGDIR-none}"\n')
+    stub.chmod(0o755)
+    done = subprocess.run(
+        ["make", f"PYTHON={folder.parent / 'python3'}"],
+        cwd=folder,
+        env={"PATH": "/usr/bin:/bin", "HOME": str(folder.parent) if home == "here" else home},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    cache = folder / ".snakemake/cache"
+    kept = "none none" if home == "here" else f"{cache} {cache}/matplotlib"
+    assert done.stdout == f"cache {kept}\n"
