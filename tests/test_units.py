@@ -23,7 +23,7 @@ READ = {
         "2 N·mm⁻²": 2e6, "1 kN/cm²": 1e7, "1 MPa": 1e6, "1MPa": 1e6, "1_000 MPa": 1e9, "10^9 Pa": 1e9, "10**9 Pa": 1e9,
         "10⁹ Pa": 1e9, "1.0×10^9 Pa": 1e9, "1.0 x 10^9 Pa": 1e9, "1.5*10^9 Pa": 1.5e9, "1.5·10⁻³ Pa": 1.5e-3,
         "1e9 Pa": 1e9, "1E9Pa": 1e9, "2 × 10^3 kPa": 2e6, "1 psi": LBF / 0.0254**2, "1 bar": 1e5, "0.24 kPa": 240,
-        "1 J/m³": 1, "1\u00a0GPa": 1e9, "1\u202fGPa": 1e9, "-10^3 Pa": -1e3, "\u22122 kPa": -2e3,
+        "1 J/m³": 1, "1\u00a0GPa": 1e9, "1\u202fGPa": 1e9, "-10^3 Pa": -1e3, "\u22122 kPa": -2e3, "\u20132 kPa": -2e3,
     },
     "m/s^2": {
         "9.81 m/s²": 9.81, "9.81 m/s2": 9.81, "9.81 m/s^2": 9.81, "9.81 m s-2": 9.81, "9.81 m·s⁻²": 9.81,
@@ -103,6 +103,7 @@ REFUSED = [
     ("m", "1 m^(9^9^9^9)", "whose unit is not known"),
     ("m", "1 m^9^9^9^9", "whose unit is not known"),
     ("m", "9**9**9**9 m", "which is not a number with a unit"),
+    ("m", "5\u20136 mm", "which is not a number with a unit"),
     ("m", "m", "which is not a number with a unit"),
     ("m", "", "which is not a number with a unit"),
     ("m", "1/0 m", "which is not a number with a unit"),
