@@ -5,6 +5,12 @@ export PYTHON ?= python3
 export VENV := .venv
 BIN := $(VENV)/bin
 
+# Snakemake and Matplotlib keep files in the home; where there is none to write to, they keep them here.
+ifeq ($(shell test -w "$$HOME" && echo home),)
+export XDG_CACHE_HOME ?= $(CURDIR)/.snakemake/cache
+export MPLCONFIGDIR ?= $(CURDIR)/.snakemake/cache/matplotlib
+endif
+
 .DEFAULT_GOAL := all
 .PHONY: all test test-workflow environment
 

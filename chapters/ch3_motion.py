@@ -103,7 +103,8 @@ page.source(stepping._sigma)
 page.figure(
     "fig_3_13",
     "Two shear stiffnesses. A kinetic energy swings twice while its beam swings once; the page calls the shorter of the "
-    "two the period of vibration.",
+    "two the period of vibration. The band of $c_4 = 20$ in (a) is a shear mode that its start sets off and its step does not "
+    "resolve, as the file itself warns.",
 )
 
 # %% tags=["remove-input"]
@@ -134,7 +135,9 @@ page.table(
 
 # %% tags=["remove-input"]
 page.figure(
-    "fig_modes", "Each mode at both ends of its swing, as large as one likes: the shapes have no size."
+    "fig_modes",
+    "The lowest modes of the beam with $c_4 = 20$, each at both ends of its swing, as large as one likes: the shapes have no "
+    "size. In (c) the bar swings along itself.",
 )
 
 # %% tags=["remove-input"]

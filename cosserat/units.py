@@ -40,7 +40,7 @@ _ALIKE = {"m^-1": "rad/m"}
 
 _PREFIXES = ("", "k", "M", "G", "m", "c", "µ", "n")
 _CHARACTERS = str.maketrans(
-    {**dict.fromkeys("·⋅∙•×", "*"), **dict.fromkeys("−‐‑", "-"), "μ": "µ", "º": "°", "π": "pi"}
+    {**dict.fromkeys("·⋅∙•×", "*"), **dict.fromkeys("−‐‑–", "-"), "μ": "µ", "º": "°", "π": "pi"}
     | dict.fromkeys("\u00a0\u2007\u2009\u202f", " ")
 )
 _SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
@@ -115,6 +115,8 @@ def _read_text(text: str, unit: str) -> float:
     if root not in (_root(wanted), _root(_ALIKE.get(unit, wanted))):
         why = f"in {rest}{_instead(root, unit)}" if rest else "in no unit at all"
         raise refused("unit", why, _meant(written, unit))
+    if _units().Quantity(0.0, written).to(wanted).magnitude:
+        raise refused("unit", f"in {rest}, whose zero is not zero {unit}")
     return float(read.to(wanted).magnitude)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from cosserat.book import page
 from cosserat.book.build import render
 from cosserat.errors import CosseratError, InputError
 
@@ -15,17 +16,33 @@ pytestmark = pytest.mark.filterwarnings(
 )
 
 
+def shown(html):
+    """A cell that has displayed HTML."""
+    output = nbformat.v4.new_output("display_data", {"text/html": html})
+    return nbformat.v4.new_code_cell("0", outputs=[output])
+
+
 @pytest.fixture(scope="module")
 def notebooks(tmp_path_factory):
     """Two pages, the first with a numbered equation."""
     folder = tmp_path_factory.mktemp("notebooks")
+    with pytest.MonkeyPatch.context() as patch:
+        (folder / "figures").mkdir()
+        (folder / "figures" / "fig_2_1.svg").write_text("<svg/>")
+        (folder / "figures" / "anim_worm.svg").write_text("<svg/>")
+        patch.setattr(page, "results", lambda: folder)
+        drawn = page.figure("fig_2_1", "Ahead of $\\gamma$.").data
+        drawn += page.animation("anim_worm", "From $t_p/2$ on.").data
+    table = page.table([["$a < b$", "5"]], ["of $\\mu_3$", "times"]).data
     toctree = "```{toctree}\nother\n```"
     for name, text in (
         ("index", f"# Index\n\n$$ a = b \\tag{{1.2.3}} $$\n\n{toctree}"),
         ("other", "# Other"),
     ):
-        cells = [nbformat.v4.new_markdown_cell(text)]
-        nbformat.write(nbformat.v4.new_notebook(cells=cells), folder / f"{name}.ipynb")
+        cells = [nbformat.v4.new_markdown_cell(text), shown(table), shown(drawn)]
+        book = nbformat.v4.new_notebook(cells=cells)
+        book.metadata["language_info"] = {"name": "python", "pygments_lexer": "python3"}
+        nbformat.write(book, folder / f"{name}.ipynb")
     return [folder / "index.ipynb", folder / "other.ipynb"]
 
 
@@ -56,6 +73,14 @@ def rules(book):
         for selectors, block in re.findall(r"([^{}]+)\{([^}]*)\}", text)
         for selector in selectors.split(",")
     }
+
+
+def test_mathematics_of_captions_and_tables_is_set_and_not_shown_as_dollars(built):
+    text = (built / "index.html").read_text()
+    found = re.findall(r'<span class="math notranslate nohighlight">\\\((.*?)\\\)</span>', text)
+    assert found == [r"\mu_3", "a &lt; b", r"\gamma", "t_p/2"]
+    assert "$" not in text.split("<article")[1].split("</article>")[0]
+    assert re.search(r'"processHtmlClass": "[^"]*\bmath\b', text)  # what MathJax sets
 
 
 def test_wide_equations_scroll_from_their_left_end_and_are_no_larger_than_the_text(built):
@@ -96,10 +121,13 @@ def test_a_book_replaces_a_book_and_an_empty_folder(notebooks, book, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["book", "empty"]
 
 
+@pytest.mark.parametrize("listed", [True, False])
 @pytest.mark.parametrize(
     "name", ["thesis.tex", "mine.html", "_static/mine.css", "sub/mine.txt", "empty/"]
 )
-def test_a_file_of_the_user_in_a_book_stays_and_is_named(notebooks, book, name):
+def test_a_file_of_the_user_in_a_book_stays_and_is_named(notebooks, book, name, listed):
+    if not listed:
+        (book / ".cosserat-book").unlink()  # as books were before
     path = book / name
     path.parent.mkdir(exist_ok=True)
     path.mkdir() if name.endswith("/") else path.write_text("mine")

@@ -222,6 +222,36 @@ def test_unknown_cases_and_unreadable_files_are_refused(tmp_path):
         cosserat.case("mine", broken)
 
 
+@pytest.mark.parametrize(
+    ("line", "remedy"),
+    [
+        ("rod.poisson = 0,3", "for a decimal comma write a decimal point"),
+        ('forces = [{ at = "last", along = "E2", force = -1,5 N }]', "for a decimal comma write"),
+        (
+            "rod.length = 1.5 m",
+            'write a number that has a unit between quotation marks, such as "2.5 mm"',
+        ),
+        ("rod.young = 1e9Pa", "between quotation marks"),
+        ("rod.vertices = [1, 2", "see cosserat/cases"),
+    ],
+)
+def test_a_number_that_is_no_toml_has_its_remedy_in_the_sentence(tmp_path, line, remedy):
+    file = tmp_path / "mine.toml"
+    file.write_text(f'[mine]\nlike = "elastica"\n{line}\n')
+    with pytest.raises(InputError, match=r"mine\.toml is not TOML: ") as caught:
+        cosserat.case("mine", file)
+    assert remedy in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "latin-1"])
+def test_a_file_in_another_encoding_is_refused_with_the_one_that_is_read(tmp_path, encoding):
+    file = tmp_path / "mine.toml"
+    file.write_text('[mine]\ntitle = "café"\n', encoding=encoding)
+    with pytest.raises(InputError, match=r"mine\.toml is not TOML: .* save it as UTF-8"):
+        cosserat.case("mine", file)
+
+
 def test_a_case_survives_its_own_json():
     for case in cosserat.published().values():
         assert parse(case.model_dump_json()) == case

@@ -18,6 +18,7 @@ from conftest import ROOT
 
 import cosserat
 from cosserat.data import dataset as files
+from cosserat.data.parts import Parts
 from cosserat.data.variables import LABELS, VARIABLES
 from cosserat.errors import InputError
 from cosserat.solution import Solution
@@ -210,3 +211,16 @@ def test_fields_of_other_dimensions_never_become_a_dataset(name, dims, shape):
 def test_unknown_fields_never_become_a_dataset():
     with pytest.raises(ValueError, match="no such variables: mew"):
         files.to_dataset(cosserat.case("clamped_free"), Solution({"mew": (("vertex",), np.ones(3))}, {}))
+
+
+def test_parts_are_forgotten_with_their_folder_and_what_else_is_in_it_stays(tmp_path):
+    parts = Parts(tmp_path / "x.nc")
+    parts.folder.mkdir()
+    for name in ("00000.nc", "00001.nc", "stopped.nc", ".00002.nc.machine.12.part", "notes.txt"):
+        (parts.folder / name).touch()
+    parts.remove()
+    assert [file.name for file in parts.folder.iterdir()] == ["notes.txt"]
+    (parts.folder / "notes.txt").unlink()
+    parts.remove()
+    assert not parts.folder.exists()
+    parts.remove()

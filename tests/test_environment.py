@@ -142,6 +142,27 @@ def set_up(folder, **environment):
     return done.returncode, log.read_text().count("made") if log.exists() else 0
 
 
+@pytest.mark.parametrize("linked", [False, True])
+def test_a_folder_of_the_user_is_not_made_into_an_environment(folder, linked):
+    mine = folder / ("mine" if linked else ".venv")
+    mine.mkdir()
+    (mine / "thesis.tex").write_text("mine")
+    if linked:
+        (mine / "pyvenv.cfg").touch()  # somebody else's environment
+        (folder / ".venv").symlink_to(mine)
+    code, count = set_up(folder)
+    assert code != 0
+    assert count == 0
+    assert (mine / "thesis.tex").read_text() == "mine"
+
+
+def test_an_environment_of_which_a_kill_left_anything_is_made_anew(folder):
+    assert set_up(folder) == (0, 1)
+    (folder / ".venv/.ready").unlink()
+    (folder / ".venv/lib").mkdir()  # and no pyvenv.cfg: it was being cleared
+    assert set_up(folder) == (0, 2)
+
+
 def test_an_environment_is_made_once_and_anew_from_another_lock(folder):
     assert [set_up(folder), set_up(folder)] == [(0, 1), (0, 1)]
     (folder / "requirements.lock").write_text("# nothing\n")
@@ -175,3 +196,22 @@ def test_an_environment_whose_python_has_gone_is_made_anew(folder):
     assert set_up(folder) == (0, 1)
     (folder / ".venv/bin/python").unlink()
     assert set_up(folder) == (0, 2)
+
+
+@pytest.mark.parametrize("home", ["", "/dev/null/none", "here"])
+def test_without_a_home_to_write_to_the_workflow_keeps_its_files_in_the_checkout(folder, home):
+    assert set_up(folder) == (0, 1)
+    stub = folder / ".venv/bin/snakemake"
+    stub.write_text('#!/bin/sh\necho "cache ${XDG_CACHE_HOME-none} ${MPLCONFIGDIR-none}"\n')
+    stub.chmod(0o755)
+    done = subprocess.run(
+        ["make", f"PYTHON={folder.parent / 'python3'}"],
+        cwd=folder,
+        env={"PATH": "/usr/bin:/bin", "HOME": str(folder.parent) if home == "here" else home},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    cache = folder / ".snakemake/cache"
+    kept = "none none" if home == "here" else f"{cache} {cache}/matplotlib"
+    assert done.stdout == f"cache {kept}\n"

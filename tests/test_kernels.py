@@ -76,6 +76,18 @@ def test_without_a_home_a_private_temporary_folder_is_next(closed, tmp_path):
     assert folder.stat().st_mode & 0o077 == 0
 
 
+@pytest.mark.parametrize("caches", [{}, {"XDG_CACHE_HOME": "missing/.cache"}])
+def test_a_missing_home_is_not_made(closed, tmp_path, caches):
+    """Whoever may, as the superuser of a container may, would leave a home that nobody has."""
+    caches = {name: str(tmp_path / place) for name, place in caches.items()}
+    code, out, err = python(
+        closed, "use.py", HOME=str(tmp_path / "missing"), TMPDIR=str(tmp_path), **caches
+    )
+    assert code == 0, err
+    assert out.split()[0] == str(tmp_path / f"cosserat-{os.getuid()}")
+    assert [path.name for path in tmp_path.iterdir()] == [f"cosserat-{os.getuid()}"]
+
+
 @pytest.mark.parametrize("reason", ["others may write there", "nothing can be written"])
 def test_where_nothing_is_safe_nothing_is_kept_and_all_works(closed, tmp_path, reason):
     """What is read from a cache is run, so a folder that others may write to is none."""

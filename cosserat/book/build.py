@@ -108,15 +108,18 @@ def render(notebooks: list[Path], output: Path) -> Path:
         _copy_mathjax(pages / "_static" / "mathjax")
         _sphinx(pages, built, Path(scratch) / "doctrees")
         (built / _WRITTEN).write_text("\n".join([_WRITTEN, *_files(built)]), encoding="utf-8")
-        _refuse_what_is_not_ours(output)
+        _refuse_what_is_not_ours(output, set(_files(built)))
         if output.exists():
             output.rename(Path(scratch) / "old")
         built.rename(output)
     return output / "index.html"
 
 
-def _refuse_what_is_not_ours(output: Path) -> None:
-    """Raise InputError unless a folder is missing, empty, or holds no file but those that a book of ours has."""
+def _refuse_what_is_not_ours(output: Path, of_a_book: set[str] | None = None) -> None:
+    """Raise InputError unless a folder is missing, empty, or holds no file but those that a book of ours has.
+
+    of_a_book : what the new book holds; a book without a list of its own may have nothing else.
+    """
     remedy = "choose another with --output"
     if output.is_symlink() or (output.exists() and not output.is_dir()):
         raise InputError(f"{output} is no folder; {remedy}")
@@ -128,7 +131,7 @@ def _refuse_what_is_not_ours(output: Path) -> None:
     if list_of_ours.is_file():
         ours = set(list_of_ours.read_text(encoding="utf-8").splitlines())
     elif (output / "_static" / "book.css").is_file():  # a book from before there was a list
-        ours = {file for file in found if _looks_built(Path(file))}
+        ours = of_a_book or {file for file in found if _looks_built(Path(file))}
     else:
         ours = set()
     others = [file for file in found if file not in ours]

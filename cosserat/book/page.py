@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import inspect
+import re
 import textwrap
 from collections.abc import Sequence
 from html import escape
@@ -43,7 +44,7 @@ def figure(name: str, caption: str) -> HTML:
     """A drawn figure with its number and a caption."""
     picture = base64.b64encode((results() / "figures" / f"{name}.svg").read_bytes()).decode()
     title = entry(name).title
-    text = f"<b>{escape(title)}.</b> {caption}"
+    text = f"<b>{escape(title)}.</b> {_mathematics(caption)}"
     image = f'<img alt="{escape(title)}" src="data:image/svg+xml;base64,{picture}">'
     return HTML(f'<figure class="plot" id="{name}">{image}<figcaption>{text}</figcaption></figure>')
 
@@ -51,7 +52,7 @@ def figure(name: str, caption: str) -> HTML:
 def animation(name: str, caption: str) -> HTML:
     """A drawn animation with a button that stops and starts it."""
     drawing = (results() / "figures" / f"{name}.svg").read_text(encoding="utf-8")
-    text = f"<b>{escape(entry(name).title)}.</b> {caption}"
+    text = f"<b>{escape(entry(name).title)}.</b> {_mathematics(caption)}"
     toggle = (
         "const s=this.closest('figure').querySelector('svg');"
         "s.animationsPaused()?s.unpauseAnimations():s.pauseAnimations()"
@@ -102,12 +103,18 @@ def amount(number: str, unit: str) -> str:
 
 
 def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
-    """A plain table."""
-    head = "".join(f"<th>{escape(name)}</th>" for name in columns)
+    """A plain table; what stands between dollars is mathematics."""
+    head = "".join(f"<th>{_mathematics(escape(name))}</th>" for name in columns)
     body = "".join(
-        "<tr>" + "".join(f"<td>{escape(str(value))}</td>" for value in line) + "</tr>" for line in lines
+        "<tr>" + "".join(f"<td>{_mathematics(escape(str(value)))}</td>" for value in line) + "</tr>"
+        for line in lines
     )
     return HTML(f'<table class="rows"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>')
+
+
+def _mathematics(html: str) -> str:
+    """What stands between dollars, as the book's other mathematics: MathJax leaves the dollars of an output alone."""
+    return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)
 
 
 def errata(*standings: str) -> dict[str, Erratum]:

@@ -100,16 +100,18 @@ def load(file: str | Path) -> Mapping[str, Case]:
 def _read(file: str | Path) -> dict[str, Any]:
     """The tables of a case file."""
     file = path_of(file)
+    text = ""
     try:
-        tables = tomllib.loads(file.read_text(encoding="utf-8-sig"))
+        text = file.read_text(encoding="utf-8-sig")
+        tables = tomllib.loads(text)
     except OSError as error:
         raise InputError(
             f"cannot read the case file {file}: {error.strerror}; give the path of a TOML file"
         ) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(
-            f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml or chapter2.toml for examples"
-        ) from None
+    except UnicodeDecodeError:
+        raise InputError(f"{file} is not TOML: it is no text in UTF-8; save it as UTF-8") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{file} is not TOML: {error}; {_remedy(str(error), text)}") from None
     stray = [key for key, value in tables.items() if not isinstance(value, dict)]
     if stray:
         raise InputError(
@@ -118,6 +120,18 @@ def _read(file: str | Path) -> dict[str, Any]:
     if not tables:
         raise InputError(f"{file} holds no case; begin one with its name, such as [my_rod]")
     return tables
+
+
+def _remedy(error: str, text: str) -> str:
+    """What to do about a line that is no TOML, for the two ways in which people write numbers most."""
+    place = re.search(r"at line (\d+)", error)
+    line = text.split("\n")[int(place[1]) - 1] if place else ""
+    number = r"=\s*[+-]?\d[\d_]*"
+    if re.search(rf"{number},\d", line):
+        return "for a decimal comma write a decimal point"
+    if re.search(rf"{number}(?:\.\d*)?(?:[eE][+-]?\d+)?\s*[^\W\d_]", line):
+        return 'write a number that has a unit between quotation marks, such as "2.5 mm"'
+    return "see cosserat/cases/chapter3.toml or chapter2.toml for examples"
 
 
 def parse(parameters: str) -> Case:

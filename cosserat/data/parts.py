@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
+import contextlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,8 +36,12 @@ class Parts:
         save(part, self._path(number) if whole else self.folder / "stopped.nc")
 
     def remove(self) -> None:
-        """Forget the parts once the result stands."""
-        shutil.rmtree(self.folder, ignore_errors=True)
+        """Forget the parts once the result stands, and the folder if there is nothing else in it."""
+        for ours in ("[0-9]*.nc", "stopped.nc", ".*.nc.*.part"):
+            for part in self.folder.glob(ours):
+                part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            self.folder.rmdir()
 
     def refuse_others(self, part: xr.Dataset, fresh: xr.Dataset) -> None:
         """Raise InputError if a stored part is of another case, code or environment than the run that goes on."""

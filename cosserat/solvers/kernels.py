@@ -37,8 +37,9 @@ def choose_cache() -> None:
 
 
 def _candidates() -> Iterator[Path]:
-    caches = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
-    if caches.is_absolute():
+    home = Path(os.path.expanduser("~"))
+    caches = Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")
+    if caches.is_absolute() and (home not in caches.parents or home.is_dir()):  # a missing home stays so
         yield caches / "cosserat"
     try:
         yield Path(tempfile.gettempdir()) / f"cosserat-{os.getuid()}"
