@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import cosserat
+from cosserat.data.dataset import warnings_of
 
 from .cases import inputs, last, rectangle
-from .sides import BOWS, EULER, MULTIPLES, PUSHED, RIBBONS, SIDES
+from .sides import BOWS, EULER, MULTIPLES, PUSHED, RIBBONS, SHIFTED, SIDES
 
 MESH = 3e-3
 """Of the length: what 40 edges leave at twelve times the critical load, where the rod is bent to a loop."""
@@ -48,6 +49,32 @@ def test_a_ribbon_of_any_stiffness_sags_however_far_it_is_pushed_together(young,
 def test_and_upwards_where_its_weight_pulls_upwards():
     data = cosserat.run(inputs()["ribbon"].vary("x", gravity={"g": 9.81, "along": "E2"}))
     assert middle(data) == pytest.approx(-RIBBONS[1e9, 0.1], abs=1e-3)
+
+
+def between_clamps(curvature, push, aside, **more):
+    """The slender rod without weight, its last clamp moved nearer and aside."""
+    moves = [
+        {"at": "last", "unknown": "x3", "by": -push},
+        {"at": "last", "unknown": "x2", "by": aside},
+    ]
+    return inputs()["ribbon"].vary("x", gravity=None, rod={"curvature": curvature}, moves=moves, **more)
+
+
+@pytest.mark.parametrize("steps", [1, 3, 10, 40])
+@pytest.mark.parametrize(("curvature", "push", "aside"), SHIFTED)
+def test_a_bow_decides_also_where_the_clamp_moves_aside(curvature, push, aside, steps):
+    """The rod that its clamp carries along is not pulled to that side by it."""
+    data = cosserat.run(between_clamps(curvature, push, aside, newton={"load_steps": steps}))
+    assert middle(data) == pytest.approx(SHIFTED[curvature, push, aside], abs=1e-3)
+
+
+@pytest.mark.parametrize("steps", [1, 3, 10, 40])
+@pytest.mark.parametrize(("push", "aside"), [(0.056, 0.128), (0.0104, 0.0309), (0.06, -0.07)])
+def test_without_a_bow_the_side_is_open_and_that_is_said(push, aside, steps):
+    """A turn by half a circle about the middle between the clamps makes of either answer the other."""
+    data = cosserat.run(between_clamps(0.0, push, aside, newton={"load_steps": steps}))
+    assert abs(middle(data) - aside / 2) > 0.05
+    assert [warning.split(":")[0] for warning in warnings_of(data)] == ["bifurcation"]
 
 
 def column(multiple, aside=0.0, curvature=0.0, **more):
