@@ -145,6 +145,7 @@ class Course:
             *self._unbalanced(whole.fields),
             *self._unresolved(whole.statistics),
             *self._too_fast(whole.fields),
+            *self._driven_too_fast(),
             *coarse(whole.fields["d"]),
             *self._damped_beyond(),
         )
@@ -178,6 +179,15 @@ class Course:
             yield (
                 f"fast turning: a section turns by up to {fastest:.2g} rad in a step of {self.step:.3g} s; "
                 "take a shorter 'integrator.step'"
+            )
+
+    def _driven_too_fast(self) -> Iterator[str]:
+        moved = (*self.problem.moves, *self.problem.turns)
+        frequency = max((part.frequency for part in moved), default=0.0)
+        if 2 * np.pi * frequency * self.step > FAST:
+            yield (
+                f"fast drive: a support moves to and fro at {frequency:.4g} Hz, which steps of {self.step:.3g} s do "
+                "not follow (omega h > 1); take a shorter 'integrator.step'"
             )
 
     def _damped_beyond(self) -> Iterator[str]:

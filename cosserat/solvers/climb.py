@@ -204,9 +204,9 @@ class Climb:
         return None
 
     def refuse_blur(self, point: Point) -> None:
-        """Raise NotConvergedError if rounding makes forces at a point that drown the full load."""
+        """Raise NotConvergedError if no support moves and rounding makes forces that drown the full load."""
         load = self.body.load(1.0)
-        if point.rounding > _BLUR * float(load.sum()) > 0:
+        if point.rounding > _BLUR * float(load.sum()) > 0 and not self.body.moving(1.0).any():
             raise self._blurred(point.rounding)
 
     def _blurred(self, rounding: float) -> NotConvergedError:

@@ -68,6 +68,18 @@ def test_a_bow_decides_also_where_the_clamp_moves_aside(curvature, push, aside, 
     assert middle(data) == pytest.approx(SHIFTED[curvature, push, aside], abs=1e-3)
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_tiny_load_beside_moved_supports_is_no_reason_to_refuse(side):
+    """1e-7 N, five orders below the forces that hold the ribbon, still decide; 1e-9 N drown, which is said or right."""
+    push = [{"at": 20, "along": "E2", "force": side * 1e-7}]
+    data = cosserat.run(between_clamps(0.0, 0.01, 0.0, forces=push))
+    assert side * middle(data) > 0.05
+    tiny = [{"at": 20, "along": "E2", "force": side * 1e-9}]
+    data = cosserat.run(between_clamps(0.0, 0.01, 0.0, forces=tiny))
+    assert abs(middle(data)) > 0.05
+    assert side * middle(data) > 0 or warnings_of(data)
+
+
 @pytest.mark.parametrize("steps", [1, 3, 10, 40])
 @pytest.mark.parametrize(("push", "aside"), [(0.056, 0.128), (0.0104, 0.0309), (0.06, -0.07)])
 def test_without_a_bow_the_side_is_open_and_that_is_said(push, aside, steps):
