@@ -146,6 +146,7 @@ class Course:
             *self._unresolved(whole.statistics),
             *self._too_fast(whole.fields),
             *self._driven_too_fast(),
+            *self.problem.rod.remarks(),
             *coarse(whole.fields["d"]),
             *self._damped_beyond(),
         )

@@ -84,12 +84,14 @@ class RodPath(RodProblem):
                 points.append(point)
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _outcome(geometry, start, points, climb)
+                error.reached = _outcome(geometry, start, points, climb, self.rod.remarks())
             raise
-        return _outcome(geometry, start, points, climb)
+        return _outcome(geometry, start, points, climb, self.rod.remarks())
 
 
-def _outcome(geometry: Geometry, start: Array, points: list[Point], climb: Climb) -> Outcome:
+def _outcome(
+    geometry: Geometry, start: Array, points: list[Point], climb: Climb, remarks: list[str]
+) -> Outcome:
     q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
     fields = {
         "load_factor": np.array([point.factor for point in points]),
@@ -107,7 +109,7 @@ def _outcome(geometry: Geometry, start: Array, points: list[Point], climb: Climb
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*climb.remarks(), *coarse(fields["d"])]
+    warnings = [*climb.remarks(), *remarks, *coarse(fields["d"])]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"

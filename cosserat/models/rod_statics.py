@@ -54,7 +54,7 @@ class RodStatics(RodProblem):
         point, climb = self.led_to(geometry, loaded, name)
         fields = _fields(geometry, loaded, point)
         refuse_crossing(geometry, fields["x"], fields["d"], self.rod.below, name)
-        warnings = (*climb.remarks(), *coarse(fields["d"]))
+        warnings = (*climb.remarks(), *self.rod.remarks(), *coarse(fields["d"]))
         return Outcome(fields, _statistics(point, climb), warnings=warnings)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
