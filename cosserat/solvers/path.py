@@ -19,6 +19,7 @@ from cosserat.solvers.indefinite import solve_any
 
 _CLOSE = 0.02  # share of the first arc to which a crossing of paths is closed in on
 _NEAR = 0.005  # share of the factor to which a crossing is closed in on
+_FINEST = 0.001  # share of the first arc at which that ends
 _STRAY = 0.2  # share of an arc by which a point may lie off the tangent
 _BEND = 0.9  # least cosine of the angle by which a path may turn within an arc
 _AWAY = 10.0  # multiple of the first arc from which on a branch can come back to its beginning
@@ -266,23 +267,31 @@ def _crossing(
     """The points just before and just after the first change of sign of an eigenvalue within an arc."""
     low, high = 0.0, ds
     before, after = point, None
-    while after is None or high - low > _CLOSE * arc.first or _wide(before, after):
+    while high - low > _CLOSE * arc.first or (_wide(before, after) and high - low > _FINEST * arc.first):
         middle = high if after is None else (low + high) / 2
         found = _corrected(climb, point, *direction, middle, _STRAY * ds)
-        if found is None:
-            break
-        if found.negative == point.negative:
-            low, before = middle, found
-        else:
+        if found is not None and found.negative != point.negative:
             high, after = middle, found
+        elif after is None:
+            break
+        elif found is not None and _goes_on(climb, before, found):
+            low, before = middle, found
+        else:  # nothing is there, or a stable point beside the crossing, perhaps of the other side
+            high = middle
     if after is None:
         raise climb.failure(point.factor, point.factor, point)
     return before, after
 
 
-def _wide(before: Point, after: Point) -> bool:
+def _wide(before: Point, after: Point | None) -> bool:
     """Whether the load between two points can still turn what pulls to one side into what pulls to the other."""
-    return abs(after.factor - before.factor) > _NEAR * abs(before.factor) > 0
+    return after is None or abs(after.factor - before.factor) > _NEAR * abs(before.factor)
+
+
+def _goes_on(climb: Climb, before: Point, found: Point) -> bool:
+    """Whether a point lies where the path goes from the one before it."""
+    chord = found.q - before.q, found.factor - before.factor
+    return _cosine(_tangent(climb, before, chord), chord) > _BEND
 
 
 def _norm(body: Loaded, q: Vector, step: Vector) -> float:
