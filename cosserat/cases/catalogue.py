@@ -135,7 +135,11 @@ def _read(file: str | Path) -> dict[str, Any]:
         raise InputError(
             f"cannot read the case file {file}: {error.strerror}; give the path of a TOML file"
         ) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError:
+        raise InputError(
+            f"{file} is not in UTF-8 (perhaps in UTF-16 or Latin-1); save it as UTF-8, as TOML asks"
+        ) from None
+    except tomllib.TOMLDecodeError as error:
         raise InputError(
             f"{file} is not TOML: {error}; see cosserat/cases/chapter3.toml or chapter2.toml for examples"
         ) from None
