@@ -183,8 +183,8 @@ class Course:
             )
 
     def _driven_too_fast(self) -> Iterator[str]:
-        moved = (*self.problem.moves, *self.problem.turns)
-        frequency = max((part.frequency for part in moved), default=0.0)
+        moves, turns = self.problem.moves, self.problem.turns
+        frequency = max([0.0, *(move.frequency for move in moves), *(turn.frequency for turn in turns)])
         if 2 * np.pi * frequency * self.step > FAST:
             yield (
                 f"fast drive: a support moves to and fro at {frequency:.4g} Hz, which steps of {self.step:.3g} s do "
