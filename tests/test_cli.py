@@ -143,6 +143,23 @@ def test_bad_files_and_folders(capsys, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["bad.nc"]
 
 
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("mark", [b"", b"\xef\xbb\xbf"])
+def test_case_files_of_any_editor_are_read(tmp_path, mark, end):
+    text = MY + f'rod.length = "3 m"{end}# \u00e9\u00b5{end}'
+    (tmp_path / "my.toml").write_bytes(mark + text.replace("\n", end).encode())
+    assert cosserat.case("mine", tmp_path / "my.toml").problem.rod.length == 3
+
+
+@pytest.mark.parametrize("coding", ["utf-16", "utf-16-le", "latin-1"])
+def test_a_case_file_in_another_coding_is_refused_by_that_word(capsys, tmp_path, coding):
+    (tmp_path / "my.toml").write_bytes((MY + "# \u00e9").encode(coding))
+    code, _, err = call(capsys, "run", "mine", "--file", tmp_path / "my.toml")
+    assert code == 2
+    assert "is not in UTF-8" in err
+    assert err.count("\n") == 1
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

@@ -149,6 +149,24 @@ def test_turning_too_far_in_a_step_is_named():
     assert "fast turning" in named(data)
 
 
+@pytest.mark.parametrize("hertz", [160.0, 500.0, 999.0, 1000.0])
+def test_a_drive_too_fast_for_the_step_is_named(hertz):
+    """At 1000 Hz and a millisecond the steps see the support at rest, and nothing moves at all."""
+    shaken = BEAM.vary(
+        "shaken",
+        start={"shape": "reference", "amplitude": 0.0},
+        moves=[{"at": "first", "unknown": "x2", "by": 1e-3, "frequency": hertz}],
+        duration=0.01,
+        every=1e-3,
+        integrator={"step": 1e-3},
+    )
+    assert "fast drive" in named(cosserat.run(shaken))
+    step = 0.9 / (2 * np.pi * hertz)
+    assert "fast drive" not in named(cosserat.run(shaken.vary("x", integrator={"step": step})))
+    rocked = shaken.vary("rocked", moves=[], turns=[{"at": "first", "by": 1e-3, "frequency": hertz}])
+    assert "fast drive" in named(cosserat.run(rocked))
+
+
 def test_a_drag_beyond_what_the_method_follows_is_named():
     stiff = {"damping": 2.0, "integrator": {"step": 2e-3}, "duration": 0.02, "every": 2e-3}
     assert "damping" in named(cosserat.run(cosserat.case("vibration_c4_20").vary("x", **stiff)))

@@ -109,7 +109,9 @@ def _read(file: str | Path) -> dict[str, Any]:
             f"cannot read the case file {file}: {error.strerror}; give the path of a TOML file"
         ) from None
     except UnicodeDecodeError:
-        raise InputError(f"{file} is not TOML: it is no text in UTF-8; save it as UTF-8") from None
+        raise InputError(
+            f"{file} is not TOML: it is not in UTF-8 (perhaps in UTF-16 or Latin-1); save it as UTF-8"
+        ) from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{file} is not TOML: {error}; {_remedy(str(error), text)}") from None
     stray = [key for key, value in tables.items() if not isinstance(value, dict)]

@@ -130,6 +130,18 @@ class LoadedRod:
                 guess[:, axis] += np.interp(np.arange(X.shape[0]), at, (goal - guess)[at, axis])
         return self.place(guess.ravel(), factor)
 
+    def carried(self, change: Vector) -> Vector:
+        """The mean translation of the supported vertices, in the change of every vertex.
+
+        derived: where two ends have moved against each other, what is left is as symmetric as the rod.
+        """
+        vertices = change.reshape(-1, 4)
+        supported = self.held.reshape(-1, 4)[:, :2].any(axis=1)
+        translation = np.zeros_like(vertices)
+        if supported.any():
+            translation[:, :2] = vertices[supported, :2].mean(axis=0)
+        return translation.ravel()
+
     def _vectors(self, q: Vector) -> Array:
         """Edges, then directors, (2 N - 1, 2)."""
         at = q.reshape(self.reference.shape)

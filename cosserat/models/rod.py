@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -133,6 +134,21 @@ class Rod(Parameters):
     def second_inertia(self) -> float:
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
         return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
+
+    def remarks(self) -> list[str]:
+        """What of the rod its edges follow less well than the rest."""
+        steps = [
+            after.at
+            for before, after in itertools.pairwise(self.stations)
+            if before.at == after.at and before.height != after.height and 0 < after.at < self.length
+        ]
+        if self.energy == "published" or self.centreline == 0.5 or not steps:
+            return []
+        return [
+            f"stepped axis: the height jumps at {steps[0]:.4g} m and the centreline is not in the middle, so the area "
+            "centres jump too, which an edge cannot; what stretching and bending do to each other there is right to "
+            "first order in 'rod.vertices' only: use more, or 'rod.centreline' = 0.5"
+        ]
 
     def geometry(self) -> Geometry:
         """Its reference configuration; the directors reach the upper surface."""

@@ -149,6 +149,8 @@ class Course:
             *self._unbalanced(whole),
             *self._unresolved(whole.statistics),
             *self._too_fast(whole),
+            *self._driven_too_fast(),
+            *self.problem.rod.remarks(),
             *coarse(whole["d"]),
             *self._damped_beyond(),
         )
@@ -182,6 +184,15 @@ class Course:
             yield (
                 f"fast turning: a section turns by up to {fastest:.2g} rad in a step of {self.step:.3g} s; "
                 "take a shorter 'integrator.step'"
+            )
+
+    def _driven_too_fast(self) -> Iterator[str]:
+        moves, turns = self.problem.moves, self.problem.turns
+        frequency = max([0.0, *(move.frequency for move in moves), *(turn.frequency for turn in turns)])
+        if 2 * np.pi * frequency * self.step > FAST:
+            yield (
+                f"fast drive: a support moves to and fro at {frequency:.4g} Hz, which steps of {self.step:.3g} s do "
+                "not follow (omega h > 1); take a shorter 'integrator.step'"
             )
 
     def _damped_beyond(self) -> Iterator[str]:

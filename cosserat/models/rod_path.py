@@ -86,9 +86,9 @@ class RodPath(RodProblem):
                 points.append(point)
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _solution(geometry, start, points, climb)
+                error.reached = _solution(geometry, start, points, climb, self.rod.remarks())
             raise
-        return _solution(geometry, start, points, climb)
+        return _solution(geometry, start, points, climb, self.rod.remarks())
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -101,7 +101,9 @@ class RodPath(RodProblem):
         )
 
 
-def _solution(geometry: Geometry, start: Array, points: list[Point], climb: Climb) -> Solution:
+def _solution(
+    geometry: Geometry, start: Array, points: list[Point], climb: Climb, remarks: list[str]
+) -> Solution:
     q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
     along, vector = ("point",), ("vertex", "axis")
     fields: dict[str, Field] = {
@@ -120,7 +122,7 @@ def _solution(geometry: Geometry, start: Array, points: list[Point], climb: Clim
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*climb.remarks(), *coarse(q[..., 2:])]
+    warnings = [*climb.remarks(), *remarks, *coarse(q[..., 2:])]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"

@@ -59,7 +59,7 @@ class RodStatics(RodProblem):
         point, climb = self.led_to(geometry, loaded, name)
         found = _solution(geometry, loaded, point, climb)
         refuse_crossing(geometry, found["x"], found["d"], self.rod.below, name)
-        return replace(found, warnings=(*climb.remarks(), *coarse(found["d"])))
+        return replace(found, warnings=(*climb.remarks(), *self.rod.remarks(), *coarse(found["d"])))
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

@@ -91,6 +91,9 @@ class Loaded(Protocol):
     def foretold(self, q: Vector, moved: Fields, factor: float) -> Vector:
         """The unknowns at a factor after the parts have turned and stretched by so much."""
 
+    def carried(self, change: Vector) -> Vector:
+        """What of a change of the unknowns only follows supports that move or slide, and strains nothing."""
+
 
 @dataclass(frozen=True)
 class Point:
@@ -201,9 +204,9 @@ class Climb:
         return None
 
     def refuse_blur(self, point: Point) -> None:
-        """Raise NotConvergedError if rounding makes forces at a point that drown the full load."""
+        """Raise NotConvergedError if no support moves and rounding makes forces that drown the full load."""
         load = self.body.load(1.0)
-        if point.rounding > _BLUR * float(load.sum()) > 0:
+        if point.rounding > _BLUR * float(load.sum()) > 0 and not self.body.moving(1.0).any():
             raise self._blurred(point.rounding)
 
     def _blurred(self, rounding: float) -> NotConvergedError:
@@ -225,9 +228,9 @@ class Climb:
 
         before, after : on both sides of the load at which it loses its stability.
 
-        The growing load pulls along the motion with -motion . rate.  What is left of that pull without the softening
-        is an imperfection; where it drowns in rounding the body is symmetric and both sides are alike: the one of the
-        positive largest entry is taken.
+        The growing load pulls along the motion with -motion . rate.  A body that its supports carry along moves without
+        being pulled.  What is left of the pull without that and the softening is an imperfection; where it drowns in
+        rounding the body is symmetric and both sides are alike: the one of the positive largest entry is taken.
         """
         body = self.body
         q = self._polished(before)
@@ -236,10 +239,15 @@ class Climb:
         hold(self.band, body.held)
         motion = softest(self.band, body.held)
         motion *= np.sign(motion[np.abs(motion).argmax()])
-        pull = -float(motion @ rate)
+        stiff = float(motion @ band_product(self.band, motion))
+        change = solve_positive(self.band, np.where(body.held, 0.0, -rate))
+        carried = 0.0
+        if change is not None:
+            moved = np.where(body.held, body.moving(before.factor), change)
+            carried = float(motion @ body.carried(moved)) / float(motion @ motion)
+        pull = -float(motion @ rate) - stiff * carried
         size = np.maximum(np.abs(q), body.grain)
         noise = _EPS * float(np.linalg.norm(motion * absolute_product(self.band, size)))
-        stiff = float(motion @ band_product(self.band, motion))
         body.assemble(after.q, after.factor, self.gradient, self.band)
         hold(self.band, body.held)
         softening = (stiff - float(motion @ band_product(self.band, motion))) / max(

@@ -18,6 +18,8 @@ from cosserat.solvers.climb import SMALLEST, Climb, Fields, Loaded, Point, stall
 from cosserat.solvers.indefinite import solve_any
 
 _CLOSE = 0.02  # share of the first arc to which a crossing of paths is closed in on
+_NEAR = 0.005  # share of the factor to which a crossing is closed in on
+_FINEST = 0.001  # share of the first arc at which that ends
 _STRAY = 0.2  # share of an arc by which a point may lie off the tangent
 _BEND = 0.9  # least cosine of the angle by which a path may turn within an arc
 _AWAY = 10.0  # multiple of the first arc from which on a branch can come back to its beginning
@@ -26,7 +28,7 @@ _STILL = 1e-5  # turning below which an increment needs no foretelling [rad]
 _ON_THE_WAY = 1e-8  # share of the loads that may be left unbalanced before the end
 _TURN = 0.7  # most that a part may turn in an increment [rad]
 _MOST = 10_000  # arcs on the way to one equilibrium
-_TRIES = 4  # increments refused in a row before the path is followed
+_TRIES = 4  # increments refused short of the same factor before the path is followed
 _EASY, _HARD = 4, 8  # corrector iterations below which the arc grows and above which it shrinks
 
 
@@ -80,7 +82,7 @@ def unloaded(climb: Climb, start: Vector) -> Point:
 
 def _foretold(climb: Climb, point: Point) -> Point:
     """The last equilibrium that increments reach which the path before them foretells."""
-    body, refused = climb.body, 0
+    body, refused, wall = climb.body, 0, 0.0
     longest = min(1.0 / climb.settings.load_steps, body.stride)
     increment = longest
     before: tuple[float, Fields] | None = None
@@ -105,11 +107,15 @@ def _foretold(climb: Climb, point: Point) -> Point:
             turned = body.rates((point.q + found.q) / 2, found.q - point.q)
             off = float(np.abs(turned - moved).max()) / max(float(np.abs(turned).max()), _STILL)
         if found is None or off > _FORETOLD:
-            refused += 1
+            refused, wall = refused + 1, goal
             climb.halvings += 1
             increment = step / 2
             continue
-        before, point, refused = (point.factor, rates), found, 0
+        before, point = (point.factor, rates), found
+        if (
+            point.factor >= wall
+        ):  # short of it, ever shorter increments would come close to a crossing of paths
+            refused = 0
         increment *= float(np.clip(np.sqrt(_FORETOLD / 2 / max(off, 1e-3)), 0.5, 2.0))
     return point
 
@@ -261,18 +267,31 @@ def _crossing(
     """The points just before and just after the first change of sign of an eigenvalue within an arc."""
     low, high = 0.0, ds
     before, after = point, None
-    while after is None or high - low > _CLOSE * arc.first:
+    while high - low > _CLOSE * arc.first or (_wide(before, after) and high - low > _FINEST * arc.first):
         middle = high if after is None else (low + high) / 2
         found = _corrected(climb, point, *direction, middle, _STRAY * ds)
-        if found is None:
-            break
-        if found.negative == point.negative:
-            low, before = middle, found
-        else:
+        if found is not None and found.negative != point.negative:
             high, after = middle, found
+        elif after is None:
+            break
+        elif found is not None and _goes_on(climb, before, found):
+            low, before = middle, found
+        else:  # nothing is there, or a stable point beside the crossing, perhaps of the other side
+            high = middle
     if after is None:
         raise climb.failure(point.factor, point.factor, point)
     return before, after
+
+
+def _wide(before: Point, after: Point | None) -> bool:
+    """Whether the load between two points can still turn what pulls to one side into what pulls to the other."""
+    return after is None or abs(after.factor - before.factor) > _NEAR * abs(before.factor)
+
+
+def _goes_on(climb: Climb, before: Point, found: Point) -> bool:
+    """Whether a point lies where the path goes from the one before it."""
+    chord = found.q - before.q, found.factor - before.factor
+    return _cosine(_tangent(climb, before, chord), chord) > _BEND
 
 
 def _norm(body: Loaded, q: Vector, step: Vector) -> float:

@@ -59,6 +59,17 @@ RIBBONS = {
 }
 """Height of the middle of a ribbon, its clamped ends pushed together under its weight, by E [Pa] and push [m]."""
 
+SHIFTED = {
+    (1.7e-4, 0.056, 0.128): -0.064136,
+    (-1.7e-4, 0.056, 0.128): 0.192173,
+    (1.7e-4, 0.0124, -0.0714): -0.093258,
+    (-1.7e-4, 0.0124, -0.0714): 0.021814,
+    (1e-2, 0.056, 0.128): -0.060938,
+    (-1e-2, 0.0124, -0.0714): 0.018483,
+}
+"""Height of the middle of a bowed rod without weight between two clamps, of which one is moved nearer and aside, by the
+curvature at rest [1/m] and both moves [m]."""
+
 
 def bowed(curvature):
     """The slender rod at four times the critical load, bent at rest; a push to that side is taken away."""
@@ -81,6 +92,16 @@ def ribbon(young, push):
     return equilibrium(rod, nearer[-1], through=nearer)
 
 
+def shifted(curvature, push, aside):
+    """The slender rod, bowed between two clamps, the last of which is moved in so small steps that it stays smooth."""
+    k = curvature
+    moved = [
+        Load(CLAMP, {"x": np.sin(k) / k - push * s**3, "y": (1 - np.cos(k)) / k + aside * s**3, "a": k})
+        for s in np.linspace(0, 1, 401)
+    ]
+    return equilibrium(replace(SLENDER, K=k), moved[-1], through=moved, steps=1)
+
+
 def main():
     bar = Rod.rectangle(3.0, 0.1, 0.1, 210e9, 0.28)
     print("pushed", column_beyond(bar, 980665.0, 1000.0)[:2, -1])
@@ -92,6 +113,8 @@ def main():
         print("bow", curvature, bowed(curvature)[:2, -1])
     for young, push in RIBBONS:
         print("ribbon", young, push, ribbon(young, push)[1, 200])
+    for curvature, push, aside in SHIFTED:
+        print("shifted", curvature, push, aside, shifted(curvature, push, aside)[1, 200])
 
 
 if __name__ == "__main__":

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import cosserat
+from cosserat.data.dataset import warnings_of
 
 from .cases import inputs, last, rectangle
-from .sides import BOWS, EULER, MULTIPLES, PUSHED, RIBBONS, SIDES
+from .sides import BOWS, EULER, MULTIPLES, PUSHED, RIBBONS, SHIFTED, SIDES
 
 MESH = 3e-3
 """Of the length: what 40 edges leave at twelve times the critical load, where the rod is bent to a loop."""
@@ -50,6 +51,44 @@ def test_and_upwards_where_its_weight_pulls_upwards():
     assert middle(data) == pytest.approx(-RIBBONS[1e9, 0.1], abs=1e-3)
 
 
+def between_clamps(curvature, push, aside, **more):
+    """The slender rod without weight, its last clamp moved nearer and aside."""
+    moves = [
+        {"at": "last", "unknown": "x3", "by": -push},
+        {"at": "last", "unknown": "x2", "by": aside},
+    ]
+    return inputs()["ribbon"].vary("x", gravity=None, rod={"curvature": curvature}, moves=moves, **more)
+
+
+@pytest.mark.parametrize("steps", [1, 3, 10, 40])
+@pytest.mark.parametrize(("curvature", "push", "aside"), SHIFTED)
+def test_a_bow_decides_also_where_the_clamp_moves_aside(curvature, push, aside, steps):
+    """The rod that its clamp carries along is not pulled to that side by it."""
+    data = cosserat.run(between_clamps(curvature, push, aside, newton={"load_steps": steps}))
+    assert middle(data) == pytest.approx(SHIFTED[curvature, push, aside], abs=1e-3)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_tiny_load_beside_moved_supports_is_no_reason_to_refuse(side):
+    """1e-7 N, five orders below the forces that hold the ribbon, still decide; 1e-9 N drown, which is said or right."""
+    push = [{"at": 20, "along": "E2", "force": side * 1e-7}]
+    data = cosserat.run(between_clamps(0.0, 0.01, 0.0, forces=push))
+    assert side * middle(data) > 0.05
+    tiny = [{"at": 20, "along": "E2", "force": side * 1e-9}]
+    data = cosserat.run(between_clamps(0.0, 0.01, 0.0, forces=tiny))
+    assert abs(middle(data)) > 0.05
+    assert side * middle(data) > 0 or warnings_of(data)
+
+
+@pytest.mark.parametrize("steps", [1, 3, 10, 40])
+@pytest.mark.parametrize(("push", "aside"), [(0.056, 0.128), (0.0104, 0.0309), (0.06, -0.07)])
+def test_without_a_bow_the_side_is_open_and_that_is_said(push, aside, steps):
+    """A turn by half a circle about the middle between the clamps makes of either answer the other."""
+    data = cosserat.run(between_clamps(0.0, push, aside, newton={"load_steps": steps}))
+    assert abs(middle(data) - aside / 2) > 0.05
+    assert [warning.split(":")[0] for warning in warnings_of(data)] == ["bifurcation"]
+
+
 def column(multiple, aside=0.0, curvature=0.0, **more):
     """The slender rod of `elastica` under a multiple of its critical load."""
     forces = [
@@ -87,6 +126,23 @@ def test_a_bow_of_any_size_decides(bow, side):
 @pytest.mark.parametrize("multiple", [1.2, 4, 12])
 def test_for_any_number_of_load_steps(steps, multiple):
     stands_at(column(multiple, -0.01, newton={"load_steps": steps}), MULTIPLES[multiple], -1.0)
+
+
+@pytest.mark.parametrize("steps", [1, 5, 20])
+@pytest.mark.parametrize("multiple", [1.1, 1.5, 3.0])
+@pytest.mark.parametrize("aside", [0.1, -0.1, 1.0, -1.0])
+def test_so_it_does_for_the_published_rod(multiple, aside, steps):
+    """Of 500 kN along the column 0.1 N across are 2e-7."""
+    beam = cosserat.case("clamped_free")
+    rod = beam.problem.rod
+    euler = np.pi**2 * rod.young * rod.width * rod.height**3 / 12 / (2 * rod.length) ** 2
+    forces = [
+        {"at": "last", "along": "-E3", "force": multiple * euler},
+        {"at": "last", "along": "E2", "force": aside},
+    ]
+    data = cosserat.run(beam.vary("x", gravity=None, forces=forces, newton={"load_steps": steps}))
+    assert last(data) * np.sign(aside) > 0.2 * rod.length
+    assert warnings_of(data) == []
 
 
 @pytest.mark.parametrize("share", [1e-9, 1e-6, 1e-3])
