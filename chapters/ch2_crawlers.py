@@ -32,7 +32,7 @@ from cosserat.models import earthworm, peristalsis
 from cosserat.table import crawl_readouts
 
 # %% tags=["remove-input"]
-page.excerpt(peristalsis.Crawl.crawl, "for stride in", "if progress")
+page.excerpt(peristalsis.Crawl.solve, "for stride in", "run.progress")
 
 # %% [markdown]
 # A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor, which may be anyone's. This is the
