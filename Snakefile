@@ -20,6 +20,7 @@ workdir: workflow.basedir
 os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get_exec_path()]))
 
 CASES = published()
+BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/analytic.py", "cosserat/elastica.py"]
@@ -34,6 +35,21 @@ def package(*names):
     folders = [os.path.join("cosserat", name) for name in names]
     files = [os.path.join(folder, file) for folder in folders for file in os.listdir(folder)]
     return sorted(file for file in files if file.endswith((".py", ".css")))
+
+
+def batches():
+    """Names of cases of one kind, in the order of their files, by the name of the batch.
+
+    A case that cannot be solved stops its batch, whose results are then made again.
+    """
+    kinds = {}
+    for name, case in CASES.items():
+        kinds.setdefault(case.problem.kind, []).append(name)
+    return {
+        f"{kind.replace(' ', '_')}_{first // BATCH}": names[first : first + BATCH]
+        for kind, names in kinds.items()
+        for first in range(0, len(names), BATCH)
+    }
 
 
 def only_run_here():
@@ -73,19 +89,23 @@ rule all:
         "results/book/index.html",
 
 
-rule simulate:
-    input:
-        SOLVER,
-    output:
-        "results/cases/{case}.nc",
-    params:
-        case=lambda wildcards: CASES[wildcards.case].model_dump_json(),
-    log:
-        "results/logs/simulate/{case}.log",
-    benchmark:
-        "results/benchmarks/simulate/{case}.tsv"
-    shell:
-        "printf %s {params.case:q} | python -m cosserat run - --output {output} > {log} 2>&1"
+for batch, names in batches().items():
+
+    rule:
+        name:
+            f"simulate_{batch}"
+        input:
+            SOLVER,
+        output:
+            expand("results/cases/{case}.nc", case=names),
+        params:
+            cases=[CASES[name].model_dump_json() for name in names],
+        log:
+            f"results/logs/simulate/{batch}.log",
+        benchmark:
+            f"results/benchmarks/simulate/{batch}.tsv"
+        shell:
+            "printf '%s\\n' {params.cases:q} | python -m cosserat run - --output results/cases > {log} 2>&1"
 
 
 rule measure:

@@ -8,9 +8,12 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, InputError, NotConvergedError
+
+if TYPE_CHECKING:
+    from cosserat.cases.catalogue import Case
 
 RESULTS = Path("results")
 _INTERRUPTED = "cosserat: interrupted; nothing half-done was written"
@@ -70,14 +73,17 @@ def _parser() -> argparse.ArgumentParser:
     sub = add("run", _run, "solve one case and write its netCDF file")
     sub.add_argument(
         "case",
-        help="name of a case, as 'cosserat cases' lists it; '-' reads one from standard input, as the JSON text in SI "
-        "units that a result holds as its attribute 'parameters'",
+        help="name of a case, as 'cosserat cases' lists it; '-' reads cases from standard input, each a line of the "
+        "JSON text in SI units that a result holds as its attribute 'parameters'",
     )
     sub.add_argument(
         "--file", type=Path, help="TOML file that holds the case (default: the published ones)"
     )
     sub.add_argument(
-        "-o", "--output", type=Path, help="netCDF file to write (default: CASE.nc in this folder)"
+        "-o",
+        "--output",
+        type=Path,
+        help="netCDF file to write, or a folder for CASE.nc (default: this folder)",
     )
     sub.add_argument(
         "--keep-last",
@@ -212,14 +218,27 @@ def _cases(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace) -> None:
     from cosserat.cases.catalogue import find, parse
+
+    if options.case != "-":
+        cases = [find(options.case, options.file)]
+    elif options.file is not None:
+        raise InputError("'-' reads the case from standard input, so '--file' has no use; leave it out")
+    else:
+        cases = [parse(line) for line in sys.stdin.read().strip().split("\n")]
+    folder = Path() if options.output is None else options.output
+    if len(cases) > 1 and not folder.is_dir():
+        raise InputError(f"{folder} is no folder; several cases are written to one that exists")
+    for case in cases:
+        path = folder / f"{case.name}.nc" if folder.is_dir() else folder
+        _run_case(case, path, keep_last=options.keep_last)
+
+
+def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
+    """Solve one case, write its file and say what it took."""
     from cosserat.data.dataset import effort, save, statistics_of, warnings_of
     from cosserat.data.files import check_destination
     from cosserat.data.parts import Parts
 
-    if options.case == "-" and options.file is not None:
-        raise InputError("'-' reads the case from standard input, so '--file' has no use; leave it out")
-    case = parse(sys.stdin.read()) if options.case == "-" else find(options.case, options.file)
-    path = options.output or Path(f"{case.name}.nc")
     check_destination(path, ".nc")
     from cosserat.runner import run
 
@@ -227,7 +246,7 @@ def _run(options: argparse.Namespace) -> None:
         dataset = run(case, result=path, progress=_report_progress)
     except (NotConvergedError, CrossingError, DivergedError, KeyboardInterrupt) as stopped:
         kept, reached = Parts(path).folder, getattr(stopped, "dataset", None)
-        if reached is not None and options.keep_last:
+        if reached is not None and keep_last:
             save(reached, path)
             part = statistics_of(reached)["load_factor_reached"]
             raise type(stopped)(

@@ -48,6 +48,16 @@ def test_a_case_is_read_as_json_from_standard_input(capsys, tmp_path, monkeypatc
     monkeypatch.setattr("sys.stdin", io.StringIO(cosserat.load(first).attrs["parameters"]))
     assert call(capsys, "run", "-", "--output", again)[0] == 0
     assert first.read_bytes() == again.read_bytes()
+    lines = "\n".join(cosserat.case(name).model_dump_json() for name in ("necking", "hanging_bar"))
+    monkeypatch.setattr("sys.stdin", io.StringIO(lines))
+    code, out, _ = call(capsys, "run", "-", "--output", tmp_path)
+    assert code == 0
+    assert [line.split(":")[0] for line in out.splitlines()] == ["necking", "hanging_bar"]
+    assert (tmp_path / "necking.nc").read_bytes() == first.read_bytes()
+    monkeypatch.setattr("sys.stdin", io.StringIO(lines))
+    code, _, err = call(capsys, "run", "-", "--output", tmp_path / "a.nc")
+    assert code == 2
+    assert "is no folder" in err
     for text in ("", "{}", '{"name": "a", "title": "b", "problem": {"kind": "rod static"}}'):
         monkeypatch.setattr("sys.stdin", io.StringIO(text))
         code, _, err = call(capsys, "run", "-")
@@ -108,7 +118,6 @@ def test_bad_files_and_folders(capsys, tmp_path):
     (tmp_path / "bad.nc").write_bytes(b"\x89HDF\r\n\x1a\n but not really")
     for arguments, sentence in [
         (("run", "necking", "-o", tmp_path / "none" / "x.nc"), "does not exist"),
-        (("run", "necking", "-o", tmp_path), "is a folder"),
         (("show", tmp_path / "bad.nc"), "cannot read"),
         (("show", tmp_path / "none.nc"), "there is no file"),
         (("figure", "fig_3_99"), "there is no figure 'fig_3_99'; did you mean"),
