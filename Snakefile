@@ -9,7 +9,7 @@ from snakemake.utils import min_version
 
 from cosserat.cases.catalogue import published
 from cosserat.data.provenance import computing_sources
-from cosserat.figures.catalogue import FIGURES
+from cosserat.thesis.figures.catalogue import FIGURES
 
 min_version("9.0")
 
@@ -23,7 +23,7 @@ CASES = published()
 BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
-FORMULAS = ["cosserat/analytic.py", "cosserat/elastica.py"]
+FORMULAS = ["cosserat/exact/beams.py", "cosserat/exact/elastica.py"]
 READOUTS = [
     f"cosserat/table/{name}.py"
     for name in ("crawl_readouts", "given", "printed", "printed_crawlers", "reading", "readouts")

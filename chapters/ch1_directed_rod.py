@@ -32,9 +32,9 @@
 # %% tags=["remove-cell"]
 import numpy as np
 
-from cosserat.book import page
-from cosserat.figures import chapter1
-from cosserat.models import constrained_rod, directed_rod
+from cosserat.rods import constrained_rod, directed_rod
+from cosserat.thesis.book import page
+from cosserat.thesis.figures import chapter1
 
 # %% tags=["remove-input"]
 page.figure(

@@ -27,12 +27,13 @@
 import numpy as np
 
 import cosserat
-from cosserat.book import page
-from cosserat.models import earthworm, peristalsis
-from cosserat.table import crawl_readouts
+from cosserat.problems import crawl
+from cosserat.thesis import earthworm
+from cosserat.thesis.book import page
+from cosserat.thesis.table import crawl_readouts
 
 # %% tags=["remove-input"]
-page.excerpt(peristalsis.Crawl.solve, "for stride in", "run.progress")
+page.excerpt(crawl.Crawl.solve, "for stride in", "run.progress")
 
 # %% [markdown]
 # A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor, which may be anyone's. This is the

@@ -28,10 +28,10 @@
 import numpy as np
 
 import cosserat
-from cosserat.book import page
 from cosserat.data.dataset import case_of, statistics_of
-from cosserat.models import doublets, muscle_regions, nearly_incompressible, peristaltic_rod
+from cosserat.peristalsis import crawler, doublets, instant, nearly_incompressible
 from cosserat.solvers import regions
+from cosserat.thesis.book import page
 
 # %% tags=["remove-input"]
 page.figure(
@@ -82,7 +82,7 @@ page.source(doublets.contact_force)
 # hydrostatic skeleton. With $z = \xi/\ell_0$ and the dimensionless groups
 
 # %% tags=["remove-input"]
-page.source(peristaltic_rod.Groups.of)
+page.source(crawler.Groups.of)
 
 # %% [markdown]
 # the robot obeys, in anchoring regions,
@@ -103,7 +103,7 @@ page.source(peristaltic_rod.Groups.of)
 # $$
 
 # %% tags=["remove-input"]
-page.excerpt(peristaltic_rod._compressible, "for k in range", "return f")
+page.excerpt(crawler._compressible, "for k in range", "return f")
 
 # %% [markdown]
 # The worm obeys
@@ -121,7 +121,7 @@ page.excerpt(peristaltic_rod._compressible, "for k in range", "return f")
 # depend on how long the region is (erratum E2.5). The published numbers carry it.
 
 # %% tags=["remove-input"]
-page.excerpt(peristaltic_rod._incompressible, "for k in range", "return f")
+page.excerpt(crawler._incompressible, "for k in range", "return f")
 
 # %% [markdown]
 # ## Regions
@@ -216,7 +216,7 @@ except cosserat.InputError as error:
     print(error)
 
 # %% tags=["remove-input"]
-page.source(muscle_regions.refuse_tilt)
+page.source(instant.refuse_tilt)
 
 # %% [markdown]
 # ## Is the one material the limit of the other?

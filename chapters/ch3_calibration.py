@@ -21,10 +21,10 @@
 # %% tags=["remove-cell"]
 import numpy as np
 
-from cosserat import analytic
-from cosserat.book import page
-from cosserat.figures.calibration import limit
-from cosserat.models import calibration
+from cosserat.exact import beams
+from cosserat.studies import calibration
+from cosserat.thesis.book import page
+from cosserat.thesis.figures.calibration import limit
 
 run = page.data("calibration")
 every = tuple(f"c{number}" for number in range(1, 8))
@@ -139,7 +139,7 @@ page.table(lines, ("problem", "vertices", *every, "misfit"))
 # not resolve the layer makes the hinge stiffer, and the published coefficients balance that at $N = 20$.
 
 # %% tags=["remove-input"]
-page.source(analytic.clamped_free_tip_of_published_rod)
+page.source(beams.clamped_free_tip_of_published_rod)
 
 # %% tags=["remove-input"]
 last, step = float(run.clamped_free_published[-1]), float(np.diff(run.clamped_free_published)[-1])
@@ -163,11 +163,11 @@ page.say(
 
 # %% tags=["remove-input"]
 from cosserat.data.dataset import case_of
-from cosserat.models.calibration import beam_of
+from cosserat.studies.calibration import beam_of
 
 necked = case_of(run).problem.necking
 stiff, beam = necked.rod.body(necked.rod.geometry()).stiffness, beam_of(necked)
-beta = analytic.necking_decay(beam, "printed")
+beta = beams.necking_decay(beam, "printed")
 derived = (
     (2 * stiff.k2[1] - stiff.k7[1] ** 2 / (2 * stiff.k1[0]))
     / beta**2

@@ -32,16 +32,17 @@
 import numpy as np
 
 import cosserat
-from cosserat import analytic
-from cosserat.book import page
 from cosserat.data.dataset import case_of
-from cosserat.models import planar_rod, rod_motion
-from cosserat.models.calibration import beam_of
-from cosserat.solvers import stepping
-from cosserat.table import readouts
+from cosserat.exact import beams
+from cosserat.problems import motion
+from cosserat.rods import kinematics
+from cosserat.solvers import energy_momentum
+from cosserat.studies.calibration import beam_of
+from cosserat.thesis.book import page
+from cosserat.thesis.table import readouts
 
 # %% tags=["remove-input"]
-page.source(rod_motion.RodMotion.mass)
+page.source(motion.RodMotion.mass)
 
 # %% [markdown]
 # ## Keeping what the motion keeps
@@ -67,10 +68,10 @@ page.source(rod_motion.RodMotion.mass)
 # as they are as well.
 
 # %% tags=["remove-input"]
-page.excerpt(stepping._march, "arrived, near", "if not arrived")
+page.excerpt(energy_momentum._march, "arrived, near", "if not arrived")
 
 # %% tags=["remove-input"]
-page.source(stepping._sigma)
+page.source(energy_momentum._sigma)
 
 # %% [markdown]
 # ## A vibrating beam
@@ -142,7 +143,7 @@ page.figure(
 
 # %% tags=["remove-input"]
 beam = case_of(page.data("vibration_c4_20")).problem
-found, bernoulli = beam.modes(4).angular_frequency, analytic.first_frequency(beam_of(beam))
+found, bernoulli = beam.modes(4).angular_frequency, beams.first_frequency(beam_of(beam))
 assert abs(found[0] / bernoulli - 1) < 0.1
 fine = beam.replace(rod=beam.rod.replace(vertices=10 * beam.rod.vertices)).modes(1).angular_frequency[0]
 assert fine < bernoulli < found[0]
@@ -169,7 +170,7 @@ explicit = cosserat.run(
 )
 system, start = beam.system(beam.rod.geometry()), beam.begin()
 every = beam.modes(start.q.size)
-share = every.coordinates(system.mass, [start.q - planar_rod.reference(beam.rod.geometry())])[0]
+share = every.coordinates(system.mass, [start.q - kinematics.reference(beam.rod.geometry())])[0]
 energy = (every.angular_frequency * share) ** 2 / 2
 stiff = int(np.argmax(energy[1:])) + 1
 assert (

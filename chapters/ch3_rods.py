@@ -18,8 +18,9 @@
 import numpy as np
 
 import cosserat
-from cosserat.book import page
-from cosserat.models import published, rod_problem, section
+from cosserat.rods import problem, variation
+from cosserat.rods.energies import hemingway_kernel
+from cosserat.thesis.book import page
 
 # %% [markdown]
 # ## Sections that vary
@@ -35,7 +36,7 @@ from cosserat.models import published, rod_problem, section
 # place make a step, so that a rod may be of several materials. The line density goes with density times area.
 
 # %% tags=["remove-input"]
-page.source(section.lump)
+page.source(variation.lump)
 
 # %%
 cone = cosserat.case("clamped_free").vary(
@@ -63,7 +64,7 @@ print(
 # %% tags=["remove-input"]
 rod = bar.problem.rod
 arc, joint = rod.geometry().arc_length, rod.stations[0].at
-of_vertices, of_edges = section.lump(
+of_vertices, of_edges = variation.lump(
     rod.stations,
     arc,
     area=rod.area,
@@ -162,7 +163,7 @@ page.say(
 # half as much for a director that reaches the surface at half the height (E3.10).
 
 # %% tags=["remove-input"]
-page.source(published._work_of_couples)
+page.source(hemingway_kernel._work_of_couples)
 
 # %% [markdown]
 # Line loads act over any stretch of the rod, and held numbers may be moved (`moves`): at rest to a new place, in motion to
@@ -170,7 +171,7 @@ page.source(published._work_of_couples)
 # lines would stretch it.
 
 # %% tags=["remove-input"]
-page.source(rod_problem.RodProblem.loads)
+page.source(problem.RodProblem.loads)
 
 # %% [markdown]
 # ## Curved references

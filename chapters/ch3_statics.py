@@ -26,12 +26,13 @@
 # %% tags=["remove-cell"]
 import numpy as np
 
-from cosserat import analytic
-from cosserat.book import page
 from cosserat.data.dataset import case_of, statistics_of
-from cosserat.models import planar_rod, published, resolution, stiffness
-from cosserat.solvers import path
-from cosserat.table import printed, readouts
+from cosserat.exact import beams
+from cosserat.rods import kinematics, resolution
+from cosserat.rods.energies import hemingway_kernel, hemingway_stiffness
+from cosserat.solvers import continuation
+from cosserat.thesis.book import page
+from cosserat.thesis.table import printed, readouts
 
 # %% tags=["remove-input"]
 page.figure("fig_3_1", "The lower boundary of the body is the directorline reflected in the centreline.")
@@ -118,7 +119,7 @@ page.rows("F3.5")
 # become one arc tangent, which keeps its digits at small angles.
 
 # %% tags=["remove-input"]
-page.source(planar_rod.strains)
+page.source(kinematics.strains)
 
 # %% [markdown]
 # ## What the strains cost
@@ -171,7 +172,7 @@ page.rows("F3.7")
 page.source(resolution.surface_stretch)
 
 # %% tags=["remove-input"]
-page.excerpt(published.assemble, "# Second pass", "# Third pass")
+page.excerpt(hemingway_kernel.assemble, "# Second pass", "# Third pass")
 
 # %% [markdown]
 # The stiffnesses are those of linear elasticity up to calibration coefficients,
@@ -186,7 +187,7 @@ page.excerpt(published.assemble, "# Second pass", "# Third pass")
 # \end{equation*}
 
 # %% tags=["remove-input"]
-page.excerpt(stiffness.stiffnesses, "end_factor = ", "    )")
+page.excerpt(hemingway_stiffness.stiffnesses, "end_factor = ", "    )")
 
 # %% [markdown]
 # ## Forces, and rest
@@ -204,7 +205,7 @@ page.excerpt(stiffness.stiffnesses, "end_factor = ", "    )")
 # Hessian of the same kernel. So the answer is the one that the growing load leads to, whichever others there are.
 
 # %% tags=["remove-input"]
-page.source(path._foretold)
+page.source(continuation._foretold)
 
 # %% [markdown]
 # ## The four problems
@@ -230,7 +231,7 @@ page.figure(
 # $$
 
 # %% tags=["remove-input"]
-page.source(analytic.hanging_bar_displacement)
+page.source(beams.hanging_bar_displacement)
 
 # %% tags=["remove-input"]
 page.figure("fig_3_9", "Left, displacement; right, computed less analytic in millionths of the tip.")
@@ -280,7 +281,7 @@ page.say(
 # but from a centreline half-way up the surface stands at $H/2$, which is what the figures take (E3.11).
 
 # %% tags=["remove-input"]
-page.source(analytic.clamped_free_displacement)
+page.source(beams.clamped_free_displacement)
 
 # %% tags=["remove-input"]
 page.figure("fig_3_10", "Filled, our reading of eq. (3.4.10); hollow, the end areas halved as printed.")
@@ -302,7 +303,7 @@ page.rows("F3.10")
 # $$
 
 # %% tags=["remove-input"]
-page.source(analytic.clamped_clamped_displacement)
+page.source(beams.clamped_clamped_displacement)
 
 # %% tags=["remove-input"]
 page.figure("fig_3_11", "The same two readings between two clamps, against eqs. (3.5.6) and (3.5.7).")
@@ -379,7 +380,7 @@ page.say(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f} 
 # gives other squares, twice the printed one for two equal lateral stretches (E3.13).
 
 # %% tags=["remove-input"]
-page.source(analytic.necking_decay)
+page.source(beams.necking_decay)
 
 # %% tags=["remove-input"]
 page.figure(

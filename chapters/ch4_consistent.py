@@ -49,15 +49,15 @@
 import numpy as np
 
 import cosserat
-from cosserat import elastica
-from cosserat.book import page
-from cosserat.models import consistent
-from cosserat.models.calibration import beam_of
-from cosserat.solvers import path
-from cosserat.table import readouts
+from cosserat.exact import elastica
+from cosserat.rods.energies import reissner
+from cosserat.solvers import continuation
+from cosserat.studies.calibration import beam_of
+from cosserat.thesis.book import page
+from cosserat.thesis.table import readouts
 
 # %% tags=["remove-input"]
-page.excerpt(consistent._assemble, "wide = (end_a", "if measuring")
+page.excerpt(reissner._assemble, "wide = (end_a", "if measuring")
 
 # %% [markdown]
 # A section may be free to contract in $\mathbf{E}_1$ (`section = "free"`: then $\Lambda = E\nu/(1-\nu^2)$, a pulled bar answers with
@@ -132,7 +132,7 @@ page.rows("C-e", "C-r", "C-column")
 # A case of kind `rod path` follows the equilibria themselves, through points where the load has to fall, by arcs:
 
 # %% tags=["remove-input"]
-page.source(path._corrected)
+page.source(continuation._corrected)
 
 # %% tags=["remove-input"]
 page.figure(

@@ -25,7 +25,7 @@
 # %% tags=["remove-cell"]
 import csv
 
-from cosserat.book import page
+from cosserat.thesis.book import page
 
 with (page.results() / "peers.csv").open(newline="") as stream:
     lines = list(csv.DictReader(stream))

@@ -16,7 +16,7 @@
 # suspicious but not proven. What looked wrong and is right is *refuted*.
 
 # %% tags=["remove-cell"]
-from cosserat.book import page
+from cosserat.thesis.book import page
 
 
 def entries(standing):

@@ -38,9 +38,9 @@
 # ```
 
 # %% tags=["remove-input"]
-from cosserat.book import page
-from cosserat.table.measure import check
-from cosserat.table.tolerances import read_report
+from cosserat.thesis.book import page
+from cosserat.thesis.table.measure import check
+from cosserat.thesis.table.tolerances import read_report
 
 page.say(f"**The results table today:** {check(read_report(page.results() / 'report.csv'))}.")
 

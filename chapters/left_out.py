@@ -15,7 +15,7 @@
 # stands here with the reason. A test compares this list with all citations: nothing is missing, nothing is in both.
 
 # %% tags=["remove-input"]
-from cosserat.book import page
+from cosserat.thesis.book import page
 
 listed = page.left_out()
 (equations, of_equations), (figures, of_figures), (tables, of_tables) = map(

@@ -24,10 +24,10 @@
 # Rows of one number in several readings name the first of them.
 
 # %% tags=["remove-input"]
-from cosserat.book import page
-from cosserat.table.measure import summary
-from cosserat.table.power import changes
-from cosserat.table.tolerances import read_report
+from cosserat.thesis.book import page
+from cosserat.thesis.table.measure import summary
+from cosserat.thesis.table.power import changes
+from cosserat.thesis.table.tolerances import read_report
 
 report = read_report(page.results() / "report.csv")
 attempted = [row for row in report if row["standing"] != "not attempted"]

@@ -186,7 +186,7 @@ class _Version(argparse.Action):
 
 
 def _epilog() -> str:
-    from cosserat.cases.tables import titles
+    from cosserat.thesis.cases.tables import titles
 
     width = max(map(len, titles()))
     listed = "\n".join(f"  {name:<{width}}  {title}" for name, (title, _) in titles().items())
@@ -203,7 +203,7 @@ def _epilog() -> str:
 
 
 def _cases(options: argparse.Namespace) -> None:
-    from cosserat.cases.tables import titles
+    from cosserat.thesis.cases.tables import titles
 
     if options.file is None:
         known = titles()
@@ -235,9 +235,9 @@ def _run(options: argparse.Namespace) -> None:
 
 def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
     """Solve one case, write its file and say what it took."""
+    from cosserat.data.checkpoints import Parts
     from cosserat.data.dataset import effort, save, statistics_of, warnings_of
     from cosserat.data.files import check_destination
-    from cosserat.data.parts import Parts
 
     check_destination(path, ".nc")
     from cosserat.runner import run
@@ -302,7 +302,7 @@ def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]
 
 
 def _figure(options: argparse.Namespace) -> None:
-    from cosserat.figures.catalogue import draw_all
+    from cosserat.thesis.figures.catalogue import draw_all
 
     for path in draw_all(options.figures, options.cases, options.output):
         print(f"wrote {path}")
@@ -331,8 +331,8 @@ def _plot(options: argparse.Namespace) -> None:
 
 def _measure(options: argparse.Namespace) -> None:
     from cosserat.data.files import check_destination
-    from cosserat.table.measure import measure, summary
-    from cosserat.table.tolerances import read_report, read_table, write_report
+    from cosserat.thesis.table.measure import measure, summary
+    from cosserat.thesis.table.tolerances import read_report, read_table, write_report
 
     check_destination(options.output)
     write_report(measure(read_table(options.table), options.cases), options.output)
@@ -341,15 +341,15 @@ def _measure(options: argparse.Namespace) -> None:
 
 
 def _check(options: argparse.Namespace) -> None:
-    from cosserat.table.measure import check
-    from cosserat.table.tolerances import read_report
+    from cosserat.thesis.table.measure import check
+    from cosserat.thesis.table.tolerances import read_report
 
     print(check(read_report(options.report)))
 
 
 def _power(options: argparse.Namespace) -> None:
-    from cosserat.table.power import table
-    from cosserat.table.tolerances import read_table
+    from cosserat.thesis.table.power import table
+    from cosserat.thesis.table.tolerances import read_table
 
     for noticed in table(read_table(options.table), options.words):
         print(noticed, flush=True)
@@ -358,7 +358,7 @@ def _power(options: argparse.Namespace) -> None:
 def _accept(options: argparse.Namespace) -> None:
     from cosserat.data.files import check_destination
     from cosserat.runner import run
-    from cosserat.table.reference import accept
+    from cosserat.thesis.table.reference import accept
 
     path = options.references / f"{options.case}.nc"
     check_destination(path)
@@ -368,16 +368,16 @@ def _accept(options: argparse.Namespace) -> None:
 
 
 def _speed(_: argparse.Namespace) -> None:
-    from cosserat import speed
+    from cosserat.thesis import benchmark
 
-    for lines in (speed.statics, speed.integrator, speed.stride):
+    for lines in (benchmark.statics, benchmark.integrator, benchmark.stride):
         for line in lines():
             print(line)
 
 
 def _peers(options: argparse.Namespace) -> None:
     from cosserat.data.files import check_destination
-    from cosserat.peers import compare
+    from cosserat.thesis.peers import compare
 
     check_destination(options.output, ".csv")
     lines = list(
@@ -392,14 +392,14 @@ def _peers(options: argparse.Namespace) -> None:
 
 
 def _chapter(options: argparse.Namespace) -> None:
-    from cosserat.book.build import execute
+    from cosserat.thesis.book.build import execute
 
     execute(options.chapter, options.output)
     print(f"wrote {options.output}")
 
 
 def _book(options: argparse.Namespace) -> None:
-    from cosserat.book.build import render
+    from cosserat.thesis.book.build import render
 
     print(f"wrote {render(options.notebooks, options.output)}")
 

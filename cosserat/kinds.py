@@ -36,14 +36,14 @@ class Kind:
 
 
 KINDS = {
-    "rod statics": Kind("cosserat.models.rod_statics:RodStatics", "cosserat.figures.rod:picture"),
-    "rod motion": Kind("cosserat.models.rod_motion:RodMotion", "cosserat.figures.motion:picture"),
-    "rod path": Kind("cosserat.models.rod_path:RodPath", "cosserat.figures.consistent:picture"),
-    "calibration": Kind("cosserat.models.calibration:CalibrationProcedure"),
-    "convergence": Kind("cosserat.models.convergence:Convergence"),
-    "posture": Kind("cosserat.models.peristalsis:Posture", "cosserat.figures.crawlers:picture"),
-    "crawl": Kind("cosserat.models.peristalsis:Crawl", "cosserat.figures.crawlers:picture"),
-    "body masses": Kind("cosserat.models.earthworm:BodyMasses"),
-    "worm calibration": Kind("cosserat.models.worm_calibration:WormCalibration"),
+    "rod statics": Kind("cosserat.problems.static:RodStatics", "cosserat.figures.rod:picture"),
+    "rod motion": Kind("cosserat.problems.motion:RodMotion", "cosserat.figures.motion:picture"),
+    "rod path": Kind("cosserat.problems.path:RodPath", "cosserat.thesis.figures.consistent:picture"),
+    "calibration": Kind("cosserat.studies.calibration:CalibrationProcedure"),
+    "convergence": Kind("cosserat.studies.convergence:Convergence"),
+    "posture": Kind("cosserat.problems.crawl:Posture", "cosserat.figures.crawlers:picture"),
+    "crawl": Kind("cosserat.problems.crawl:Crawl", "cosserat.figures.crawlers:picture"),
+    "body masses": Kind("cosserat.thesis.earthworm:BodyMasses"),
+    "worm calibration": Kind("cosserat.thesis.worm_calibration:WormCalibration"),
 }
 """Kinds by the word that a case names in `kind`."""

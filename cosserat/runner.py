@@ -8,8 +8,8 @@ from pathlib import Path
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, find
+from cosserat.data.checkpoints import Parts
 from cosserat.data.dataset import statistics_of, to_dataset
-from cosserat.data.parts import Parts
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CrossingError, InputError, NotConvergedError, path_of
 from cosserat.problem import Progress, Run

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from cosserat.models.rod import Rod
-from cosserat.models.rod_statics import RodStatics
+from cosserat.problems.static import RodStatics
+from cosserat.rods.rod import Rod
 
 settings.register_profile("project", deadline=None, derandomize=True, max_examples=40)
 settings.load_profile("project")

@@ -7,9 +7,9 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from cosserat.book import page
-from cosserat.book.build import render
 from cosserat.errors import CosseratError, InputError
+from cosserat.thesis.book import page
+from cosserat.thesis.book.build import render
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::DeprecationWarning", "ignore::PendingDeprecationWarning"

@@ -5,11 +5,11 @@ import pytest
 from scipy.optimize import brentq
 
 import cosserat
-from cosserat import analytic
 from cosserat.errors import InputError
-from cosserat.figures.calibration import limit
-from cosserat.models.calibration import ASSIGNED, beam_of
-from cosserat.table import readouts
+from cosserat.exact import beams
+from cosserat.studies.calibration import ASSIGNED, beam_of
+from cosserat.thesis.figures.calibration import limit
+from cosserat.thesis.table import readouts
 
 
 @pytest.fixture(scope="module")
@@ -134,7 +134,7 @@ def test_a_fit_finds_the_coefficients_that_made_its_data(monkeypatch):
         )
     )
     target = made.solve("made")["u"][:, 1]
-    from cosserat.models import calibration
+    from cosserat.studies import calibration
 
     monkeypatch.setitem(calibration._FORMULAS, "clamped_free", (1, lambda beam, g, xi: target))
     found = procedure.fit("clamped_free", 20, "trial")
@@ -171,6 +171,6 @@ def test_necking_wants_a_stiffer_gradient_in_the_limit(fitted):
     rod = problem.rod
     stiff = rod.replace(vertices=9).body(rod.replace(vertices=9).geometry()).stiffness
     k1, k2, k7, k6 = 2 * stiff.k1[0], 2 * stiff.k2[1], stiff.k7[1], stiff.k6[0]
-    beta = analytic.necking_decay(beam_of(problem), "printed")
+    beta = beams.necking_decay(beam_of(problem), "printed")
     wanted = (k2 - k7**2 / k1) / beta**2 / (k6 / rod.calibration.c6)
     assert wanted == pytest.approx(found, rel=2e-2)

@@ -263,7 +263,7 @@ def test_cases_are_frozen():
 
 
 def test_assumptions_of_the_cases_are_marked():
-    text = (ROOT / "cosserat/cases/chapter3.toml").read_text()
+    text = (ROOT / "cosserat/thesis/cases/chapter3.toml").read_text()
     assert text.count("ASSUME") >= 5
 
 

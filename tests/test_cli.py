@@ -327,10 +327,10 @@ def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
 
 @pytest.mark.usefixtures("untraced")
 def test_speed_is_measured(capsys, monkeypatch):
-    from cosserat import speed
+    from cosserat.thesis import benchmark
 
-    monkeypatch.setattr(speed, "_RUNS", 1)
-    monkeypatch.setattr(speed, "_STATICS_RUNS", 1)
+    monkeypatch.setattr(benchmark, "_RUNS", 1)
+    monkeypatch.setattr(benchmark, "_STATICS_RUNS", 1)
     code, out, _ = call(capsys, "speed")
     assert code == 0
     first = [line.split()[0] for line in out.splitlines()]

@@ -7,8 +7,8 @@ from scipy.linalg import solve
 import cosserat
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import absolute_product, hold, solve_positive, to_dense
-from cosserat.solvers.climb import Climb, NewtonSettings
-from cosserat.solvers.path import lead
+from cosserat.solvers.continuation import lead
+from cosserat.solvers.equilibrium import Climb, NewtonSettings
 
 
 class Springs:

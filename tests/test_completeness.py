@@ -11,8 +11,8 @@ from numba.core.dispatcher import Dispatcher
 
 import cosserat
 from cosserat.data.provenance import computing_sources
-from cosserat.figures.catalogue import FIGURES
-from cosserat.table.errata import read_errata
+from cosserat.thesis.figures.catalogue import FIGURES
+from cosserat.thesis.table.errata import read_errata
 
 PACKAGE = ROOT / "cosserat"
 ERRATA = read_errata(ROOT / "results/errata.toml")

@@ -7,17 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import cosserat
-from cosserat import analytic, elastica
 from cosserat.__main__ import main
 from cosserat.errors import InputError
-from cosserat.models.calibration import beam_of
-from cosserat.models.compliance import stiffnesses
-from cosserat.models.consistent import ConsistentRod
-from cosserat.models.consistent_reference import coefficients
-from cosserat.models.convergence import MEASURES
-from cosserat.models.planar_rod import Geometry, rigid_motions
-from cosserat.models.rod_statics import RodStatics
-from cosserat.table.readouts import period
+from cosserat.exact import beams, elastica
+from cosserat.problems.static import RodStatics
+from cosserat.rods.energies.compliance import stiffnesses
+from cosserat.rods.energies.reissner import ConsistentRod
+from cosserat.rods.energies.reissner_reference import coefficients
+from cosserat.rods.kinematics import Geometry, rigid_motions
+from cosserat.studies.calibration import beam_of
+from cosserat.studies.convergence import MEASURES
+from cosserat.thesis.table.readouts import period
 
 SECTIONS = ("free", "plane strain", "incompressible")
 CLAMP = [{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}]
@@ -152,14 +152,14 @@ def test_a_body_is_the_same_whichever_line_it_is_followed_by(centreline):
 def test_directors_between_two_clamps_are_exact_at_the_vertices(solved):
     problem = cosserat.case("clamped_clamped_consistent").vary("light", gravity={"g": 1e-3}).problem
     beam, fields = beam_of(problem), problem.solve("light")
-    exact = problem.rod.height / 2 * analytic.clamped_clamped_director(beam, 1e-3, fields["xi"])
+    exact = problem.rod.height / 2 * beams.clamped_clamped_director(beam, 1e-3, fields["xi"])
     np.testing.assert_allclose(fields["delta"][:, 0], exact, atol=1e-7 * np.abs(exact).max())
 
 
 def test_the_beams_of_section_3_5_without_calibration(solved):
     for name, formula, allowed in (
-        ("clamped_free_consistent", analytic.clamped_free_displacement, 5e-4),
-        ("clamped_clamped_consistent", analytic.clamped_clamped_displacement, 1.1e-2),
+        ("clamped_free_consistent", beams.clamped_free_displacement, 5e-4),
+        ("clamped_clamped_consistent", beams.clamped_clamped_displacement, 1.1e-2),
     ):
         data = solved[name]
         problem = cosserat.case(name).problem
@@ -168,9 +168,7 @@ def test_the_beams_of_section_3_5_without_calibration(solved):
         assert data.sizes["vertex"] == 20
         assert np.abs(computed - exact).max() < allowed * np.abs(exact).max()
     fine = cosserat.run(cosserat.case("clamped_clamped_consistent").vary("fine", rod={"vertices": 161}))
-    exact = analytic.clamped_clamped_displacement(
-        beam_of(problem), problem.gravity.g, fine.xi.to_numpy()
-    )
+    exact = beams.clamped_clamped_displacement(beam_of(problem), problem.gravity.g, fine.xi.to_numpy())
     assert float(fine.u.sel(axis="E2")[80]) == pytest.approx(exact[80], rel=1.5e-4)
 
 
@@ -188,8 +186,8 @@ def test_necking_follows_theory_up_to_near_incompressibility(case, theory, poiss
         )
         data = cosserat.run(posed)
         beam = beam_of(posed.problem)
-        beta = analytic.necking_decay(beam, theory)
-        strain = analytic.necking_strain(beam, 1000.0, beta, data.xi.to_numpy())
+        beta = beams.necking_decay(beam, theory)
+        strain = beams.necking_strain(beam, 1000.0, beta, data.xi.to_numpy())
         if theory == "plane strain":
             strain = strain * (1 + poisson)
         errors.append(np.abs(data.lam - 1 - strain).max() / np.abs(strain).max())
@@ -534,7 +532,7 @@ def test_the_published_rod_has_no_section_and_no_path():
         cosserat.case("clamped_free").vary("x", rod={"section": "plane strain"})
     table = cosserat.case("clamped_free").problem.model_dump() | {"kind": "rod path"}
     table.pop("newton")
-    from cosserat.models.rod_path import RodPath
+    from cosserat.problems.path import RodPath
 
     with pytest.raises(InputError, match="needs rod.energy = 'consistent'"):
         RodPath.read(table, "x", units_required=False)
@@ -546,7 +544,7 @@ def test_a_million_vertices():
     solved = posed.solve("x")
     fields = solved
     assert solved.statistics["iterations"] == 1
-    exact = analytic.hanging_bar_displacement(beam_of(posed), 9.81, fields["xi"])
+    exact = beams.hanging_bar_displacement(beam_of(posed), 9.81, fields["xi"])
     assert fields["u"][-1, 0] == pytest.approx(exact[-1], rel=1e-6)
 
 

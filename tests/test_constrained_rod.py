@@ -8,14 +8,10 @@ from scipy.optimize import minimize_scalar
 
 import cosserat
 from cosserat.errors import InputError, NotConvergedError, OutOfReachError
-from cosserat.models import constrained_rod
-from cosserat.models.constrained_rod import (
-    INCOMPRESSIBLE,
-    INEXTENSIBLE,
-    constrained_forces,
-    uniform_state,
-)
-from cosserat.models.directed_rod import (
+from cosserat.peristalsis.crawler import Groups
+from cosserat.rods import constrained_rod
+from cosserat.rods.constrained_rod import INCOMPRESSIBLE, INEXTENSIBLE, constrained_forces, uniform_state
+from cosserat.rods.directed_rod import (
     Section,
     adjusted_stiffnesses,
     couple,
@@ -25,7 +21,6 @@ from cosserat.models.directed_rod import (
     strain_energy,
     unbalanced_couple,
 )
-from cosserat.models.peristaltic_rod import Groups
 
 CONSTRAINTS = {"incompressible": INCOMPRESSIBLE, "inextensible": INEXTENSIBLE}
 CIRCLE = Section.circle(0.01)

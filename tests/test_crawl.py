@@ -6,19 +6,19 @@ import xarray as xr
 from conftest import ROOT
 
 import cosserat
-from cosserat.analytic import PushPullRod
 from cosserat.errors import InputError
-from cosserat.models.earthworm import (
+from cosserat.exact.beams import PushPullRod
+from cosserat.peristalsis.gait import Gait
+from cosserat.thesis.earthworm import (
     MUSCLE_LAWS,
     protrusion_time,
     resting_diameter,
     resting_length,
     stance_time,
 )
-from cosserat.models.gait import Gait
-from cosserat.table.crawl_readouts import READOUTS, slope, strides
-from cosserat.table.measure import judge
-from cosserat.table.tolerances import read_table
+from cosserat.thesis.table.crawl_readouts import READOUTS, slope, strides
+from cosserat.thesis.table.measure import judge
+from cosserat.thesis.table.tolerances import read_table
 
 CRAWLS = [name for name, case in cosserat.published().items() if case.problem.kind == "crawl"]
 WORM = cosserat.case("worm")
@@ -495,7 +495,7 @@ def test_a_crawl_that_will_collapse_is_refused_before_its_first_solve(
         raise AssertionError("solved")
 
     for solver in ("solve", "collocate"):
-        monkeypatch.setattr(f"cosserat.models.muscle_regions.{solver}", never)
+        monkeypatch.setattr(f"cosserat.peristalsis.instant.{solver}", never)
     with pytest.raises(InputError, match=sentence):
         cosserat.run(cosserat.case(name).vary("x", **changes))
 

@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import cosserat
-from cosserat.models.constrained_rod import INCOMPRESSIBLE
-from cosserat.models.directed_rod import Section, integrated_stiffnesses, internal_forces, strain_energy
-from cosserat.models.muscle_regions import Instant, Region
-from cosserat.models.peristaltic_rod import Compressible, Crawler, Groups, Incompressible
+from cosserat.peristalsis.crawler import Compressible, Crawler, Groups, Incompressible
+from cosserat.peristalsis.instant import Instant, Region
+from cosserat.rods.constrained_rod import INCOMPRESSIBLE
+from cosserat.rods.directed_rod import Section, integrated_stiffnesses, internal_forces, strain_energy
 from cosserat.solvers.regions import RegionSettings
 
 WORM, ROBOT = (cosserat.case(name).problem for name in ("worm", "soft_robot"))

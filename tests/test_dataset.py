@@ -18,7 +18,7 @@ from conftest import ROOT
 
 import cosserat
 from cosserat.data import dataset as files
-from cosserat.data.parts import Parts
+from cosserat.data.checkpoints import Parts
 from cosserat.data.variables import LABELS, VARIABLES
 from cosserat.errors import InputError
 from cosserat.solution import Solution

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from cosserat.models.directed_rod import (
+from cosserat.rods.directed_rod import (
     Inertia,
     Offset,
     Section,

@@ -5,17 +5,17 @@ import pytest
 from scipy.optimize import fsolve
 
 import cosserat
-from cosserat.analytic import rest_pressure
 from cosserat.errors import NotConvergedError, OutOfReachError
-from cosserat.models import doublets
-from cosserat.models.directed_rod import internal_forces
-from cosserat.models.earthworm import resting_diameter
-from cosserat.models.muscle_regions import Instant, Region
-from cosserat.models.peristaltic_rod import Compressible, Crawler, Groups, Loads
+from cosserat.exact.beams import rest_pressure
+from cosserat.peristalsis import doublets
+from cosserat.peristalsis.crawler import Compressible, Crawler, Groups, Loads
+from cosserat.peristalsis.instant import Instant, Region
+from cosserat.rods.directed_rod import internal_forces
 from cosserat.solvers.collocation import RegionSystem, collocate
 from cosserat.solvers.regions import RegionSettings
-from cosserat.table import printed as page
-from cosserat.table.crawl_readouts import READOUTS, at_phase, segment, strides
+from cosserat.thesis.earthworm import resting_diameter
+from cosserat.thesis.table import printed as page
+from cosserat.thesis.table.crawl_readouts import READOUTS, at_phase, segment, strides
 
 WORM = cosserat.case("worm").problem
 ROBOT = cosserat.case("soft_robot").problem

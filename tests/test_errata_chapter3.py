@@ -9,13 +9,13 @@ from conftest import assembled, make_rod, random_state
 from scipy.linalg import eigh
 
 import cosserat
-from cosserat import analytic
 from cosserat.errors import UnsupportedRodError
-from cosserat.models.calibration import beam_of
-from cosserat.models.planar_rod import Geometry, rigid_motions, signed_angle, strains, vertex_tangents
-from cosserat.models.published import stretching
-from cosserat.models.published_rod import PublishedRod
-from cosserat.table import printed, readouts
+from cosserat.exact import beams
+from cosserat.rods.energies.hemingway import PublishedRod
+from cosserat.rods.energies.hemingway_kernel import stretching
+from cosserat.rods.kinematics import Geometry, rigid_motions, signed_angle, strains, vertex_tangents
+from cosserat.studies.calibration import beam_of
+from cosserat.thesis.table import printed, readouts
 
 
 def gradient_by_differences(energy, q, h=1e-6):
@@ -288,10 +288,10 @@ def test_E3_13_printed_decay_does_not_balance_the_director_forces(theory):
         )
         / mu,
     }
-    unit = analytic.Beam(
+    unit = beams.Beam(
         length=1, area=1, second_moment=1, young=1, poisson=nu, line_density=1, shear_correction=1
     )
-    squared = analytic.necking_decay(unit, theory) ** 2
+    squared = beams.necking_decay(unit, theory) ** 2
     if theory == "printed":
         assert all(abs(squared / value - 1) > 0.2 for value in balance.values())
         assert squared == pytest.approx(balance["two directors"] / 2)
@@ -303,11 +303,10 @@ def test_E3_14_printed_necking_curve_is_right_and_loses_its_digits_in_doubles():
     """In sixty digits the printed order of operations gives the curve to the last of ours; in doubles it does not."""
     problem = cosserat.case("necking").problem
     beam = beam_of(problem)
-    beta = analytic.necking_decay(beam, "printed")
+    beta = beams.necking_decay(beam, "printed")
     xi = np.linspace(0, beam.length, 101)
     printed, ours = (
-        form(beam, 1e3, beta, xi)
-        for form in (analytic.necking_strain_as_printed, analytic.necking_strain)
+        form(beam, 1e3, beta, xi) for form in (beams.necking_strain_as_printed, beams.necking_strain)
     )
     amplitude = np.abs(ours).max()
     assert np.abs(printed - ours).max() > 0.3 * amplitude
@@ -394,7 +393,7 @@ def test_E3_16_printed_supports_leave_the_bars_free_and_the_added_ones_carry_not
 
 def test_E3_19_the_printed_period_asks_for_the_section_and_density_and_hardly_for_the_rest(solved):
     def by_formula(**changes):
-        return np.pi / analytic.first_frequency(replace(printed.beam("vibration_c4_20"), **changes))
+        return np.pi / beams.first_frequency(replace(printed.beam("vibration_c4_20"), **changes))
 
     beam = printed.beam("vibration_c4_20")
     assert by_formula() == pytest.approx(0.031, abs=5e-4)
@@ -435,7 +434,7 @@ def test_E3_22_the_drag_settles_every_mode_at_the_rate_of_the_lowest():
 
 
 def test_E3_25_the_beam_with_low_shear_stiffness_is_nearer_to_bernoulli_and_euler(solved):
-    by_formula = np.pi / analytic.first_frequency(printed.beam("vibration_c4_20"))
+    by_formula = np.pi / beams.first_frequency(printed.beam("vibration_c4_20"))
     low, high = (
         readouts.READOUTS["kinetic_energy_period"](solved[f"vibration_c4_{c4}"]).measured
         for c4 in (2, 20)
@@ -471,7 +470,7 @@ def half_period(c4, k, end_area):
 
 def test_E3_25_the_same_beam_is_nearer_in_every_reading_of_areas_and_shear_correction():
     """Of (3.4.10), E3.9, and of k, E3.17; with halved areas the other beam has the printed 0.03 s."""
-    by_formula = np.pi / analytic.first_frequency(printed.beam("vibration_c4_20"))
+    by_formula = np.pi / beams.first_frequency(printed.beam("vibration_c4_20"))
     for ends, share in (("full", 1.0), ("halved", 0.5)):
         for k in (5 / 6, 1.0):
             low, high = (half_period(c4, k, share) for c4 in (2, 20))

@@ -13,9 +13,9 @@ from matplotlib.text import Annotation, Text
 import cosserat
 from cosserat.errors import InputError
 from cosserat.figures import crawlers, motion, rod
-from cosserat.figures.catalogue import FIGURES, draw, draw_to
 from cosserat.figures.style import settings, write
-from cosserat.table import readouts
+from cosserat.thesis.figures.catalogue import FIGURES, draw, draw_to
+from cosserat.thesis.table import readouts
 
 ONE_OF_EACH = list({entry.module: name for name, entry in FIGURES.items()}.values())
 
@@ -223,7 +223,7 @@ def test_the_stride_shows_the_corrected_and_the_printed_worm_at_the_six_times(so
 
 def test_segment_50_is_drawn_beside_what_quillin_measured(solved):
     stretches, pressures = drawing(solved, "fig_2_2").axes
-    from cosserat.table.crawl_readouts import segment
+    from cosserat.thesis.table.crawl_readouts import segment
 
     run = segment(solved["worm"])
     drawn = [line.get_ydata() for line in stretches.lines if len(line.get_ydata()) > 2]

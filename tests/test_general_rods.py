@@ -10,8 +10,8 @@ from scipy.integrate import quad
 
 import cosserat
 from cosserat.errors import InputError
-from cosserat.models import planar_rod
-from cosserat.models.planar_rod import rigid_motions, strains
+from cosserat.rods import kinematics
+from cosserat.rods.kinematics import rigid_motions, strains
 from cosserat.solvers import banded
 
 BAR, BEAM = cosserat.case("hanging_bar"), cosserat.case("clamped_free")
@@ -314,7 +314,7 @@ def test_a_curved_reference_is_at_rest_and_unsheared():
     np.testing.assert_allclose(measured.theta, 0, atol=1e-14)  # D along B, section 3.3
     np.testing.assert_allclose(measured.mu_edge, 1, rtol=1e-14)
     assert measured.kappa[1:-1] == pytest.approx(0.3, rel=1e-3)
-    energy, gradient, hessian = assembled(problem.rod.body(geometry), planar_rod.reference(geometry))
+    energy, gradient, hessian = assembled(problem.rod.body(geometry), kinematics.reference(geometry))
     assert abs(energy) < 1e-9
     assert np.abs(gradient).max() < 1e-12 * np.abs(hessian).max()
 
@@ -326,7 +326,7 @@ def test_E3_24_printed_bending_energy_does_not_let_a_curved_rod_rest():
     )
     problem = case.problem
     geometry = problem.rod.geometry()
-    _, gradient, _ = assembled(problem.rod.body(geometry), planar_rod.reference(geometry))
+    _, gradient, _ = assembled(problem.rod.body(geometry), kinematics.reference(geometry))
     assert np.abs(gradient).max() > 1e3
     straightened = cosserat.run(case)
     assert np.abs(straightened.kappa[2:-1]).max() < 0.1 * 0.05

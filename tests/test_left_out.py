@@ -7,8 +7,8 @@ import pytest
 from conftest import ROOT
 
 from cosserat.errors import InputError
-from cosserat.figures.catalogue import FIGURES
-from cosserat.table.left_out import KINDS, LeftOut, read_left_out
+from cosserat.thesis.figures.catalogue import FIGURES
+from cosserat.thesis.table.left_out import KINDS, LeftOut, read_left_out
 
 LISTED = read_left_out(ROOT / "results/left_out.toml")
 OWN = ("left_out.py", "test_left_out.py")  # the list and its test cite what they do not use

@@ -4,16 +4,17 @@ import numpy as np
 import pytest
 
 import cosserat
-from cosserat import analytic
 from cosserat.errors import DivergedError, InputError, UnstableError
-from cosserat.models import planar_rod, rod_course
-from cosserat.models.planar_rod import rigid_motions
-from cosserat.models.rod_course import Course
-from cosserat.solvers import banded, motion
-from cosserat.solvers.climb import Climb
+from cosserat.exact import beams
+from cosserat.problems import checkpoints
+from cosserat.problems.checkpoints import Course
+from cosserat.rods import kinematics
+from cosserat.rods.kinematics import rigid_motions
+from cosserat.solvers import banded, integrate
+from cosserat.solvers.equilibrium import Climb
 from cosserat.solvers.modes import modes
-from cosserat.table import readouts
-from cosserat.table.arithmetic import ARITHMETIC
+from cosserat.thesis.table import readouts
+from cosserat.thesis.table.arithmetic import ARITHMETIC
 
 BEAM = cosserat.case("vibration_c4_20")
 AMPLITUDE = 1e-6  # m: in larger motions stiff waves, too fast to resolve, hide the order
@@ -46,13 +47,13 @@ def total_energy(data):
 def test_energy_is_kept_over_a_hundred_periods_at_a_hundred_steps_each():
     problem, system, state = parts_of(BEAM)
     period = 2 * np.pi / problem.modes(1).angular_frequency[0]
-    start = system.body.energy(state.q) + motion.kinetic_energy(system, state)
-    settings = motion.IntegratorSettings(step=period / 100)
+    start = system.body.energy(state.q) + integrate.kinetic_energy(system, state)
+    settings = integrate.IntegratorSettings(step=period / 100)
     worst = 0.0
     for _ in range(100):
-        state, steps = motion.advance(system, state, period, settings, "beam")
+        state, steps = integrate.advance(system, state, period, settings, "beam")
         assert steps == 100
-        now = system.body.energy(state.q) + motion.kinetic_energy(system, state)
+        now = system.body.energy(state.q) + integrate.kinetic_energy(system, state)
         worst = max(worst, abs(now / start - 1))
     assert worst < 1e-8
 
@@ -67,7 +68,7 @@ def test_a_large_motion_keeps_energy_where_the_plain_midpoint_rule_does_not():
     q, v = state.q, state.v
     for _ in range(1000):
         q, v = plain_midpoint(system, q, v, 1e-4)
-    after = system.body.energy(q) + motion.kinetic_energy(system, motion.State(q, v))
+    after = system.body.energy(q) + integrate.kinetic_energy(system, integrate.State(q, v))
     assert abs(after / energy[0] - 1) > 1e-6
 
 
@@ -96,15 +97,19 @@ def test_a_free_rod_keeps_momentum_and_angular_momentum_to_rounding():
 def in_its_first_mode(amplitude, **changes):
     """The beam displaced by a micrometre in its own first mode, in which no stiff mode moves."""
     problem, system, _ = parts_of(BEAM.vary("beam", **changes))
-    start = planar_rod.reference(problem.rod.geometry())
+    start = kinematics.reference(problem.rod.geometry())
     shape = problem.modes(1).shape[0]
-    return system, motion.State(start + amplitude * shape / np.abs(shape).max(), np.zeros(start.size))
+    return system, integrate.State(start + amplitude * shape / np.abs(shape).max(), np.zeros(start.size))
 
 
 def after(settings, duration=0.03, amplitude=AMPLITUDE):
     system, state = in_its_first_mode(amplitude)
-    return motion.advance(
-        system, state, duration, motion.IntegratorSettings.read(settings, "s", units_required=False), "b"
+    return integrate.advance(
+        system,
+        state,
+        duration,
+        integrate.IntegratorSettings.read(settings, "s", units_required=False),
+        "b",
     )[0].q
 
 
@@ -140,7 +145,7 @@ def test_both_integrators_agree_on_the_published_case_in_what_they_resolve():
     """
     problem, system, state = parts_of(BEAM)
     found = problem.modes(state.q.size)
-    start = found.coordinates(system.mass, [state.q - planar_rod.reference(problem.rod.geometry())])[0]
+    start = found.coordinates(system.mass, [state.q - kinematics.reference(problem.rod.geometry())])[0]
     energy = (found.angular_frequency * start) ** 2 / 2
     stiff = int(np.argmax(energy[1:])) + 1
     assert energy.sum() == pytest.approx(system.body.energy(state.q), rel=1e-3)
@@ -217,7 +222,7 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
     system = pushed.system(geometry)
     climb = Climb(pushed.loaded(geometry), pushed.newton, "the column")
     for factor, directions in ((1.2, "1 direction,"), (12.0, "2 directions")):
-        straight = climb.at(np.zeros(system.held.size), factor).q + planar_rod.reference(geometry)
+        straight = climb.at(np.zeros(system.held.size), factor).q + kinematics.reference(geometry)
         with pytest.raises(UnstableError, match=f"the column: .* unstable in {directions}"):
             modes(system, straight, 1, "the column", anchored=True)
 
@@ -272,13 +277,13 @@ def test_E3_19_open_parameters_hardly_move_the_period():
 
 
 def test_E3_20_corrected_mode_solves_the_beam_equation_and_the_printed_one_does_not():
-    length, b = 1.0, analytic.first_root()
+    length, b = 1.0, beams.first_root()
     assert b / np.pi == pytest.approx(0.59686, abs=5e-6)
     assert b * np.pi == pytest.approx(5.89, abs=0.01)  # what "beta pi / L" would be
     assert b**2 == pytest.approx(3.5160, abs=5e-5)
     assert abs(b**2 - 3.5161) > 5e-5
     xi = np.linspace(0, length, 4001)
-    ours, slope = analytic.first_beam_mode(length, xi)
+    ours, slope = beams.first_beam_mode(length, xi)
     assert ours[-1] == pytest.approx(1)
     assert ours[0] == slope[0] == 0
     np.testing.assert_allclose(np.gradient(ours, xi, edge_order=2)[1:-1], slope[1:-1], atol=1e-6)
@@ -300,7 +305,7 @@ def test_E3_20_corrected_mode_solves_the_beam_equation_and_the_printed_one_does_
 
     assert misfit(ours) < 1e-3
     assert misfit(printed) > 0.1
-    sign = analytic.first_beam_mode(length, xi)[0]
+    sign = beams.first_beam_mode(length, xi)[0]
     curvature = np.gradient(np.gradient(sign, xi), xi)
     assert abs(curvature[-3]) < 2e-2 * np.abs(curvature).max()  # no moment at the tip
 
@@ -312,7 +317,7 @@ def test_E3_21_kinetic_energy_of_a_translation_counts_the_length_once(vertices):
     )
     problem, system, state = parts_of(case)
     mass = problem.rod.line_density * problem.rod.length
-    assert motion.kinetic_energy(system, state) == pytest.approx(mass * 9 / 2)
+    assert integrate.kinetic_energy(system, state) == pytest.approx(mass * 9 / 2)
     part = problem.rod.geometry().voronoi_length
     twice = (problem.rod.line_density * part * part * 9 / 2).sum()
     assert abs(twice / (mass * 9 / 2) - 1) > 0.5
@@ -325,7 +330,7 @@ def test_kinetic_energy_and_angular_momentum_of_a_spinning_rod():
     rod = problem.rod
     h = rod.length / (rod.vertices - 1)
     J = rod.line_density * (rod.length**3 / 3 + rod.length * h**2 / 6 + rod.length * rod.height**2 / 12)
-    assert motion.kinetic_energy(system, state) == pytest.approx(J * 49 / 2, rel=1e-12)
+    assert integrate.kinetic_energy(system, state) == pytest.approx(J * 49 / 2, rel=1e-12)
     spin = rigid_motions(state.q.reshape(-1, 4))[2].ravel() @ banded.band_product(system.mass, state.v)
     assert spin == pytest.approx(J * 7, rel=1e-12)
 
@@ -379,12 +384,12 @@ def test_damping_takes_energy_and_never_gives_it(solved):
 
 def test_the_stability_limit_is_where_the_motion_diverges():
     _, system, state = parts_of(BEAM)
-    limit = motion.stable_step(system, state.q)
+    limit = integrate.stable_step(system, state.q)
     for share, bounded in ((0.95, True), (1.15, False)):
-        settings = motion.IntegratorSettings(method="rk4", step=share * limit)
+        settings = integrate.IntegratorSettings(method="rk4", step=share * limit)
         try:
-            after, _ = motion.advance(system, state, 3000 * share * limit, settings, "beam")
-            energy = system.body.energy(after.q) + motion.kinetic_energy(system, after)
+            after, _ = integrate.advance(system, state, 3000 * share * limit, settings, "beam")
+            energy = system.body.energy(after.q) + integrate.kinetic_energy(system, after)
             grown = energy > 10 * system.body.energy(state.q)
         except DivergedError:
             grown = True
@@ -396,7 +401,7 @@ def test_the_limit_of_a_rod_with_one_free_number_is_that_of_one_oscillator():
     supports = [{"at": at, "hold": hold} for at, hold in enumerate((whole, whole, whole[:3]))]
     case = BEAM.vary("one", rod={"vertices": 3}, supports=supports, start={"amplitude": 0.0})
     _, system, state = parts_of(case)
-    limit = motion.stable_step(system, state.q)
+    limit = integrate.stable_step(system, state.q)
     assert limit == pytest.approx(np.sqrt(8) / case.problem.modes(1).angular_frequency[0], rel=1e-9)
 
 
@@ -423,9 +428,9 @@ def test_a_step_beyond_the_limit_is_refused_with_the_limit():
 
 def test_steps_are_never_longer_than_the_one_given():
     """Also where the time between frames is no whole number of them: 29 microseconds are two steps of at most 20."""
-    settings = motion.IntegratorSettings(method="rk4", step=2e-5)
+    settings = integrate.IntegratorSettings(method="rk4", step=2e-5)
     counts = {2.9e-5: 2, 1.9e-5: 1, 2e-5: 1, 6e-5: 3, 4e-5 * (1 + 1e-12): 2, 1e-9: 1}
-    assert {d: motion.step_count(d, settings) for d in counts} == counts
+    assert {d: integrate.step_count(d, settings) for d in counts} == counts
     frames = {"duration": 2.9e-5 * 1000, "every": 2.9e-5, "start": {"amplitude": 1e-3}}
     data = vibrating(**frames, integrator={"method": "rk4", "step": 2e-5})
     energy = total_energy(data)
@@ -446,7 +451,7 @@ def test_drag_shortens_the_stable_step():
         vibrating(**damped)
     for damping in (0.0, 100.0, 700.0):
         _, system, state = parts_of(BEAM.vary("beam", damping=damping, start={"amplitude": 1e-6}))
-        limit = motion.stable_step(system, state.q)
+        limit = integrate.stable_step(system, state.q)
         for share, bounded in ((0.97, True), (1.05, False)):
             assert stays(system, state, share * limit) == bounded, (damping, share)
 
@@ -454,13 +459,13 @@ def test_drag_shortens_the_stable_step():
 def stays(system, state, step, count=1500):
     """Whether 1500 steps of the fixed explicit method leave the motion as small as it was."""
     noise = 1e-9 * np.random.default_rng(3).standard_normal(state.q.size)
-    start = motion.State(np.where(system.held, state.q, state.q + noise), state.v)
-    settings = motion.IntegratorSettings(method="rk4", step=step)
+    start = integrate.State(np.where(system.held, state.q, state.q + noise), state.v)
+    settings = integrate.IntegratorSettings(method="rk4", step=step)
     try:
-        after, _ = motion.advance(system, start, count * step, settings, "beam")
+        after, _ = integrate.advance(system, start, count * step, settings, "beam")
     except DivergedError:
         return False
-    energies = [system.body.energy(s.q) + motion.kinetic_energy(system, s) for s in (start, after)]
+    energies = [system.body.energy(s.q) + integrate.kinetic_energy(system, s) for s in (start, after)]
     return energies[1] < 2 * energies[0]
 
 
@@ -510,7 +515,7 @@ def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
     shaken = {"at": "first", "unknown": "x2", "by": "1 mm", "frequency": 37.0}
     case = BEAM.vary("beam", duration=0.03, every=0.0101, moves=[shaken], start={"amplitude": 0.0})
     steps, vertices = 80, 20  # a frame is 10 ms, one step 0.125 ms
-    monkeypatch.setattr(rod_course, "WORK_PER_PART", steps * vertices / 6.5)
+    monkeypatch.setattr(checkpoints, "WORK_PER_PART", steps * vertices / 6.5)
     course = Course.of(case.problem, "beam")
     assert (course.legs, course.stops_per_part, course.parts) == (7, 1, 21)
     whole = cosserat.run(case)
@@ -580,10 +585,10 @@ def test_memory_of_a_step_grows_no_faster_than_the_rod():
     peaks = []
     for n in (20, 200, 2000):
         case = BEAM.vary("beam", rod={"vertices": n})
-        settings = motion.IntegratorSettings(step=2.5e-4)
-        motion.advance(*parts_of(case)[1:], 5e-4, settings, "warm")
+        settings = integrate.IntegratorSettings(step=2.5e-4)
+        integrate.advance(*parts_of(case)[1:], 5e-4, settings, "warm")
         tracemalloc.start()
-        motion.advance(*parts_of(case)[1:], 60 * 2.5e-4, settings, "traced")
+        integrate.advance(*parts_of(case)[1:], 60 * 2.5e-4, settings, "traced")
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 10 * peaks[0]

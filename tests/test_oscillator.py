@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numba import cfunc
 
-from cosserat.solvers import motion
-from cosserat.solvers.stepping import KERNEL
+from cosserat.solvers import integrate
+from cosserat.solvers.energy_momentum import KERNEL
 
 
 def spring(q, after, parameters, order, measures, gradient, band, terms):
@@ -51,7 +51,7 @@ def oscillator(omega, drag):
     held = np.array([False, True, True, True])
     mass = np.zeros((4, 1))
     mass[:, 0] = 1.0
-    return motion.System(Spring(omega), mass, np.zeros(4), held, drag, np.empty((0, 4)))
+    return integrate.System(Spring(omega), mass, np.zeros(4), held, drag, np.empty((0, 4)))
 
 
 def exact(omega, c, t):
@@ -65,14 +65,16 @@ def exact(omega, c, t):
 def rate_of_decay(omega, drag, h):
     """Minus the slope of log energy over a fall of six powers of ten, of the motion and of the exact one."""
     system = oscillator(omega, drag)
-    state = motion.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
+    state = integrate.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
     steps = int(6 * np.log(10) / (drag * h)) + 1
     times, logs = [], []
     each = max(1, steps // 2000)
     for _ in range(0, steps, each):
-        state, _ = motion.advance(system, state, each * h, motion.IntegratorSettings(step=h), "spring")
+        state, _ = integrate.advance(
+            system, state, each * h, integrate.IntegratorSettings(step=h), "spring"
+        )
         times.append(state.time)
-        logs.append(np.log(system.body.energy(state.q) + motion.kinetic_energy(system, state)))
+        logs.append(np.log(system.body.energy(state.q) + integrate.kinetic_energy(system, state)))
     x, v = exact(omega, drag, np.array(times))
     ideal = np.log(omega**2 * x**2 / 2 + v**2 / 2)
     return -np.polyfit(times, logs, 1)[0], -np.polyfit(times, ideal, 1)[0]
@@ -97,19 +99,19 @@ def test_a_resolved_damped_oscillator_is_followed_to_second_order(omega, drag):
     """Under-damped, nearly critical and over-damped."""
     system, errors = oscillator(omega, drag), []
     for h in (0.04, 0.02, 0.01):
-        state = motion.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
-        state, _ = motion.advance(system, state, 4.0, motion.IntegratorSettings(step=h), "spring")
+        state = integrate.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
+        state, _ = integrate.advance(system, state, 4.0, integrate.IntegratorSettings(step=h), "spring")
         errors.append(np.abs(np.array([state.q[0], state.v[0]]) - exact(omega, drag, 4.0)).max())
     np.testing.assert_allclose(np.diff(np.log2(errors)), -2, atol=0.1)
 
 
 def test_what_the_drag_took_is_what_is_missing():
     system = oscillator(30.0, 0.5)
-    state = motion.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
+    state = integrate.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
     start = system.body.energy(state.q)
     for method in ("implicit", "rk4", "rk45"):
-        settings = motion.IntegratorSettings(method=method, step=1e-3, tolerance=1e-10)
-        after, _ = motion.advance(system, state, 2.0, settings, "spring")
-        left = system.body.energy(after.q) + motion.kinetic_energy(system, after)
+        settings = integrate.IntegratorSettings(method=method, step=1e-3, tolerance=1e-10)
+        after, _ = integrate.advance(system, state, 2.0, settings, "spring")
+        left = system.body.energy(after.q) + integrate.kinetic_energy(system, after)
         assert left + after.dissipated == pytest.approx(start, rel=1e-7), method
         assert 0.5 * start < after.dissipated < 0.7 * start

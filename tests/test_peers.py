@@ -8,7 +8,7 @@ import pytest
 from conftest import ROOT
 
 from cosserat.errors import CosseratError, InputError
-from cosserat.peers import compare
+from cosserat.thesis.peers import compare
 
 
 def test_the_problems_are_the_same_for_everyone():

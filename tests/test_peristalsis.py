@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 import cosserat
 from cosserat.errors import InputError, NotConvergedError
-from cosserat.models import doublets
-from cosserat.models.muscle_regions import Instant, Region
-from cosserat.models.nearly_incompressible import apart
-from cosserat.models.peristaltic_rod import Compressible, Crawler, Groups, Incompressible, Loads
+from cosserat.peristalsis import doublets
+from cosserat.peristalsis.crawler import Compressible, Crawler, Groups, Incompressible, Loads
+from cosserat.peristalsis.instant import Instant, Region
+from cosserat.peristalsis.nearly_incompressible import apart
 from cosserat.solvers.regions import RegionSettings
 
 WORM = cosserat.case("worm").problem
@@ -409,7 +409,7 @@ def test_next_to_that_both_solvers_still_agree():
 def test_loads_that_collapse_a_section_are_refused_before_any_solving(
     name, loads, sentence, monkeypatch
 ):
-    monkeypatch.setattr("cosserat.models.muscle_regions.solve", None)
+    monkeypatch.setattr("cosserat.peristalsis.instant.solve", None)
     with pytest.raises(InputError, match=sentence):
         instant(BODIES[name], "thesis", **loads).solve(RegionSettings(), None)
 

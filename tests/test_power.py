@@ -6,10 +6,10 @@ from conftest import ROOT
 from cosserat.__main__ import main
 from cosserat.cases.catalogue import find
 from cosserat.errors import InputError, OutOfToleranceError
-from cosserat.table import power, power_rods
-from cosserat.table.power import Change, edited, notices, table
-from cosserat.table.printed import CHAPTER_3
-from cosserat.table.tolerances import read_table
+from cosserat.thesis.table import power, power_rods
+from cosserat.thesis.table.power import Change, edited, notices, table
+from cosserat.thesis.table.printed import CHAPTER_3
+from cosserat.thesis.table.tolerances import read_table
 
 ROWS = read_table(ROOT / "results/tolerances.csv")
 
@@ -66,12 +66,12 @@ def test_a_change_is_of_the_named_inputs_alone():
 
 
 def test_a_wrong_physics_is_gone_when_it_has_been_tried():
-    from cosserat.models import published
+    from cosserat.rods.energies import hemingway_kernel
 
-    kept = (published.assemble, published.stretching)
+    kept = (hemingway_kernel.assemble, hemingway_kernel.stretching)
     with power_rods.quadratic_wells():
-        assert published.stretching is not kept[1]
-    assert (published.assemble, published.stretching) == kept
+        assert hemingway_kernel.stretching is not kept[1]
+    assert (hemingway_kernel.assemble, hemingway_kernel.stretching) == kept
 
 
 @pytest.mark.parametrize(

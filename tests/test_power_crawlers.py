@@ -4,10 +4,10 @@ import pytest
 from conftest import ROOT
 
 import cosserat
-from cosserat.table import printed
-from cosserat.table.power import notices
-from cosserat.table.power_crawlers import CHANGES, FIT, READINGS, REST, ROBOT, SIZES, WORM
-from cosserat.table.tolerances import read_table
+from cosserat.thesis.table import printed
+from cosserat.thesis.table.power import notices
+from cosserat.thesis.table.power_crawlers import CHANGES, FIT, READINGS, REST, ROBOT, SIZES, WORM
+from cosserat.thesis.table.tolerances import read_table
 
 ROWS = read_table(ROOT / "results/tolerances.csv")
 QUICK = [

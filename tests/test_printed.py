@@ -7,9 +7,9 @@ import pytest
 from conftest import ROOT
 
 import cosserat
-from cosserat.models import earthworm
-from cosserat.table import printed
-from cosserat.table.errata import read_errata
+from cosserat.thesis import earthworm
+from cosserat.thesis.table import printed
+from cosserat.thesis.table.errata import read_errata
 
 CHAPTER_2, CHAPTER_3 = (
     re.findall(

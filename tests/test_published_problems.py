@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import cosserat
-from cosserat import analytic
-from cosserat.models.calibration import beam_of
-from cosserat.table import readouts
+from cosserat.exact import beams
+from cosserat.studies.calibration import beam_of
+from cosserat.thesis.table import readouts
 
 HOLD_ALL = ["x3", "x2", "d3", "d2"]
 
@@ -99,10 +99,10 @@ def test_symmetric_problems_have_symmetric_answers(solved, name):
 @pytest.mark.parametrize("name", ["clamped_free", "necking"])
 def test_director_length_changes_no_displacement(name):
     """Stretches and angles do not know how long a director was drawn; only its plotted displacement does (E3.11)."""
-    from cosserat.models.loaded_rod import LoadedRod
-    from cosserat.models.planar_rod import Geometry
-    from cosserat.solvers.climb import Climb
-    from cosserat.solvers.path import lead
+    from cosserat.rods.kinematics import Geometry
+    from cosserat.rods.loaded_rod import LoadedRod
+    from cosserat.solvers.continuation import lead
+    from cosserat.solvers.equilibrium import Climb
 
     problem = cosserat.case(name).problem
     answers = []
@@ -156,8 +156,8 @@ def test_one_solve_takes_few_steps_and_assembles_the_body_as_often(problem, monk
 @pytest.mark.parametrize(
     ("curve", "director", "clamped"),
     [
-        (analytic.clamped_free_displacement, analytic.clamped_free_director, False),
-        (analytic.clamped_clamped_displacement, analytic.clamped_clamped_director, True),
+        (beams.clamped_free_displacement, beams.clamped_free_director, False),
+        (beams.clamped_clamped_displacement, beams.clamped_clamped_director, True),
     ],
 )
 def test_beam_formulas_solve_timoshenkos_equations(curve, director, clamped):

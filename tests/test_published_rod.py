@@ -6,8 +6,8 @@ from conftest import assembled, make_rod, random_state
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cosserat.models.planar_rod import rigid_motions, strains
-from cosserat.models.published_rod import PublishedRod
+from cosserat.rods.energies.hemingway import PublishedRod
+from cosserat.rods.kinematics import rigid_motions, strains
 
 SEEDS = st.integers(0, 2**32 - 1)
 SIZES = st.sampled_from([3, 4, 5, 9])

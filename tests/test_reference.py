@@ -6,7 +6,7 @@ from conftest import ROOT
 
 import cosserat
 from cosserat.errors import InputError
-from cosserat.table.reference import accept, compare
+from cosserat.thesis.table.reference import accept, compare
 
 REFERENCES = ROOT / "results/reference"
 

@@ -7,9 +7,9 @@ from conftest import make_rod
 import cosserat
 from cosserat.data.dataset import warnings_of
 from cosserat.errors import CrossingError
-from cosserat.models import consistent, published
-from cosserat.models.planar_rod import Geometry, reference, rigid_motions
-from cosserat.models.resolution import refuse_crossing, surface_stretch, unresolved_energy
+from cosserat.rods.energies import hemingway_kernel, reissner
+from cosserat.rods.kinematics import Geometry, reference, rigid_motions
+from cosserat.rods.resolution import refuse_crossing, surface_stretch, unresolved_energy
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.modes import modes
 
@@ -66,7 +66,7 @@ def test_forces_of_a_step_have_no_resultant_and_work_as_the_energy_changes(like)
     start = start + rng.uniform(-1, 1, 24) * 0.005
     turned = 0.7 * rigid_motions(start.reshape(-1, 4))[2].ravel()
     parameters, none, terms = body.parameters, np.empty((0, body.half_bandwidth + 1)), np.empty(16)
-    kernel = published.assemble if like == "vibration_c4_20" else consistent._assemble
+    kernel = hemingway_kernel.assemble if like == "vibration_c4_20" else reissner._assemble
     measures, gradient, missing = np.zeros((6, 4)), np.empty(24), []
     for size in (1.0, 0.5, 0.25):
         step = size * (change + turned)
@@ -137,9 +137,9 @@ def test_modes_too_fast_for_the_step_are_named_and_those_it_follows_are_not():
 
 
 def test_an_energy_that_runs_away_is_named(monkeypatch):
-    from cosserat.models import rod_course
+    from cosserat.problems import checkpoints
 
-    monkeypatch.setattr(rod_course, "UNBALANCED", 1e-14)
+    monkeypatch.setattr(checkpoints, "UNBALANCED", 1e-14)
     data = cosserat.run(BEAM.vary("x", duration=0.01, every=1e-3))
     assert "energy balance" in named(data)
 

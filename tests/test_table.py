@@ -10,11 +10,11 @@ from conftest import ROOT
 
 import cosserat
 from cosserat.errors import InputError, OutOfToleranceError
-from cosserat.table.arithmetic import ARITHMETIC
-from cosserat.table.errata import read_errata
-from cosserat.table.measure import check, judge, measure, outcomes, sentence, summary
-from cosserat.table.readouts import READOUTS, midspan
-from cosserat.table.tolerances import (
+from cosserat.thesis.table.arithmetic import ARITHMETIC
+from cosserat.thesis.table.errata import read_errata
+from cosserat.thesis.table.measure import check, judge, measure, outcomes, sentence, summary
+from cosserat.thesis.table.readouts import READOUTS, midspan
+from cosserat.thesis.table.tolerances import (
     REPORT_COLUMNS,
     Judged,
     Row,
@@ -117,7 +117,7 @@ def test_arithmetic_solves_nothing_and_counts_as_nothing_more():
     for row in rows:
         assert not inspect.signature(ARITHMETIC[row.readout]).parameters
         assert (row.case, row.standing) == ("", "recomputed")
-    tree = ast.parse((ROOT / "cosserat/table/arithmetic.py").read_text())
+    tree = ast.parse((ROOT / "cosserat/thesis/table/arithmetic.py").read_text())
     modules = [node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
     assert not [name for name in modules if re.search(r"runner|data|solvers|readouts", name)]
 

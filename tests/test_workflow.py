@@ -105,7 +105,7 @@ def _shrink(folder):
     rows = [row for row in rows if row[head.index("case")] in KEPT]
     with table.open("w", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([head, *rows])
-    with (folder / "cosserat/figures/catalogue.py").open("a") as file:
+    with (folder / "cosserat/thesis/figures/catalogue.py").open("a") as file:
         file.write(f"\nFIGURES = {{name: FIGURES[name] for name in {DRAWN}}}\n")
 
 
@@ -131,7 +131,7 @@ def test_nothing_is_left_to_do(checkout):
 
 def test_one_case_edited_reruns_its_batch_and_their_descendants_only(checkout, edited):
     key = 'rod.poisson_coupling = "printed"'
-    edited("cosserat/cases/chapter3.toml", key, f"{key}\nrod.poisson = 0.31")
+    edited("cosserat/thesis/cases/chapter3.toml", key, f"{key}\nrod.poisson = 0.31")
     rules, outputs = planned(checkout)
     assert rules == {"simulate", "measure", "check", "figure"}
     drawn = {"figures/fig_3_8.svg", "figures/fig_3_12.svg"}  # together, in one process
@@ -143,7 +143,7 @@ def test_one_case_edited_reruns_its_batch_and_their_descendants_only(checkout, e
 
 
 def test_the_solver_edited_reruns_every_simulation(checkout, edited):
-    edited("cosserat/solvers/climb.py", "_SURE = 5.0", "_SURE = 6.0")
+    edited("cosserat/solvers/equilibrium.py", "_SURE = 5.0", "_SURE = 6.0")
     _, outputs = planned(checkout)
     assert {f"cases/{name}.nc" for name in KEPT} <= outputs
     assert set(KEPT) < set(cosserat.published())
@@ -194,7 +194,7 @@ def test_a_reason_edited_is_read_in_the_book(checkout, edited):
 
 
 def test_a_case_that_cannot_be_solved_stops_the_workflow_with_its_sentence(checkout, edited):
-    edited("cosserat/cases/chapter3.toml", '"1 kN"', '"1e300 N"')
+    edited("cosserat/thesis/cases/chapter3.toml", '"1 kN"', '"1e300 N"')
     code, text = snakemake(checkout, "results/cases/necking.nc")
     assert code != 0
     assert "case 'necking': rounding the unknowns makes forces" in text

@@ -14,11 +14,11 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, SerializeAsAny
 from pydantic_core import PydanticCustomError
 
-from cosserat.cases.tables import published_tables, titles
 from cosserat.errors import InputError, path_of
 from cosserat.kinds import KINDS
 from cosserat.parameters import Parameters, nearest
 from cosserat.problem import Problem
+from cosserat.thesis.cases.tables import published_tables, titles
 
 
 def _check_name(name: str) -> str:
@@ -133,7 +133,7 @@ def _remedy(error: str, text: str) -> str:
         return "for a decimal comma write a decimal point"
     if re.search(rf"{number}(?:\.\d*)?(?:[eE][+-]?\d+)?\s*[^\W\d_]", line):
         return 'write a number that has a unit between quotation marks, such as "2.5 mm"'
-    return "see cosserat/cases/chapter3.toml or chapter2.toml for examples"
+    return "see cosserat/thesis/cases/chapter3.toml or chapter2.toml for examples"
 
 
 def parse(parameters: str) -> Case:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
-from cosserat.models.peristalsis import Crawl, CrawlerProblem
-from cosserat.table.crawl_readouts import crawl
+from cosserat.problems.crawl import Crawl, CrawlerProblem
+from cosserat.thesis.table.crawl_readouts import crawl
 
 Array = NDArray[np.float64]
 

@@ -9,13 +9,13 @@ import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat import analytic, elastica
+from cosserat.exact import beams, elastica
 from cosserat.figures.rod import draw_loads, draw_outline, draw_supports, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, CONSISTENT, EXACT, INK, VARIANT, canvas
-from cosserat.models.calibration import beam_of
-from cosserat.models.planar_rod import UNKNOWNS
-from cosserat.models.rod_motion import RodMotion
-from cosserat.table.readouts import problem_of
+from cosserat.problems.motion import RodMotion
+from cosserat.rods.kinematics import UNKNOWNS
+from cosserat.studies.calibration import beam_of
+from cosserat.thesis.table.readouts import problem_of
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -37,7 +37,7 @@ def fig_3_13(data: Data) -> Figure:
         tip = run.x.sel(axis="E2").isel(vertex=-1) * 1e3
         left.plot(run.time, run.kinetic_energy, line, color=colour, label=label, linewidth=1.0)
         right.plot(run.time, tip, line, color=colour, linewidth=1.0)
-    omega = analytic.first_frequency(beam_of(problem_of(data["vibration_c4_20"])))
+    omega = beams.first_frequency(beam_of(problem_of(data["vibration_c4_20"])))
     last = float(data["vibration_c4_20"].time[-1])
     for ax, length in ((left, np.pi / omega), (right, 2 * np.pi / omega)):
         for start in np.arange(0, last, length):
@@ -92,7 +92,7 @@ def fig_modes(data: Data) -> Figure:
 def anim_vibration(data: Data) -> str:
     """The beam with high shear stiffness over one period, displacements magnified."""
     run = data["vibration_c4_20"]
-    period = 4 * np.pi / analytic.first_frequency(beam_of(problem_of(run))) / 2
+    period = 4 * np.pi / beams.first_frequency(beam_of(problem_of(run))) / 2
     return _animation(run.sel(time=slice(0, 0.963 * period)), magnified=10.0, seconds=2.0)
 
 

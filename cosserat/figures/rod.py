@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
-from cosserat.models.rod_problem import RodProblem, unit_vector
-from cosserat.table.readouts import problem_of
+from cosserat.rods.problem import RodProblem, unit_vector
+from cosserat.thesis.table.readouts import problem_of
 
 Array = NDArray[np.float64]
 

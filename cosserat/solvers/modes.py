@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 
 from cosserat.errors import UnstableError
 from cosserat.solvers.banded import Band, Vector, band_product, hold, negative_eigenvalues
-from cosserat.solvers.motion import System, free_matrices
+from cosserat.solvers.integrate import System, free_matrices
 
 Dense = NDArray[np.float64]
 _ROUNDING = 16 * float(np.finfo(float).eps)  # of a squared frequency, as a share of the largest one

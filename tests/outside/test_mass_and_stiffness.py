@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import cosserat
-from cosserat import elastica
 from cosserat.data.dataset import warnings_of
-from cosserat.models.calibration import beam_of
+from cosserat.exact import elastica
+from cosserat.studies.calibration import beam_of
 
 from . import closed, timoshenko
 from .cases import ORDER, frequencies, inputs, last, piece, run

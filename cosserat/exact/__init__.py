@@ -1,0 +1,1 @@
+"""Exact answers of slender bodies: closed forms, and the elastica."""

@@ -1,0 +1,266 @@
+"""The rod that crawls, sections 2.1-2.6: sections stay vertical circles or ellipses, and muscles load it by regions.
+
+Stretches mu_1 (vertical), mu_2 (across) and mu_3 (along) of the material at z = xi / l_0 obey
+
+    mu_alpha'' = f_alpha(mu_1, mu_2)
+
+in every region, with mu_3 given by the balance of forces along the rod (compressible) or by constant volume.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from pydantic import Field, field_validator, model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.parameters import Parameters, Quantity
+from cosserat.rods.directed_rod import Section, integrated_stiffnesses
+
+Array = NDArray[np.float64]
+
+
+_INCOMPRESSIBLE = 0.5 - 1e-9  # beyond this Poisson's ratio the two Lame stiffnesses differ by rounding
+_AUXETIC = (
+    -1 + 1e-4
+)  # nearer to -1 the resistance to a change of volume, 1 + 2 p of (2.3.19), is lost in rounding
+_SLENDER = 1e6  # longest body in radii: beyond, its layers are lost in rounding
+
+
+class Compressible(Parameters):
+    """An isotropic material by two of its three moduli, section 2.6; the energy is (2.3.1)."""
+
+    kind: Literal["compressible"] = "compressible"
+    young: Annotated[float, Quantity("Pa", "E", "2.6.3", above=0)] | None = None
+    poisson: Annotated[float, Quantity("1", r"\nu", "2.6.6", above=-1, below=0.5)] | None = None
+    bulk: Annotated[float, Quantity("Pa", r"\kappa", "2.6.15", above=0)] | None = None
+
+    @model_validator(mode="after")
+    def _two_of_three(self) -> Self:
+        given = [name for name in ("young", "poisson", "bulk") if getattr(self, name) is not None]
+        if len(given) != 2:
+            raise PydanticCustomError(
+                "moduli", f"has {', '.join(given) or 'no modulus'}; give two of young, poisson and bulk"
+            )
+        _, poisson = self.moduli
+        if -1 < poisson <= _AUXETIC:
+            raise PydanticCustomError(
+                "moduli",
+                f"has a Poisson's ratio nu = {poisson:.12g}; it must be above {_AUXETIC:g}: nearer to -1 the stiffness "
+                "becomes singular, eq. (2.3.19)",
+            )
+        if not -1 < poisson < _INCOMPRESSIBLE:
+            raise PydanticCustomError(
+                "moduli",
+                f"has a Poisson's ratio nu = {poisson:.12g}; it must be above -1 and below 1/2: for a material that "
+                "keeps its volume take kind = 'incompressible'",
+            )
+        return self
+
+    @property
+    def moduli(self) -> tuple[float, float]:
+        """E [Pa] and nu.  kappa = E / (3 (1 - 2 nu)): the 3 that (2.6.15), (2.6.16) lack, erratum E2.6."""
+        if self.bulk is None:
+            assert self.young is not None
+            assert self.poisson is not None
+            return self.young, self.poisson
+        if self.young is None:
+            assert self.poisson is not None
+            return 3 * self.bulk * (1 - 2 * self.poisson), self.poisson
+        return self.young, (1 - self.young / (3 * self.bulk)) / 2
+
+
+class Incompressible(Parameters):
+    """A material of constant volume, section 2.4: mu_1 mu_2 mu_3 = 1."""
+
+    kind: Literal["incompressible"] = "incompressible"
+    young: Annotated[float, Quantity("Pa", "E", "2.6.17", above=0)]
+
+
+class Crawler(Parameters):
+    """A straight round body on the ground."""
+
+    length: Annotated[float, Quantity("m", r"\ell_0", "2.3.4", above=0)]
+    radius: Annotated[float, Quantity("m", "R", "2.2.8", above=0)]
+    material: Annotated[Compressible | Incompressible, Field(discriminator="kind")]
+    mass: Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None = None
+    density: Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None = None
+
+    @field_validator("mass", "density", mode="before")
+    @classmethod
+    def _none_at_all(cls, value: object) -> object:
+        """A file has no word for nothing: 'none' takes away what `like` brought in."""
+        return None if value == "none" else value
+
+    @model_validator(mode="after")
+    def _one_of_two(self) -> Self:
+        if (self.mass is None) == (self.density is None):
+            fault = "has neither" if self.mass is None else "has both"
+            raise PydanticCustomError(
+                "mass",
+                f"{fault} a mass and a density; give one of them (and 'none' for what 'like' brought in)",
+            )
+        if self.length > _SLENDER * self.radius:
+            raise PydanticCustomError(
+                "slender",
+                f"has length / radius = {self.length / self.radius:.3g}; it must be below {_SLENDER:g}",
+            )
+        return self
+
+    @property
+    def area(self) -> float:
+        """A_0 [m^2]."""
+        return float(np.pi * self.radius**2)
+
+    @property
+    def line_density(self) -> float:
+        """rho_0 [kg/m].  ASSUME mass over length where the mass is given: the page gives no rho_0 of the worm."""
+        return self.mass / self.length if self.mass is not None else (self.density or 0.0) * self.area
+
+    @property
+    def stiffnesses(self) -> tuple[float, float, float]:
+        """k_S, k_P [N] and k_G [N m^2] of eq. (2.6.20): 4 k_1, 2 k_7 and k_10 of eq. (1.2.95); compressible only."""
+        assert isinstance(self.material, Compressible)
+        k = integrated_stiffnesses(*self.material.moduli, Section.circle(self.radius))
+        return 4 * k[1], 2 * k[7], k[10]
+
+    @property
+    def incompressible_stiffnesses(self) -> tuple[float, float]:
+        """k_I [N] of eq. (2.6.17) and k_G [N m^2] of eq. (2.6.22)."""
+        return 2 / 3 * self.material_young * self.area, self.material_young * np.pi * self.radius**4 / 12
+
+    @property
+    def material_young(self) -> float:
+        """E [Pa]."""
+        return (
+            self.material.moduli[0] if isinstance(self.material, Compressible) else self.material.young
+        )
+
+
+Contact = Literal["weight", "printed"]
+"""Ground reaction: rho_0 g, or rho_0 g / mu_3 as printed in eq. (2.2.20) (erratum E2.7)."""
+AdvancingForce = Literal["none", "continuous"]
+"""n in advancing regions: zero (section 2.3) or that of the anchoring regions beside them (section 2.4)."""
+Multiplier = Literal["balanced", "printed"]
+"""Advancing regions of the incompressible rod: lambda_c mu_1 mu_2 constant, or eq. (2.4.18) as printed (E2.5)."""
+
+
+class Loads(Parameters):
+    """What acts on a crawler, and which of the page's forms is taken."""
+
+    anchoring: Annotated[float, Quantity("N", r"\bar{D}", "2.2.7", at_least=0)]
+    """Force of the longitudinal muscles."""
+    advancing: Annotated[float, Quantity("Pa", "p", "2.2.8")]
+    """Pressure of the circular muscles."""
+    gravity: Annotated[float, Quantity("m/s^2", "g", "2.2.18", at_least=0)] = 9.81
+    contact: Contact = "weight"
+    advancing_force: AdvancingForce | None = None
+    """By default as the section on the material has it: "none" if compressible, "continuous" if incompressible."""
+    multiplier: Multiplier = "balanced"
+
+
+@dataclass(frozen=True)
+class Groups:
+    """The dimensionless parameters of eqs. (2.3.4), (2.3.8) and (2.4.9); i and delta only where incompressible.
+
+    g : k_S l_0^2 / k_G, or i : k_I l_0^2 / k_G.  p : k_P / k_S.  d : D / k_S, or delta : D l_0^2 / k_G.
+    c : p pi R^2 l_0^2 / k_G.  m : R rho_0 g l_0^2 / k_G.
+    """
+
+    incompressible: bool
+    stiffness: float  # g or i
+    p: float
+    force: float  # d or delta
+    c: float
+    m: float
+    printed_contact: bool
+
+    @classmethod
+    def of(cls, body: Crawler, loads: Loads) -> Groups:
+        """The groups of a body under loads."""
+        incompressible = isinstance(body.material, Incompressible)
+        if incompressible:
+            k, k_g = body.incompressible_stiffnesses
+            k_p = 0.0
+        else:
+            k, k_p, k_g = body.stiffnesses
+        square = body.length**2 / k_g
+        return cls(
+            incompressible,
+            stiffness=k * square,
+            p=k_p / k,
+            force=loads.anchoring * square if incompressible else loads.anchoring / k,
+            c=loads.advancing * body.area * square,
+            m=body.radius * body.line_density * loads.gravity * square,
+            printed_contact=loads.contact == "printed",
+        )
+
+    def compressible_source(self, mu: Array, n: Array, c: Array) -> tuple[Array, Array, Array]:
+        """f, its derivative and mu_3 of the compressible rod: see `_compressible`."""
+        return _compressible(mu, n, c, self.stiffness, self.p, self.m, self.printed_contact)
+
+    def incompressible_source(
+        self, mu: Array, multiplier: Array, exponent: Array, c: Array
+    ) -> tuple[Array, Array, Array]:
+        """f, its derivative and mu_3 of the incompressible rod: see `_incompressible`."""
+        return _incompressible(mu, multiplier, exponent, c, self.stiffness, self.m, self.printed_contact)
+
+
+@njit(cache=True)
+def _compressible(
+    mu: Array, n: Array, c: Array, g: float, p: float, m: float, printed_contact: bool
+) -> tuple[Array, Array, Array]:
+    """Right-hand sides of eqs. (2.3.6) and (2.3.9) at K points.
+
+    mu : (K, 2).  n : (K,) contact force over k_S, -d or 0.  c : (K,) advancing load, or 0.
+    Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
+    """
+    f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
+    for k in range(mu.shape[0]):
+        mu_1, mu_2 = mu[k, 0], mu[k, 1]
+        mu_3[k] = (
+            1 + n[k] - p * (mu_1 + mu_2 - 2)
+        )  # n of (2.3.2), for (2.3.5) and (2.3.10); erratum E2.1
+        contact = m / mu_3[k] if printed_contact else m
+        d_contact = m * p / mu_3[k] ** 2 if printed_contact else 0.0
+        # k^alpha of (2.3.2) over k_S with mu_3 put in, so that nothing is lost as nu tends to 1/2
+        k_1 = (1 - p) * ((1 + p) * (mu_1 - 1) + p * (mu_2 - 1)) + p * n[k]
+        k_2 = (1 - p) * ((1 + p) * (mu_2 - 1) + p * (mu_1 - 1)) + p * n[k]
+        f[k, 0] = contact + g * k_1 + c[k]
+        f[k, 1] = g * k_2 + c[k]
+        df[k, 0, 0] = d_contact + g * (1 - p) * (1 + p)
+        df[k, 0, 1] = d_contact + p * g * (1 - p)
+        df[k, 1, 0] = p * g * (1 - p)
+        df[k, 1, 1] = g * (1 - p) * (1 + p)
+    return f, df, mu_3
+
+
+@njit(cache=True)
+def _incompressible(
+    mu: Array, multiplier: Array, exponent: Array, c: Array, i: float, m: float, printed_contact: bool
+) -> tuple[Array, Array, Array]:
+    """Right-hand sides of eqs. (2.4.10) and (2.4.13) at K points.
+
+    mu : (K, 2).  multiplier : (K,) lambda_c, which goes as (mu_1 mu_2)^-exponent.  c : (K,) advancing load, or 0.
+    Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
+    """
+    f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
+    for k in range(mu.shape[0]):
+        mu_1, mu_2 = mu[k, 0], mu[k, 1]
+        lam, s = multiplier[k], exponent[k]
+        mu_3[k] = 1 / (mu_1 * mu_2)  # (2.4.1)
+        contact = m * mu_1 * mu_2 if printed_contact else m
+        f[k, 0] = c[k] + contact + lam / mu_1 + i * (2 * mu_1 + mu_2 - 3)
+        f[k, 1] = c[k] + lam / mu_2 + i * (2 * mu_2 + mu_1 - 3)
+        df[k, 0, 0] = 2 * i - (1 + s) * lam / (mu_1 * mu_1)
+        df[k, 0, 1] = i - s * lam / (mu_1 * mu_2)
+        df[k, 1, 0] = i - s * lam / (mu_1 * mu_2)
+        df[k, 1, 1] = 2 * i - (1 + s) * lam / (mu_2 * mu_2)
+        if printed_contact:
+            df[k, 0, 0] += m * mu_2
+            df[k, 0, 1] += m * mu_1
+    return f, df, mu_3

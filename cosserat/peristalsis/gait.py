@@ -1,0 +1,276 @@
+"""Gaits as data, section 2.5: fronts that travel through the body, and the point that holds on to the ground.
+
+Times count phases: 0 is the start of the first phase, 1 its end, 1.5 the middle of the second.  Places are shares of
+the reference length: 0 the rear end, 1 the front end.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.errors import InputError
+from cosserat.parameters import Parameters, Quantity
+from cosserat.peristalsis.instant import Muscle, Region
+
+Phase = Annotated[float, Quantity("1", at_least=0)]
+Place = Annotated[float, Quantity("1", r"\tilde{z}", "2.3.14")]
+Track = tuple[tuple[Phase, Place], ...]
+"""A piecewise-linear path: points (phase, place)."""
+
+_SAME = 1e-9  # phases closer than this are one
+_BESIDE = 1e-7  # how far beside a break its two sides are compared, in phases
+_CARRIED = 1e-4  # share of the body that fronts may have passed between those sides, and the clearance
+_MOST_MOMENTS = 100_000
+
+
+@dataclass(frozen=True)
+class Moment:
+    """What a gait asks for at one time: time [s] since the start of the stride, the regions, the anchored place."""
+
+    phase: float
+    time: float
+    regions: tuple[Region, ...]
+    anchor: float
+
+    @property
+    def holding(self) -> Muscle:
+        """The load on the place that holds on; a gait has no anchor on a front inside the body."""
+        return next(r.load for r in self.regions if r.left <= self.anchor <= r.right)
+
+
+class Gait(Parameters):
+    """A periodic gait.
+
+    A front gamma has anchoring loads behind it and advancing loads before it; a front eta the other way round.  At the
+    time at which one track ends and another begins, the one that ends counts.
+    """
+
+    phases: tuple[Annotated[float, Quantity("s", "t_p, t_s", "2.8", above=0)], ...]
+    gamma: tuple[Track, ...] = ()
+    eta: tuple[Track, ...] = ()
+    anchor: tuple[Track, ...]
+    """Where the body holds on; the tracks follow each other without gaps."""
+    at_rest: Muscle = "anchoring"
+    """The load on the whole body while no front is on it."""
+    clearance: Annotated[float, Quantity("1", "", "2.5.9", above=0, below=0.1)] = 1e-6
+    """A front nearer to an end than this has left the body.  ASSUME next to nothing: no stride depends on it, E2.14."""
+    sudden: Annotated[float, Quantity("1", at_least=0)] = 0.0
+    """Largest share of the body whose load may change at once, where tracks end and begin."""
+
+    @model_validator(mode="after")
+    def _is_a_gait(self) -> Self:
+        if not self.phases:
+            raise PydanticCustomError(
+                "gait", "'phases' is empty; give the duration of at least one phase"
+            )
+        for name in ("gamma", "eta", "anchor"):
+            for number, track in enumerate(getattr(self, name)):
+                self._check_track(f"'{name}.{number}'", track)
+        self._check_anchor()
+        for begin, end in itertools.pairwise(self.breaks()):
+            self._refuse_crossing(begin, end)
+            for phase in (begin, (begin + end) / 2, end):
+                self._refuse_overlap(phase)
+        for phase in self.breaks():
+            self._refuse_sudden_change(phase)
+        return self
+
+    @property
+    def duration(self) -> float:
+        """Duration of one stride [s]."""
+        return math.fsum(self.phases)
+
+    def breaks(self) -> list[float]:
+        """Phases at which a track begins, ends or turns, and the ends of all phases, increasing."""
+        tracks = itertools.chain(self.gamma, self.eta, self.anchor)
+        found = [float(n) for n in range(len(self.phases) + 1)] + [
+            p for track in tracks for p, _ in track
+        ]
+        return _distinct(found)
+
+    def time(self, phase: float) -> float:
+        """Seconds since the start of the stride."""
+        whole = min(int(phase), len(self.phases) - 1)
+        return math.fsum(self.phases[:whole]) + (phase - whole) * self.phases[whole]
+
+    def fronts(self, phase: float) -> list[tuple[float, str]]:
+        """Places and kinds ("gamma" or "eta") of the fronts on the body, from the rear, their tracks' ends included."""
+        found = []
+        for kind in ("gamma", "eta"):
+            for track in getattr(self, kind):
+                place = _follow(track, phase)
+                if place is not None:
+                    inside = phase - _BESIDE if phase > track[0][0] else phase + _BESIDE
+                    found.append(
+                        (place, _place(track, inside), kind)
+                    )  # two at one end: as they stand inside
+        return [(place, kind) for place, _, kind in sorted(found)]
+
+    def regions(self, phase: float) -> tuple[Region, ...]:
+        """The regions of one time, without those shorter than the clearance."""
+        load: Muscle = self.at_rest
+        fronts = self.fronts(phase)
+        if fronts:
+            load = _behind(fronts[0][1])
+        cuts = [0.0]
+        loads = [load]
+        for place, kind in fronts:
+            load = _ahead(kind)
+            if place < self.clearance:
+                loads[-1] = load
+            elif place <= 1 - self.clearance:
+                cuts.append(place)
+                loads.append(load)
+        return tuple(Region(a, b, m) for a, b, m in zip(cuts, [*cuts[1:], 1.0], loads, strict=True))
+
+    def anchored(self, phase: float) -> float:
+        """The place that holds on to the ground."""
+        for track in self.anchor:
+            place = _follow(track, phase)
+            if place is not None:
+                return place
+        raise AssertionError("the tracks of the anchor were checked to cover the stride")
+
+    def moments(self, step: float) -> list[Moment]:
+        """The stride from its start to its end, in equal steps of at most `step` [s] within each phase.
+
+        Every break of a track is among the times: off the grid, strides come out wrong by millimetres.
+
+        Raises
+        ------
+        InputError : the step is so short that there would be too many.
+        """
+        if self.duration > _MOST_MOMENTS * step:
+            raise InputError(
+                f"'step' = {step:g} s divides a stride of {self.duration:g} s into more than {_MOST_MOMENTS} instants; "
+                "take a longer one"
+            )
+        phases = self.breaks()
+        for number, duration in enumerate(self.phases):
+            count = math.ceil(duration / step - _SAME)
+            phases.extend(number + k / count for k in range(count + 1))
+        return [Moment(p, self.time(p), self.regions(p), self.anchored(p)) for p in _distinct(phases)]
+
+    def _check_track(self, name: str, track: Track) -> None:
+        if len(track) < 2:
+            raise PydanticCustomError(
+                "gait", f"{name} has {len(track)} points; a track needs two or more"
+            )
+        for (a, _), (b, _) in itertools.pairwise(track):
+            if b <= a:
+                raise PydanticCustomError(
+                    "gait", f"{name} goes from phase {a:g} to phase {b:g}; let its times increase"
+                )
+        if track[-1][0] > len(self.phases) + _SAME:
+            raise PydanticCustomError(
+                "gait",
+                f"{name} ends at phase {track[-1][0]:g}, but 'phases' has {len(self.phases)}; end it there",
+            )
+        for phase, place in track:
+            if not 0 <= place <= 1:
+                raise PydanticCustomError(
+                    "gait",
+                    f"{name} is at {place:g} at phase {phase:g}, off the body; places run from 0 to 1",
+                )
+
+    def _check_anchor(self) -> None:
+        expected = 0.0
+        for track in (*self.anchor, None):
+            begins = len(self.phases) if track is None else track[0][0]
+            if abs(begins - expected) > _SAME:
+                what = "overlaps" if begins < expected else "has a gap"
+                raise PydanticCustomError(
+                    "gait",
+                    f"'anchor' {what} between phases {min(begins, expected):g} and {max(begins, expected):g}; "
+                    "let each track begin where the one before it ends, from 0 to the last phase",
+                )
+            if track is not None:
+                expected = track[-1][0]
+
+    def _refuse_sudden_change(self, phase: float) -> None:
+        """Fronts carry every change of load; the end of the stride is its start."""
+        last = float(len(self.phases))
+        before = self.regions((last if phase == 0 else phase) - _BESIDE)
+        after = self.regions((0.0 if phase == last else phase) + _BESIDE)
+        changed = sum(
+            max(0.0, min(a.right, b.right) - max(a.left, b.left))
+            for a in before
+            for b in after
+            if a.load != b.load
+        )
+        if changed > self.sudden + _CARRIED:
+            raise PydanticCustomError(
+                "gait",
+                f"at phase {phase % last:g} the load on {changed:.3g} of the body changes at once; let fronts enter "
+                "and leave at the ends and the stride end as it began, set 'at_rest', or allow it with 'sudden'",
+            )
+
+    def _refuse_crossing(self, begin: float, end: float) -> None:
+        """All tracks are straight between two breaks: two of them cross if their order changes."""
+        middle = (begin + end) / 2
+        active = [
+            (kind, track)
+            for kind in ("gamma", "eta", "anchor")
+            for track in getattr(self, kind)
+            if _follow(track, middle) is not None
+        ]
+        for (first, one), (second, other) in itertools.combinations(active, 2):
+            before, after = (_place(one, p) - _place(other, p) for p in (begin, end))
+            if before * after < 0:
+                phase = begin + (end - begin) * before / (before - after)
+                raise PydanticCustomError(
+                    "gait",
+                    f"{first} and {second} cross at phase {phase:g}; keep them apart, or end one where the other "
+                    "begins",
+                )
+
+    def _refuse_overlap(self, phase: float) -> None:
+        inner = [f for f in self.fronts(phase) if self.clearance <= f[0] <= 1 - self.clearance]
+        for (a, first), (b, second) in itertools.pairwise(inner):
+            if first == second or b - a < self.clearance:
+                raise PydanticCustomError(
+                    "gait",
+                    f"at phase {phase:g} the fronts {first} at {a:g} and {second} at {b:g} overlap or leave an empty "
+                    "region; gamma and eta must take turns along the body",
+                )
+        anchor = self.anchored(phase)
+        for place, kind in inner:
+            if abs(place - anchor) < self.clearance:
+                raise PydanticCustomError(
+                    "gait",
+                    f"at phase {phase:g} the anchor lies on the front {kind} at {place:g}, where the body changes "
+                    "under it; put it beside the front",
+                )
+
+
+def _distinct(phases: list[float]) -> list[float]:
+    """Increasing, those that are one taken once."""
+    ordered = sorted(phases)
+    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > _SAME]
+
+
+def _follow(track: Track, phase: float) -> float | None:
+    """The place of a track at a time; it has begun after its first point, but for the start of the stride."""
+    begin, end = track[0][0], track[-1][0]
+    if phase > end + _SAME or phase < begin - _SAME or (phase < begin + _SAME and begin > _SAME):
+        return None
+    return _place(track, phase)
+
+
+def _place(track: Track, phase: float) -> float:
+    return float(np.interp(phase, *np.transpose(track)))
+
+
+def _behind(kind: str) -> Muscle:
+    return "anchoring" if kind == "gamma" else "advancing"
+
+
+def _ahead(kind: str) -> Muscle:
+    return "advancing" if kind == "gamma" else "anchoring"

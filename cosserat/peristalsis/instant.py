@@ -1,0 +1,365 @@
+"""One instant of a crawler: anchoring and advancing loads in consecutive regions, and the stretches they cause.
+
+Conditions, the same for both solvers: stretches and their slopes (hence m^alpha) are continuous where regions meet,
+slopes vanish at the ends (2.3.13), and n in advancing regions is what `Loads.advancing_force` says.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.errors import InputError, NotConvergedError, OutOfReachError
+from cosserat.peristalsis.crawler import Crawler, Groups, Incompressible, Loads
+from cosserat.solvers.collocation import RegionSystem, collocate
+from cosserat.solvers.elements import Mesh, graded
+from cosserat.solvers.regions import RegionSettings, Remote, Source, solve
+
+Array = NDArray[np.float64]
+Muscle = Literal["anchoring", "advancing"]
+
+_LEAST = 0.02  # a plateau with a stretch below this counts as collapsed
+_LOCAL_STEPS = 60
+_SETTLED = 1e-12  # correction of a plateau that counts as converged
+
+
+@dataclass(frozen=True)
+class Region:
+    """Where one of the loads acts, in shares of the length."""
+
+    left: float
+    right: float
+    load: Muscle
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The stretches of one instant at the points of a mesh over [0, 1].
+
+    mu, slope : (M, p + 1, 2) mu_1, mu_2 and their derivatives in z = xi / l_0.  mu_3 : (M, p + 1).
+    multiplier : (M, p + 1) lambda_c of eq. (2.4.12); zero if compressible.  effort : iterations, or nodes of solve_bvp.
+    incompressible : whether mu_1 mu_2 mu_3 = 1, eq. (2.4.1).
+    """
+
+    mesh: Mesh
+    mu: Array
+    slope: Array
+    mu_3: Array
+    multiplier: Array
+    effort: int
+    incompressible: bool
+
+    def at(self, z: Array) -> tuple[Array, Array, Array, Array]:
+        """mu (K, 2), slope (K, 2), mu_3 (K,) and multiplier (K,) at given places.
+
+        Interpolated are the stretches and n = lambda_c mu_1 mu_2, which is constant where it is balanced; mu_3 and
+        lambda_c follow from them, so that (2.4.1) holds to rounding there too.
+        """
+        scalars = np.stack([self.mu_3, self.multiplier * self.mu.prod(axis=2)], axis=2)
+        found = self.mesh.interpolate(np.concatenate([self.mu, self.slope, scalars], axis=2), z)
+        mu, slope, mu_3, force = found[:, :2], found[:, 2:4], found[:, 4], found[:, 5]
+        volume = mu.prod(axis=1)
+        return mu, slope, 1 / volume if self.incompressible else mu_3, force / volume
+
+
+def holds_force(body: Crawler, loads: Loads) -> bool:
+    """Whether advancing regions carry the force of the anchoring ones beside them."""
+    default = "continuous" if isinstance(body.material, Incompressible) else "none"
+    return (loads.advancing_force or default) == "continuous"
+
+
+def _merged(regions: Sequence[Region]) -> tuple[Region, ...]:
+    """The same loads without junctions between equal ones."""
+    merged = [regions[0]]
+    for region in regions[1:]:
+        if region.load == merged[-1].load:
+            merged[-1] = Region(merged[-1].left, region.right, region.load)
+        else:
+            merged.append(region)
+    return tuple(merged)
+
+
+class Instant:
+    """One boundary value problem: a body, its loads, and the regions in which they act."""
+
+    def __init__(self, body: Crawler, loads: Loads, regions: Sequence[Region], name: str) -> None:
+        self.body, self.loads, self.name = body, loads, name
+        self.regions = regions = _merged(regions)
+        self.groups = Groups.of(body, loads)
+        self.advancing = np.array([r.load == "advancing" for r in regions])
+        continuous = holds_force(body, loads) and not self.advancing.all()
+        self.force = np.where(self.advancing & (not continuous), 0.0, -self.groups.force)
+        self.pressure = np.where(self.advancing, self.groups.c, 0.0)
+        printed = self.groups.incompressible and loads.multiplier == "printed"
+        lengths = np.array([r.right - r.left for r in regions])
+        self.exponent = np.where(self.advancing & printed, lengths, 1.0)
+
+    @functools.cached_property
+    def plateaus(self) -> tuple[Array, float]:
+        """mu_1, mu_2 far inside a long region of each kind, shape (R, 2), and the shortest length of decay there.
+
+        Raises
+        ------
+        InputError : the loads collapse a section.
+        """
+        mu = np.ones((len(self.regions), 2))
+        for _ in range(_LOCAL_STEPS):
+            f, df, mu_3 = self._source(mu, np.ones_like(self.exponent), self.force)
+            step = -np.linalg.solve(df, f[:, :, None])[:, :, 0]
+            if np.abs(step).max() < _SETTLED:
+                break
+            bound = np.where(step < 0, -0.9 * mu / np.minimum(step, -1e-300), 1.0)
+            mu = mu + np.minimum(1.0, bound.min(axis=1))[:, None] * step
+        for region, (mu_1, mu_2), along in zip(self.regions, mu, mu_3, strict=True):
+            for number, value in ((1, mu_1), (2, mu_2), (3, along)):
+                if not value > _LEAST:
+                    raise self._collapse(region, number)
+        if not np.abs(step).max() < _SETTLED:
+            raise NotConvergedError(
+                f"{self.asked}: no homogeneous state found in {_LOCAL_STEPS} steps; take weaker loads",
+                iterations=_LOCAL_STEPS,
+                residual=float(np.abs(step).max()),
+            )
+        fastest = np.abs(np.linalg.eigvals(df)).max()
+        return mu, float(1 / np.sqrt(fastest))
+
+    @property
+    def asked(self) -> str:
+        """The instant with the parameters that may put it out of reach, eq. (2.3.19), for a message."""
+        cuts = " and ".join(f"{region.right:.4g}" for region in self.regions[:-1]) or "no place"
+        return (
+            f"{self.name} with 'loads.anchoring' = {self.loads.anchoring:g} N, 'loads.advancing' = "
+            f"{self.loads.advancing:g} Pa and regions that meet at {cuts}"
+        )
+
+    def refuse_collapse(self) -> None:
+        """Nothing, or what `plateaus` raises."""
+        _ = self.plateaus
+
+    def _collapse(self, region: Region, number: int) -> InputError:
+        muscles = (
+            f"'loads.anchoring' = {self.loads.anchoring:g} N"
+            if region.load == "anchoring"
+            else f"'loads.advancing' = {self.loads.advancing:g} Pa"
+        )
+        weight = self.body.line_density * self.loads.gravity
+        return InputError(
+            f"{self.name}: {muscles} and a weight of {weight:.3g} N/m would collapse the sections where they act "
+            f"(mu_{number} falls to zero); take weaker loads or a stiffer material than E = "
+            f"{self.body.material_young:g} Pa"
+        )
+
+    def _source(self, mu: Array, exponent: Array, factor: Array) -> tuple[Array, Array, Array]:
+        """f, its derivative and mu_3 at one point of each region, or at K points with arrays to match."""
+        if not self.groups.incompressible:
+            return self.groups.compressible_source(mu, factor, self.pressure)
+        multiplier = factor * (mu[:, 0] * mu[:, 1]) ** -exponent
+        return self.groups.incompressible_source(mu, multiplier, exponent, self.pressure)
+
+    def mesh(self, settings: RegionSettings) -> Mesh:
+        """The mesh of this instant."""
+        _, layer = self.plateaus
+        edges = [self.regions[0].left, *(r.right for r in self.regions)]
+        return graded(edges, layer, settings.elements, settings.degree)
+
+    def guess(self, z: Array, region: Array) -> Array:
+        """Plateaus joined by layers, shape (K, 2), at places z that lie in the regions of these numbers."""
+        mu, layer = self.plateaus
+        result: Array = mu[region]
+        for number, junction in enumerate(self.regions[:-1]):
+            jump = (mu[number + 1] - mu[number]) / 2
+            for side, sign in ((number, 1.0), (number + 1, -1.0)):
+                fade = np.exp(-np.abs(z - junction.right) / (2 * layer)) * (region == side)
+                result = result + sign * fade[:, None] * jump
+        return result
+
+    def _cold(self, mesh: Mesh) -> Array:
+        """The guess at the nodes of a mesh."""
+        z = np.append(mesh.places[:, :-1].ravel(), mesh.ends[-1])
+        return self.guess(z, np.append(np.repeat(mesh.region, mesh.degree), mesh.region[-1]))
+
+    def solve(self, settings: RegionSettings, before: Array | None) -> tuple[Profile, Array]:
+        """The banded solver, warm-started from the last instant's nodal values where their number is the same.
+
+        Returns the profile and its nodal values, shape (nodes, 2).
+
+        Raises
+        ------
+        InputError : the loads collapse a section.  NotConvergedError : no solution.
+        """
+        mesh = self.mesh(settings)
+        equation = _Equation(self, mesh)
+        if before is None or before.shape[0] != mesh.nodes:
+            solved = solve(mesh, equation, self._cold(mesh), settings, self.asked)
+        else:
+            try:
+                solved = solve(mesh, equation, before, settings, self.asked)
+            except NotConvergedError:
+                solved = solve(mesh, equation, self._cold(mesh), settings, self.asked)
+        mu = mesh.split(solved.u)
+        mu_3, multiplier = equation.along(mu)
+        slope, incompressible = mesh.slope(mu), self.groups.incompressible
+        profile = Profile(mesh, mu, slope, mu_3, multiplier, solved.iterations, incompressible)
+        return profile, solved.u
+
+    def collocate(self, settings: RegionSettings, tolerance: float) -> Profile:
+        """The thesis's way: first-order systems on a common domain, eqs. (2.3.17)-(2.3.18), (2.4.18)-(2.4.19).
+
+        The profile is sampled on the mesh of the banded solver.
+
+        Raises
+        ------
+        InputError : the loads collapse a section.  NotConvergedError : no solution.
+        """
+        mesh = self.mesh(settings)
+        systems = [self._system(number) for number in range(len(self.regions))]
+        start = np.unique(
+            np.concatenate(
+                [
+                    (mesh.ends[np.append(mesh.region == r, False)] - s.left) / (s.right - s.left)
+                    for r, s in enumerate(systems)
+                ]
+                + [np.ones(1)]
+            ).round(12)
+        )
+        found = collocate(systems, self._conditions, start, tolerance, self.asked)
+        y = [
+            found.solution(int(r), z).T for r, z in zip(mesh.region, mesh.places, strict=True)
+        ]  # (p + 1, 4 or 5) each
+        mu, slope = np.array([v[:, 0:3:2] for v in y]), np.array([v[:, 1:4:2] for v in y])
+        mu_3, multiplier = _Equation(self, mesh).along(mu)
+        for e, values in enumerate(y):
+            if values.shape[1] > 4:
+                multiplier[e] = values[:, 4]
+        return Profile(mesh, mu, slope, mu_3, multiplier, found.nodes, self.groups.incompressible)
+
+    def _system(self, number: int) -> RegionSystem:
+        region = self.regions[number]
+        c, force = self.pressure[number], self.force[number]
+        followed = self.groups.incompressible and bool(self.advancing[number])
+
+        def rate(y: Array) -> Array:
+            mu = np.ascontiguousarray(y[0:3:2].T)
+            count = np.ones(mu.shape[0])
+            if not self.groups.incompressible:
+                f, _, _ = self.groups.compressible_source(mu, force * count, c * count)
+                return np.array([y[1], f[:, 0], y[3], f[:, 1]])
+            multiplier = y[4] if followed else force / (y[0] * y[2])
+            f, _, _ = self.groups.incompressible_source(mu, multiplier, count, c * count)
+            dy = [y[1], f[:, 0], y[3], f[:, 1]]
+            if (
+                followed
+            ):  # (2.4.13)_3; as printed in (2.4.18) the length of the region is in it once too often
+                share = self.exponent[number]
+                dy.append(-share * y[4] * (y[1] / y[0] + y[3] / y[2]))
+            return np.array(dy)
+
+        def guess(z: Array) -> Array:
+            mu = self.guess(z, np.full(z.size, number))
+            slope = np.gradient(mu, z, axis=0)
+            y = [mu[:, 0], slope[:, 0], mu[:, 1], slope[:, 1]]
+            if followed:
+                y.append(force / (mu[:, 0] * mu[:, 1]))
+            return np.array(y)
+
+        return RegionSystem(region.left, region.right, 5 if followed else 4, rate, guess)
+
+    def _conditions(self, left: list[Array], right: list[Array]) -> Array:
+        """(2.3.18), or (2.4.19) with (2.4.14): also for regions that begin or end with an advancing one (E2.12)."""
+        residuals = [left[0][1], left[0][3], right[-1][1], right[-1][3]]
+        for a, b in zip(right[:-1], left[1:], strict=True):
+            residuals.extend(a[:4] - b[:4])
+        for number, (a, b) in enumerate(zip(left, right, strict=True)):
+            if a.size > 4:
+                near = b if number == 0 and len(left) > 1 else a
+                residuals.append(near[4] - self.force[number] / (near[0] * near[2]))
+        return np.array(residuals)
+
+
+class _Equation:
+    """The sources of an instant at the points of a mesh, as the banded solver asks for them."""
+
+    def __init__(self, instant: Instant, mesh: Mesh) -> None:
+        self.instant, self.mesh = instant, mesh
+        points = mesh.degree + 1
+        self.force = np.repeat(instant.force[mesh.region], points)
+        self.pressure = np.repeat(instant.pressure[mesh.region], points)
+        self.exponent = np.repeat(instant.exponent[mesh.region], points)
+        self.far = [
+            (number, self._junction(number))
+            for number, s in enumerate(instant.exponent)
+            if s != 1.0 and instant.force[number] != 0.0
+        ]
+
+    def _junction(self, region: int) -> int:
+        """The node where an advancing region takes its contact force from: its left end, or its only junction."""
+        elements = np.flatnonzero(self.mesh.region == region)
+        return int(elements[0] if region > 0 else elements[-1] + 1) * self.mesh.degree
+
+    def source(self, u: Array) -> Source | None:
+        """f, its derivative, and what it takes from the junctions."""
+        if not (u > 0).all():
+            return None
+        mu = u.reshape(-1, 2)
+        groups = self.instant.groups
+        if not groups.incompressible:
+            f, df, mu_3 = groups.compressible_source(mu, self.force, self.pressure)
+            if not (mu_3 > 0).all():
+                return None
+            return Source(f.reshape(u.shape), df.reshape(*u.shape, 2))
+        multiplier = self._multiplier(u)
+        f, df, _ = groups.incompressible_source(mu, multiplier, self.exponent, self.pressure)
+        remote = tuple(self._remote(u, multiplier, number, node) for number, node in self.far)
+        return Source(f.reshape(u.shape), df.reshape(*u.shape, 2), remote)
+
+    def _multiplier(self, u: Array) -> Array:
+        """lambda_c at every point, shape (M (p + 1),)."""
+        volume = (u[..., 0] * u[..., 1]).ravel()
+        multiplier: Array = self.force * volume**-self.exponent
+        for number, node in self.far:
+            at_junction = self._at(u, node).prod()
+            inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
+            multiplier[inside] *= at_junction ** (self.instant.exponent[number] - 1)
+        return multiplier
+
+    def _at(self, u: Array, node: int) -> Array:
+        element = min(node // self.mesh.degree, u.shape[0] - 1)
+        value: Array = u[element, node - element * self.mesh.degree]
+        return value
+
+    def _remote(self, u: Array, multiplier: Array, number: int, node: int) -> Remote:
+        """f changes with the logarithm of mu_1 mu_2 at the junction through lambda_c there."""
+        inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
+        change = np.where(inside, (self.instant.exponent[number] - 1) * multiplier, 0.0)
+        return Remote(node, change.reshape(u.shape[:2])[..., None] / u, 1 / self._at(u, node))
+
+    def along(self, u: Array) -> tuple[Array, Array]:
+        """mu_3 and lambda_c, shape (M, p + 1) each."""
+        groups, shape = self.instant.groups, u.shape[:2]
+        if not groups.incompressible:
+            _, _, mu_3 = groups.compressible_source(u.reshape(-1, 2), self.force, self.pressure)
+            return mu_3.reshape(shape), np.zeros(shape)
+        return 1 / (u[..., 0] * u[..., 1]), self._multiplier(u).reshape(shape)
+
+
+def refuse_tilt(profile: Profile, body: Crawler, name: str) -> float:
+    """The largest R mu_1' / mu_3, the sine of the tilt of the centreline, eq. (2.5.5).
+
+    Raises
+    ------
+    OutOfReachError : it reaches one: (2.5.6) has no root there.
+    """
+    sine = np.abs(profile.slope[..., 0]) * (body.radius / body.length) / profile.mu_3
+    largest = float(sine.max())
+    if not largest < 1:
+        place = profile.mesh.places.ravel()[int(sine.argmax())] * body.length
+        raise OutOfReachError(
+            f"{name}: R mu_1' / mu_3 reaches {largest:.3g} at xi = {place:.4g} m, where eq. (2.5.6) has no root: the "
+            "surface cannot stay on the ground; take weaker loads or a thinner body"
+        )
+    return largest

@@ -1,0 +1,1 @@
+"""Problems that a case may pose, one kind a file."""

@@ -1,0 +1,300 @@
+"""Problems of Chapter 2: one instant of a rod under muscle loads, and a crawl: a gait repeated over several strides."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.peristalsis.crawler import Crawler, Loads
+from cosserat.peristalsis.gait import Gait, Moment
+from cosserat.peristalsis.instant import Instant, Muscle, Profile, Region, holds_force, refuse_tilt
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.solution import Field, Solution
+from cosserat.solvers.regions import RegionSettings
+
+Array = NDArray[np.float64]
+_EMPTY = 1e-6  # a region shorter than this share of the length counts as empty
+_ALIKE = 1e-9  # regions whose mu_1 differs by less are equally fat
+
+
+class CrawlerProblem(Problem):
+    """What an instant and a crawl have in common."""
+
+    thinned: ClassVar[Mapping[str, int]] = {"time": 40, "section": 20}
+    crawler: Crawler
+    loads: Loads
+    solver: Literal["banded", "collocation"] = "banded"
+    """"collocation" is the thesis's way, `scipy.integrate.solve_bvp`: the reference, and slower."""
+    collocation_tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-2)] = 1e-4
+    mesh: RegionSettings = RegionSettings()
+    sections: Annotated[int, Count(at_least=2, at_most=100_001)] = 251
+    """Equally spaced cross-sections at which results are stored."""
+
+    @property
+    def places(self) -> Array:
+        """z = xi / l_0 of the stored sections."""
+        return np.linspace(0.0, 1.0, self.sections)
+
+    def solve_instant(
+        self, regions: Sequence[Region], before: Array | None, name: str
+    ) -> tuple[Profile, Array | None, float]:
+        """Stretches under loads in these regions, what warms up the next solve, and the largest sine of tilt."""
+        instant = Instant(self.crawler, self.loads, regions, name)
+        if self.solver == "banded":
+            profile, nodal = instant.solve(self.mesh, before)
+        else:
+            profile, nodal = instant.collocate(self.mesh, self.collocation_tolerance), None
+        return profile, nodal, refuse_tilt(profile, self.crawler, name)
+
+    def length_along(self, profile: Profile) -> Array:
+        """Distance along the ground from the rear end, eq. (2.5.8), at the points of the mesh [m]."""
+        tilt = profile.slope[..., 0] * self.crawler.radius / self.crawler.length
+        integrand: Array = np.sqrt(profile.mu_3**2 - tilt**2)  # (2.5.6)
+        return profile.mesh.cumulative(integrand) * self.crawler.length
+
+    def pressure(self, mu: Array, multiplier: Array) -> Array:
+        """Coelomic pressure, eqs. (2.8.8), (2.8.9), of an incompressible body [Pa]."""
+        k_i, k_g = self.crawler.incompressible_stiffnesses
+        reactive = multiplier * k_g / self.crawler.length**2 - k_i * (2 - mu.sum(axis=-1))
+        result: Array = -reactive * mu.prod(axis=-1) / self.crawler.area
+        return result
+
+    def fields(
+        self, profiles: list[Profile], placed: list[Array], regions: list[Sequence[Region]]
+    ) -> dict[str, Field]:
+        """Stored variables, times by sections; `placed` are the positions along the ground at the mesh points."""
+        z, body = self.places, self.crawler
+        on = [profile.at(z) for profile in profiles]
+        mu, slope = np.array([a[0] for a in on]), np.array([a[1] for a in on])
+        mu_3, multiplier = np.array([a[2] for a in on]), np.array([a[3] for a in on])
+        values = {
+            "mu_1": mu[..., 0],
+            "mu_2": mu[..., 1],
+            "mu_3": mu_3,
+            "mu_1_slope": slope[..., 0] / body.length,
+            "height": body.radius * (mu[..., 0] - 1),  # (2.5.7)
+            "along": np.array([p.mesh.interpolate(s, z) for p, s in zip(profiles, placed, strict=True)]),
+            "advancing": np.array([_advancing(r, z) for r in regions]),
+        }
+        if body.material.kind == "incompressible":
+            values["p_coelom"] = self.pressure(mu, multiplier)
+        fields: dict[str, Field] = {key: (("time", "section"), value) for key, value in values.items()}
+        return fields | {"xi_section": (("section",), z * body.length)}
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Instants, and the work of the solver."""
+        how = (
+            f"{statistics['newton_iterations']} Newton iterations"
+            if "newton_iterations" in statistics
+            else f"solve_bvp with up to {statistics['most_nodes']} nodes"
+        )
+        return f"{statistics['instants']} instants, {how}"
+
+
+class Segment(Parameters):
+    """Where a load acts, in shares of the reference length."""
+
+    begin: Annotated[float, Quantity("1", r"\tilde{\gamma}", "2.3.14")]
+    end: Annotated[float, Quantity("1", r"\tilde{\eta}", "2.3.14")]
+    load: Muscle
+
+
+class Posture(CrawlerProblem):
+    """One instant: any sequence of regions, from the rear end to the front end."""
+
+    kind: Literal["posture"] = "posture"
+    regions: tuple[Segment, ...]
+
+    @model_validator(mode="after")
+    def _cover_the_body(self) -> Self:
+        expected = 0.0
+        for number, region in enumerate(self.regions):
+            if region.end - region.begin < _EMPTY:
+                raise PydanticCustomError(
+                    "regions",
+                    f"'regions.{number}' from {region.begin:g} to {region.end:g} is empty; leave it out or widen it",
+                )
+            if abs(region.begin - expected) > _EMPTY:
+                what = (
+                    "overlaps the one before it" if region.begin < expected else "leaves a gap before it"
+                )
+                raise PydanticCustomError(
+                    "regions",
+                    f"'regions.{number}' begins at {region.begin:g} and {what}; let it begin at {expected:g}",
+                )
+            expected = region.end
+        if abs(expected - 1) > _EMPTY:
+            raise PydanticCustomError(
+                "regions", f"'regions' end at {expected:g}; they must cover the body from 0 to 1"
+            )
+        return self
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Stretches and shape, the rear end at the origin.
+
+        Raises
+        ------
+        InputError : the loads collapse a section.  NotConvergedError : no solution.
+        OutOfReachError : the surface cannot stay on the ground.
+        """
+        regions = [Region(r.begin, r.end, r.load) for r in self.regions]
+        profile, _, tilt = self.solve_instant(regions, None, name)
+        fields = self.fields([profile], [self.length_along(profile)], [regions])
+        flat = {
+            key: (dims[1:], values[0]) if dims[0] == "time" else (dims, values)
+            for key, (dims, values) in fields.items()
+        }
+        return Solution(flat, _statistics(self, [profile], tilt))
+
+
+@dataclass(frozen=True)
+class _Step:
+    """One time of a crawl and the body there, its points placed along the ground."""
+
+    stride: int
+    moment: Moment
+    profile: Profile
+    placed: Array
+
+
+class Crawl(CrawlerProblem):
+    """A gait over several strides."""
+
+    kind: Literal["crawl"] = "crawl"
+    gait: Gait
+    strides: Annotated[int, Count(at_least=1, at_most=10_000)] = 3
+    step: Annotated[float, Quantity("s", "t_{step}", "2.5.9", above=0)]
+
+    @model_validator(mode="after")
+    def _is_possible(self) -> Self:
+        moments = self.gait.moments(self.step)
+        if not holds_force(self.crawler, self.loads):
+            return self
+        for moment in moments:
+            if all(region.load == "advancing" for region in moment.regions):
+                raise PydanticCustomError(
+                    "gait",
+                    f"at phase {moment.phase:g} no region anchors, and the force that the advancing ones carry would "
+                    "vanish at once; keep an anchoring region, or set loads.advancing_force = 'none'",
+                )
+        return self
+
+    def thin_anchors(self) -> list[Moment]:
+        """The instants of a stride at which the body holds on with a part that its loads make thinner than the other.
+
+        A worm holds on where it fattens, section 2.1: with its anchoring regions.  Of artificial muscles under negative
+        pressure the advancing regions are the fat ones.
+        """
+        moments = self.gait.moments(self.step)
+        if {r.load for m in moments for r in m.regions} != {"anchoring", "advancing"}:
+            return []
+        halves = (Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing"))
+        mu, _ = Instant(self.crawler, self.loads, halves, "the anchor").plateaus
+        anchoring, advancing = mu[:, 0]
+        if abs(anchoring - advancing) < _ALIKE:
+            return []
+        thinner = "advancing" if advancing < anchoring else "anchoring"
+        return [m for m in moments if m.holding == thinner]
+
+    def thin_anchor_warning(self) -> str | None:
+        """One sentence on `thin_anchors`, None if there are none."""
+        found = {m.time for m in self.thin_anchors()}
+        if not found:
+            return None
+        times = [m.time for m in self.gait.moments(self.step)]
+        runs = [list(run) for thin, run in itertools.groupby(times, found.__contains__) if thin]
+        spans = " and ".join(f"{run[0]:.4g} to {run[-1]:.4g} s" for run in runs)
+        return (
+            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on "
+            "lies where the body is thin, and crawlers hold on where they are fat; move 'gait.anchor'"
+        )
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Every instant of the gait, each placed on the ground by its anchor, eqs. (2.5.10), (2.5.11).
+
+        Raises
+        ------
+        InputError : the loads collapse a section.  NotConvergedError : an instant has no solution.
+        OutOfReachError : the surface cannot stay on the ground.
+        """
+        moments = self.gait.moments(self.step)
+        self.refuse_collapse(moments, name)
+        steps: list[_Step] = []
+        nodal, tilt = None, 0.0
+        for stride in range(self.strides):
+            for moment in moments if stride == 0 else moments[1:]:
+                when = f"{name} at t = {stride * self.gait.duration + moment.time:.4g} s"
+                profile, nodal, sine = self.solve_instant(moment.regions, nodal, when)
+                placed = self.length_along(profile)
+                if steps:
+                    at = np.array([moment.anchor])
+                    before, after = steps[-1].profile.mesh, profile.mesh
+                    held = before.interpolate(steps[-1].placed, at)
+                    placed = placed + float((held - after.interpolate(placed, at))[0])
+                steps.append(_Step(stride, moment, profile, placed))
+                tilt = max(tilt, sine)
+            run.progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
+        thin = self.thin_anchor_warning()
+        return Solution(
+            self._fields(steps),
+            _statistics(self, [s.profile for s in steps], tilt),
+            warnings=() if thin is None else (thin,),
+        )
+
+    def refuse_collapse(self, moments: Sequence[Moment], name: str) -> None:
+        """The homogeneous states of all moments, before anything is solved.
+
+        They depend on which loads act, not on where: each such set is looked at once, at its first moment.
+
+        Raises
+        ------
+        InputError : the loads collapse a section; names the load and that moment.
+        """
+        seen: set[frozenset[Muscle]] = set()
+        for moment in moments:
+            acting = frozenset(region.load for region in moment.regions)
+            if acting not in seen:
+                seen.add(acting)
+                when = f"{name} at t = {moment.time:.4g} s"
+                Instant(self.crawler, self.loads, moment.regions, when).refuse_collapse()
+
+    def _fields(self, steps: list[_Step]) -> dict[str, Field]:
+        fields = self.fields(
+            [s.profile for s in steps], [s.placed for s in steps], [s.moment.regions for s in steps]
+        )
+        anchors = np.array([s.moment.anchor for s in steps])
+        ground = [s.profile.mesh.interpolate(s.placed, np.array([s.moment.anchor]))[0] for s in steps]
+        return {
+            "time": (
+                ("time",),
+                np.array([s.stride * self.gait.duration + s.moment.time for s in steps]),
+            ),
+            **fields,
+            "anchor": (("time",), anchors * self.crawler.length),
+            "anchor_along": (("time",), np.array(ground)),
+        }
+
+
+def _advancing(regions: Sequence[Region], z: Array) -> Array:
+    """One where the advancing loads act, else zero."""
+    cuts = np.array([r.right for r in regions[:-1]])
+    kinds = np.array([float(r.load == "advancing") for r in regions])
+    result: Array = kinds[np.searchsorted(cuts, z, side="right")]
+    return result
+
+
+def _statistics(problem: CrawlerProblem, profiles: list[Profile], tilt: float) -> dict[str, int | float]:
+    effort = [profile.effort for profile in profiles]
+    statistics: dict[str, int | float] = {"instants": len(profiles), "largest_sine_of_tilt": tilt}
+    if problem.solver == "banded":
+        return statistics | {"newton_iterations": sum(effort)}
+    return statistics | {"most_nodes": max(effort)}

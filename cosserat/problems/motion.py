@@ -1,0 +1,174 @@
+"""Motion of the discrete planar rod, eqs. (3.3.43)-(3.3.50), from a given start, with frames at equal times."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Annotated, ClassVar, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.exact import beams
+from cosserat.parameters import Parameters, Quantity
+from cosserat.problem import ALONE, Run
+from cosserat.problems.checkpoints import Course, joined, resumed
+from cosserat.rods.energies.reissner_reference import keeping_volume
+from cosserat.rods.kinematics import (
+    AXES,
+    Geometry,
+    counted_angles,
+    free_motions,
+    reference,
+    rigid_fields,
+    rigid_motions,
+)
+from cosserat.rods.problem import Direction, RodProblem, unit_vector
+from cosserat.solution import Solution
+from cosserat.solvers.energy_momentum import counted_on
+from cosserat.solvers.integrate import IntegratorSettings, State, System
+from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
+
+Array = NDArray[np.float64]
+
+
+class Start(Parameters):
+    """Where a motion begins: a shape, and velocities of the whole rod."""
+
+    shape: Literal["reference", "first beam mode"] = "reference"
+    """"first beam mode" bends the rod as eq. (3.5.16) says and turns the directors with it."""
+    amplitude: Annotated[float, Quantity("m")] = 0.0
+    """Displacement of the tip in the first beam mode, twice A_1 of eq. (3.5.16)."""
+    speed: Annotated[float, Quantity("m/s")] = 0.0
+    along: Direction = "E3"
+    spin: Annotated[float, Quantity("rad/s")] = 0.0
+    """Rate of rotation about the first vertex, from E3 towards E2."""
+
+
+class RodMotion(RodProblem):
+    """A rod moving from a start, perhaps damped, under dead loads."""
+
+    kind: Literal["rod motion"] = "rod motion"
+    thinned: ClassVar[Mapping[str, int]] = {"time": 40}
+    start: Start = Start()
+    duration: Annotated[float, Quantity("s", above=0)]
+    every: Annotated[float, Quantity("s", above=0)]
+    """Time between two frames."""
+    damping: Annotated[float, Quantity("1", r"\zeta", "section 3.5", at_least=0)] = 0.0
+    """Share of the critical damping of the lowest mode that deforms the rod.
+
+    ASSUME a force -2 zeta omega_1 M v: the page names none.
+    """
+    integrator: IntegratorSettings
+
+    @model_validator(mode="after")
+    def _starts_as_it_can(self) -> Self:
+        if self.start.shape != "reference" and self.rod.curvature:
+            raise PydanticCustomError(
+                "start",
+                f"has start.shape = '{self.start.shape}', which is that of a straight rod, and 'rod.curvature' = "
+                f"{self.rod.curvature:g}; begin from the 'reference' or take a straight rod",
+            )
+        return self
+
+    @property
+    def frames(self) -> int:
+        """Number of frames after the first."""
+        return max(1, round(self.duration / self.every))
+
+    @property
+    def between_frames(self) -> float:
+        """Time from one frame to the next [s]."""
+        return self.duration / self.frames
+
+    def system(self, geometry: Geometry) -> System:
+        """What moves: body, mass, loads, supports and drag."""
+        held = self.held().ravel()
+        at_rest = System(
+            self.body(geometry),
+            self.mass(geometry),
+            self.loads(geometry).ravel(),
+            held,
+            drag=0.0,
+            translations=np.empty((0, held.size))
+            if held.any()
+            else rigid_fields(reference(geometry))[:2],
+            drive=self.drive(geometry) if self.moves or self.turns else None,
+        )
+        if not self.damping:
+            return at_rest
+        unloaded = replace(at_rest, body=self.rod.body(geometry))
+        lowest = first_elastic_frequency(
+            unloaded, reference(geometry), anchored=self._anchored(geometry)
+        )
+        return replace(at_rest, drag=2 * self.damping * lowest)
+
+    def modes(self, count: int, name: str = "the rod") -> Modes:
+        """The lowest natural frequencies and shapes of the unloaded rod about its reference configuration.
+
+        Raises
+        ------
+        UnstableError : small motions about it grow.
+        """
+        geometry = self.rod.geometry()
+        unloaded = replace(self.system(geometry), body=self.rod.body(geometry))
+        return modes(unloaded, reference(geometry), count, name, anchored=self._anchored(geometry))
+
+    def _anchored(self, geometry: Geometry) -> bool:
+        """Whether no rigid motion is left free."""
+        start = np.hstack([geometry.X, geometry.D])
+        return bool((free_motions(start, self.held()) == 0).all())
+
+    def begin(self) -> State:
+        """The state at time zero."""
+        geometry = self.rod.geometry()
+        X, D, xi = geometry.X.copy(), geometry.D.copy(), geometry.arc_length
+        if self.start.shape == "first beam mode":
+            shape, slope = beams.first_beam_mode(self.rod.length, xi)
+            turn = np.arctan(self.start.amplitude * slope)
+            X[:, 1] += self.start.amplitude * shape
+            D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
+            if self.body(geometry).stiff_volume:
+                D = keeping_volume(geometry, X, D, self.rod.section)
+        q = np.where(self.held(), np.hstack([geometry.X, geometry.D]), np.hstack([X, D]))
+        v = np.zeros_like(q)
+        v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)
+        v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
+        v[self.held()] = 0.0
+        place, rate, _ = self.drive(geometry)(0.0)
+        start = q.ravel() + place
+        upright = counted_angles(geometry.D)[0]
+        return State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """The motion at its frames; with a store of parts it resumes where an earlier run was interrupted.
+
+        Raises
+        ------
+        InputError : the integrator's fixed step is beyond its stability limit, or stored parts are of another run.
+        NotConvergedError, DivergedError, CrossingError : a step has no solution; the parts before it are stored.
+        """
+        course, state = Course.of(self, name), self.begin()
+        done: list[Solution] = []
+        for number in range(course.parts):
+            part = run.checkpoints.load(number) if run.checkpoints else None
+            if part is not None:
+                state = resumed(part)
+            else:
+                part, state, stopped = course.part(number, state)
+                if run.checkpoints and part.fields:
+                    run.checkpoints.save(number, part, whole=stopped is None)
+                if stopped:
+                    raise stopped
+            done.append(part)
+            reached = part["time"][-1]
+            run.progress((number + 1) / course.parts, f"{reached:.4g} of {self.duration:g} s")
+        whole = joined(done, course.legs)
+        return replace(whole, warnings=course.warnings(whole))
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Frames and steps."""
+        return f"{sizes['time'] - 1} frames in {statistics['steps']} steps"

@@ -1,0 +1,130 @@
+"""The path of equilibria that a consistent rod goes through as its loads grow, past limits and branches."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.errors import CrossingError, NotConvergedError
+from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.problem import ALONE, Run
+from cosserat.problems.static import refuse_rigid_motion
+from cosserat.rods.kinematics import AXES, Geometry
+from cosserat.rods.problem import RodProblem
+from cosserat.rods.resolution import coarse, refuse_crossing
+from cosserat.solution import Field, Solution
+from cosserat.solvers.continuation import Arc, follow, unloaded
+from cosserat.solvers.equilibrium import Climb, NewtonSettings, Point
+
+Array = NDArray[np.float64]
+
+
+class ArcSettings(Parameters):
+    """How the path is followed; arcs are counted in radians of the fastest turning section, and shares of the load."""
+
+    first: Annotated[float, Quantity("1", above=0)] = 0.05
+    longest: Annotated[float, Quantity("1", above=0)] = 0.3
+    count: Annotated[int, Count(at_least=1, at_most=100_000)] = 500
+    """Most arcs."""
+    limit: Annotated[float, Quantity("1", above=1)] = 3.0
+    """Share of the load, either way, beyond which the path is given up."""
+    branch: Literal["leave", "stay"] = "leave"
+    """At a branching point, whether to leave along the softest motion or to stay on the path."""
+
+
+class RodPath(RodProblem):
+    """All loads grow together from nothing; the path ends when they reach their full size, or after the last arc."""
+
+    kind: Literal["rod path"] = "rod path"
+    newton: NewtonSettings = NewtonSettings()
+    arc: ArcSettings = ArcSettings()
+
+    @model_validator(mode="after")
+    def _is_consistent(self) -> Self:
+        if self.rod.calibration is not None:
+            raise PydanticCustomError(
+                "energy", "needs rod.energy = 'consistent'; the published rod has no paths"
+            )
+        if self.swings:
+            raise PydanticCustomError(
+                "static", "'moves' or 'turns' has a 'frequency', but a path has no time; leave it out"
+            )
+        return self
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Every point of the path; after 'arc.count' arcs it ends where it is, which the statistics say.
+
+        Raises
+        ------
+        UnsupportedRodError : a rigid motion is left free.
+        NotConvergedError : the path could not be followed; the error says how far, and holds the last state.
+        """
+        geometry = self.rod.geometry()
+        start = np.hstack([geometry.X, geometry.D])
+        refuse_rigid_motion(start, self.held(), name)
+        climb = Climb(self.loaded(geometry), self.newton, name)
+        climb.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
+        arc = Arc(
+            self.arc.first,
+            self.arc.longest,
+            self.arc.count,
+            until=1.0,
+            limit=self.arc.limit,
+            branches=int(self.arc.branch == "leave"),
+        )
+        points: list[Point] = []
+        try:
+            for point in follow(climb, unloaded(climb, np.zeros(start.size)), arc):
+                q = start + point.q.reshape(start.shape)
+                where = f"{name}, {point.factor:.4g} of the load"
+                refuse_crossing(geometry, q[:, :2], q[:, 2:], self.rod.below, where)
+                points.append(point)
+        except (NotConvergedError, CrossingError) as error:
+            if points:
+                error.reached = _solution(geometry, start, points, climb, self.rod.remarks())
+            raise
+        return _solution(geometry, start, points, climb, self.rod.remarks())
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Points, and how far the load came."""
+        reached = statistics["load_factor_reached"]
+        end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to go on"
+        return (
+            f"{statistics['points']} points, {statistics['unstable_points']} of them unstable, up to {reached:.4g} of "
+            f"the load, {statistics['iterations']} Newton iterations{end}"
+        )
+
+
+def _solution(
+    geometry: Geometry, start: Array, points: list[Point], climb: Climb, remarks: list[str]
+) -> Solution:
+    q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
+    along, vector = ("point",), ("vertex", "axis")
+    fields: dict[str, Field] = {
+        "load_factor": (along, np.array([point.factor for point in points])),
+        "stable": (along, np.array([float(point.stable) for point in points])),
+        "xi": (("vertex",), geometry.arc_length),
+        "x_ref": (vector, geometry.X),
+        "d_ref": (vector, geometry.D),
+        "x": ((*along, *vector), q[..., :2]),
+        "d": ((*along, *vector), q[..., 2:]),
+        "potential": (along, np.array([point.energy for point in points])),
+    }
+    statistics = {
+        "points": len(points),
+        "iterations": climb.iterations,
+        "load_factor_reached": points[-1].factor,
+        "unstable_points": sum(not point.stable for point in points),
+    }
+    warnings = [*climb.remarks(), *remarks, *coarse(q[..., 2:])]
+    if not points[-1].stable:
+        warnings.append(
+            "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"
+        )
+    return Solution(fields, statistics, {"axis": AXES}, tuple(warnings))

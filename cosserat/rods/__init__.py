@@ -1,0 +1,1 @@
+"""Rods: kinematics, reference configurations, energies, loads and constraints."""

@@ -1,0 +1,106 @@
+"""Stiffnesses of the consistent rod where its section or material varies within an edge: compliances add up along it.
+
+derived: along an edge the tension and, in a mesh that resolves the layers of the section stretch, that stretch w are
+nearly constant, while the axial strain is not.  With a(s) = 2 mu A, b(s) = Lambda A and c = a + b, the energy per
+length, least over all axial strains of the mean e, is
+
+    alpha/2 e^2 + alpha <b/c> e w + (<b> + <2 mu A> - <b^2/c> + alpha <b/c>^2) w^2 / 2,      1/alpha = <1/c>,
+
+which is that of an edge with 2 mu A = alpha <a/c> and Lambda A = alpha <b/c> whose vertices have <a b/c> - alpha <a/c>
+<b/c> more than their own 2 mu A.  Shearing and bending add up their compliances alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.rods.variation import Shares, Station, mean, vertex_cuts
+
+Array = NDArray[np.float64]
+
+SectionState = Literal["free", "plane strain", "incompressible"]
+"""What the section may do in E1: contract freely, not at all, or (in plane strain) nothing that changes the area."""
+
+PENALTY = 1e5
+"""Lambda over 2 mu of an incompressible section."""
+
+
+class EdgeStiffnesses(NamedTuple):
+    """axial 2 mu A, volume Lambda A, shear k mu A, bending EI, stretch_gradient mu I: (N - 1,); section 2 mu A: (N,).
+
+    The third and fourth in N m^2, the others in N.
+    """
+
+    axial: Array
+    volume: Array
+    shear: Array
+    bending: Array
+    stretch_gradient: Array
+    section: Array
+
+
+def stiffnesses(
+    stations: Sequence[Station],
+    arc: Array,
+    *,
+    area: float,
+    second_moment: float,
+    young: float,
+    poisson: float,
+    shear_correction: float,
+    section: SectionState,
+) -> EdgeStiffnesses:
+    """Of a rod whose nominal section and material vary as the stations say.
+
+    arc : (N,) arc length of the vertices [m].  second_moment : about the area centres [m^4].
+    """
+
+    def along(s: Shares) -> tuple[Array, Array, Array, Array, Array]:
+        """2 mu A, Lambda A, k mu A, EI and mu I at places."""
+        here, bending = area * s.width * s.height, second_moment * s.width * s.height**3
+        mu, first, plane = moduli(young * s.young, poisson * s.poisson, section)
+        return 2 * mu * here, first * here, shear_correction * mu * here, plane * bending, mu * bending
+
+    def on_edges(s: Shares, _: Array) -> Array:
+        axial, volume, shear, bending, gradient = along(s)
+        both = axial + volume
+        return np.stack(
+            [
+                1 / both,
+                axial / both,
+                volume / both,
+                axial * volume / both,
+                1 / shear,
+                1 / bending,
+                1 / gradient,
+            ]
+        )
+
+    compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc)
+    alpha = 1 / compliance
+    more = (product - alpha * axial * volume) * np.diff(arc) / 2
+    cuts = vertex_cuts(arc)
+    own = mean(stations, lambda s, _: along(s)[0], cuts)
+    shared = np.append(more, 0.0) + np.insert(more, 0, 0.0)
+    return EdgeStiffnesses(
+        alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, own + shared / np.diff(cuts)
+    )
+
+
+def moduli(young: Array, poisson: Array, section: SectionState) -> tuple[Array, Array, Array]:
+    """mu, Lambda and the modulus of bending [Pa]."""
+    if section == "incompressible":
+        shear = young / 3
+        return shear, PENALTY * 2 * shear, young / 0.75
+    shear = young / (2 * (1 + poisson))
+    if section == "free":
+        return shear, young * poisson / (1 - poisson**2), young
+    return (
+        shear,
+        young * poisson / ((1 + poisson) * (1 - 2 * poisson)),
+        young / (1 - poisson**2),
+    )

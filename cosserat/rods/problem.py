@@ -1,0 +1,259 @@
+"""A rod with its supports and loads: what its problems at rest and in motion have in common, section 3.5."""
+
+from __future__ import annotations
+
+import numbers
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import GetCoreSchemaHandler, model_validator
+from pydantic_core import PydanticCustomError, core_schema
+
+from cosserat.parameters import Parameters, Quantity
+from cosserat.problem import Problem
+from cosserat.rods.constraints import Drive, Shift, Turned
+from cosserat.rods.energies.reissner import ConsistentRod
+from cosserat.rods.kinematics import UNKNOWNS, Geometry
+from cosserat.rods.loaded_rod import LoadedRod
+from cosserat.rods.rod import Rod, RodBody
+from cosserat.solvers.banded import band_product
+
+Array = NDArray[np.float64]
+_DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
+
+
+class _VertexName:
+    """Annotation: 'first', 'last' or an index."""
+
+    @staticmethod
+    def check(value: object) -> str | int:
+        """Read one name of a vertex."""
+        if isinstance(value, str) and value in ("first", "last"):
+            return value
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 0:
+            raise PydanticCustomError(
+                "type", f"is {value!r}; it must be 'first', 'last' or the index of a vertex"
+            )
+        return int(value)
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.check)
+
+
+Vertex = Annotated[str | int, _VertexName()]
+Direction = Literal["E3", "-E3", "E2", "-E2"]
+UnknownName = Literal["x3", "x2", "d3", "d2"]
+
+
+def unit_vector(direction: Direction) -> Array:
+    """The unit vector of a named direction, shape (2,)."""
+    return np.array(_DIRECTIONS[direction])
+
+
+class Support(Parameters):
+    """Numbers of one vertex that keep their reference value."""
+
+    at: Vertex
+    hold: tuple[UnknownName, ...]
+
+
+class Gravity(Parameters):
+    """The weight of the rod: its mass matrix times a uniform acceleration, which lumped is rho0 g L of section 3.5."""
+
+    g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
+    along: Direction
+
+
+class PointForce(Parameters):
+    """A dead force on the centreline at one vertex."""
+
+    at: Vertex
+    along: Direction
+    force: Annotated[float, Quantity("N", "n", "section 3.5")]
+
+
+class LineLoad(Parameters):
+    """A dead force per length on the centreline, over a stretch of it."""
+
+    along: Direction
+    density: Annotated[float, Quantity("N/m")]
+    start: Annotated[float, Quantity("m", at_least=0)] = 0.0
+    end: Annotated[float, Quantity("m", above=0)] | None = None
+    """The end of the rod, if not given."""
+
+
+class Couple(Parameters):
+    """A moment on one section, positive from E3 towards E2, that turns with it: it does the work of a couple."""
+
+    at: Vertex
+    moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
+
+
+class Move(Parameters):
+    """A held number that is moved: at rest to a new place, in motion there at once or to and fro.
+
+    With a frequency f it stands at by sin(2 pi f t) from its reference value.
+    """
+
+    at: Vertex
+    unknown: UnknownName
+    by: Annotated[float, Quantity("m")]
+    frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
+
+
+class Turn(Parameters):
+    """A held section that is turned as it is, from E3 towards E2: at rest by an angle, in motion at once or to and fro.
+
+    With a frequency f it has turned by sin(2 pi f t) times the angle.
+    """
+
+    at: Vertex
+    by: Annotated[float, Quantity("rad")]
+    frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
+
+
+class RodProblem(Problem):
+    """A rod, what holds it and what pulls it."""
+
+    rod: Rod
+    supports: tuple[Support, ...]
+    gravity: Gravity | None = None
+    forces: tuple[PointForce, ...] = ()
+    line_loads: tuple[LineLoad, ...] = ()
+    couples: tuple[Couple, ...] = ()
+    moves: tuple[Move, ...] = ()
+    turns: tuple[Turn, ...] = ()
+
+    @model_validator(mode="after")
+    def _vertices_exist(self) -> Self:
+        named = (self.supports, self.forces, self.couples, self.moves, self.turns)
+        for at in [item.at for items in named for item in items]:
+            if isinstance(at, int) and at >= self.rod.vertices:
+                raise PydanticCustomError(
+                    "range",
+                    f"'at' is {at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
+                    "choose one of those, 'first' or 'last'",
+                )
+        for line in self.line_loads:
+            end = self.rod.length if line.end is None else line.end
+            if not line.start < end <= self.rod.length * (1 + 1e-12):
+                raise PydanticCustomError(
+                    "range",
+                    f"'line_loads' has one from {line.start:g} m to {end:g} m, but the rod goes from 0 to "
+                    f"{self.rod.length:g} m; let it begin before it ends, on the rod",
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _what_is_moved_is_held(self) -> Self:
+        moved: list[tuple[str, Vertex, tuple[UnknownName, ...]]] = [
+            *((f"moves {move.unknown}", move.at, (move.unknown,)) for move in self.moves),
+            *(("turns the section", turn.at, ("d3", "d2")) for turn in self.turns),
+        ]
+        held, met = self.held(), set()
+        for words, at, unknowns in moved:
+            for unknown in unknowns:
+                number = self.index(at), UNKNOWNS.index(unknown)
+                if number in met:
+                    raise PydanticCustomError(
+                        "twice",
+                        f"'moves' and 'turns' move {unknown} of vertex {at} twice; put both together",
+                    )
+                met.add(number)
+                if not held[number]:
+                    raise PydanticCustomError(
+                        "support",
+                        f"'{words.split()[0]}' {words} of vertex {at}, which no support holds; "
+                        f"add {unknown} to 'hold' of a support there",
+                    )
+        at_once = self.rod.calibration is not None or getattr(self, "kind", "") == "rod motion"
+        for turn in self.turns:
+            if at_once and not turn.frequency and abs(turn.by) > np.pi / 2:
+                raise PydanticCustomError(
+                    "range",
+                    f"'turns' turns the section of vertex {turn.at} by {turn.by:.4g} rad at once; only the "
+                    "consistent rod at rest turns by more than a quarter, in steps: take that, or a smaller angle",
+                )
+        return self
+
+    @property
+    def swings(self) -> bool:
+        """Whether a support is moved to and fro, which takes time."""
+        return any(item.frequency for items in (self.moves, self.turns) for item in items)
+
+    def loads(self, geometry: Geometry) -> Array:
+        """Dead forces on the unknowns of each vertex, shape (N, 4) [N]."""
+        load = np.zeros((self.rod.vertices, len(UNKNOWNS)))
+        if self.gravity is not None:
+            fall = np.zeros_like(load)
+            fall[:, :2] = self.gravity.g * unit_vector(self.gravity.along)
+            load += band_product(self.mass(geometry), fall.ravel()).reshape(load.shape)
+        for line in self.line_loads:
+            covered = _overlap(geometry, line.start, self.rod.length if line.end is None else line.end)
+            load[:, :2] += line.density * covered[:, None] * unit_vector(line.along)
+        for item in self.forces:
+            load[self.index(item.at), :2] += item.force * unit_vector(item.along)
+        return load
+
+    def body(self, geometry: Geometry) -> RodBody:
+        """The rod with its couples, which have a potential but are no dead load."""
+        return self.rod.body(geometry, self._moments())
+
+    def loaded(self, geometry: Geometry) -> LoadedRod:
+        """The rod with all its loads, couples and moves growing together.
+
+        The consistent rod counts displacements itself, whose rounding is far less than that of positions.
+        """
+        rod = self.rod.body(geometry)
+        reference = np.hstack([geometry.X, geometry.D])
+        base = reference.ravel()
+        if isinstance(rod, ConsistentRod):
+            rod, base = rod.displaced(geometry), np.zeros_like(base)
+        dead, held = self.loads(geometry).ravel(), self.held().ravel()
+        return LoadedRod(rod, base, self._moments(), dead, held, self.drive(geometry), reference)
+
+    def _moments(self) -> Array:
+        """Couple at each vertex, shape (N,) [N m]."""
+        moments = np.zeros(self.rod.vertices)
+        for item in self.couples:
+            moments[self.index(item.at)] += item.moment
+        return moments
+
+    def mass(self, geometry: Geometry) -> Array:
+        """Mass matrix as a symmetric band, eq. (3.3.43)."""
+        return self.rod.mass(geometry)
+
+    def drive(self, geometry: Geometry) -> Drive:
+        """How held numbers are moved."""
+        shifts = [
+            Shift(self.index(m.at) * len(UNKNOWNS) + UNKNOWNS.index(m.unknown), m.by, m.frequency)
+            for m in self.moves
+        ]
+        turned = [
+            Turned(self.index(t.at) * len(UNKNOWNS) + 2, geometry.D[self.index(t.at)], t.by, t.frequency)
+            for t in self.turns
+        ]
+        return Drive(self.rod.vertices * len(UNKNOWNS), (*shifts, *turned))
+
+    def held(self) -> NDArray[np.bool_]:
+        """Which unknowns of each vertex keep their value, shape (N, 4)."""
+        held = np.zeros((self.rod.vertices, len(UNKNOWNS)), dtype=np.bool_)
+        for support in self.supports:
+            for unknown in support.hold:
+                held[self.index(support.at), UNKNOWNS.index(unknown)] = True
+        return held
+
+    def index(self, at: Vertex) -> int:
+        """The index of a vertex that a load or a support names."""
+        return {"first": 0, "last": self.rod.vertices - 1}[at] if isinstance(at, str) else at
+
+
+def _overlap(geometry: Geometry, start: float, end: float) -> Array:
+    """Length that each vertex's part shares with an interval, shape (N,) [m]."""
+    arc = geometry.arc_length
+    cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
+    shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
+    return shared

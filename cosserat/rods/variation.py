@@ -1,0 +1,154 @@
+"""Sections that vary along the rod, and their averages over the parts of the discrete rod, eqs. (3.4.8)-(3.4.10)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.parameters import Parameters, Quantity
+from cosserat.rods.kinematics import Lumped
+
+Array = NDArray[np.float64]
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+
+class Station(Parameters):
+    """Section and material at a place, as shares of the rod's; linear between stations, constant beyond them.
+
+    Two stations at one place make a step: a rod may be of several materials.
+    """
+
+    at: Annotated[float, Quantity("m", r"\xi", "3.4.8", at_least=0)]
+    width: Annotated[float, Quantity("1", above=0)] = 1.0
+    height: Annotated[float, Quantity("1", above=0)] = 1.0
+    young: Annotated[float, Quantity("1", above=0)] = 1.0
+    poisson: Annotated[float, Quantity("1")] = 1.0
+    density: Annotated[float, Quantity("1", above=0)] = 1.0
+    """Of mass per volume: the line density goes with this times the area."""
+
+
+class Shares(NamedTuple):
+    """The shares of the stations at some places."""
+
+    width: Array
+    height: Array
+    young: Array
+    poisson: Array
+    density: Array
+
+
+Property = Callable[[Shares, Array], Array]
+
+
+def mass_share(s: Shares) -> Array:
+    """Mass per length over the nominal one."""
+    return s.density * s.width * s.height
+
+
+def share(stations: Sequence[Station], name: str, xi: Array, *, before: bool) -> Array:
+    """One share of the stations at xi; at a step, its value before or after the step."""
+    if not stations:
+        return np.ones_like(xi)
+    at = np.array([s.at for s in stations])
+    values = np.array([getattr(s, name) for s in stations])
+    upper = np.searchsorted(at, xi, side="left" if before else "right")
+    low, high = np.clip(upper - 1, 0, at.size - 1), np.clip(upper, 0, at.size - 1)
+    span = np.where(at[high] > at[low], at[high] - at[low], 1.0)
+    weight = np.clip((xi - at[low]) / span, 0.0, 1.0)
+    result: Array = (1 - weight) * values[low] + weight * values[high]
+    return result
+
+
+def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
+    """Means of properties between neighbouring cuts, shape (..., cuts - 1).
+
+    value : of shape (..., points), from the scale factors at the points and their places s between the cuts, 0 to 1.
+    Gauss's rule with eight points on each smooth piece: exact to rounding for the polynomials that linear scale
+    factors make, and nearly so for their inverses.
+    """
+    count = cuts.size - 1
+    if not stations:  # the same all along: one interval stands for all
+        nodes, weights = _gauss(np.array([0.0, 1.0]))
+        one = value(Shares(*(np.ones_like(nodes) for _ in Shares._fields)), nodes) @ weights
+        return np.repeat(np.asarray(one)[..., None], count, axis=-1)
+    steps = np.array([station.at for station in stations])
+    nodes, weights = _gauss(
+        np.unique(np.concatenate([cuts, steps[(steps > cuts[0]) & (steps < cuts[-1])]]))
+    )
+    owner = np.clip(np.searchsorted(cuts, nodes, side="right") - 1, 0, count - 1)
+    span = (cuts[1:] - cuts[:-1])[owner]
+    shares = Shares(*(share(stations, name, nodes, before=False) for name in Shares._fields))
+    parts = value(shares, (nodes - cuts[owner]) / span) * (weights / span)
+    first = np.searchsorted(owner, np.arange(count))
+    means: Array = np.add.reduceat(parts, first, axis=-1)
+    return means
+
+
+def _gauss(cuts: Array) -> tuple[Array, Array]:
+    """Nodes and weights of Gauss's rule on every interval between neighbouring cuts, in order."""
+    half = (cuts[1:, None] - cuts[:-1, None]) / 2
+    return (cuts[:-1, None] + half * (1 + _NODES)).ravel(), (half * _WEIGHTS).ravel()
+
+
+def vertex_cuts(arc: Array) -> Array:
+    """Arc lengths where the parts round the vertices meet, and both ends, shape (N + 1,) [m]."""
+    return np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
+
+
+class EdgeMasses(NamedTuple):
+    """Masses of the edges between their two vertices a and b, each (N - 1,) [kg]: of a, shared by both, of b."""
+
+    before: Array
+    shared: Array
+    after: Array
+
+
+def edge_masses(stations: Sequence[Station], line_density: float, arc: Array) -> EdgeMasses:
+    """The mean of the lumped and the consistent mass of every edge.
+
+    derived: with s from 0 to 1 along an edge and M_k the integral of s^k over its mass, linear interpolation gives
+    M_0 - 2 M_1 + M_2, M_1 - M_2 and M_2; the two masses at the ends that keep M_0 and M_1 are M_0 - M_1 and M_1.  Both
+    keep mass and centre of mass, and their errors in a frequency are opposite.
+    """
+    M0, M1, M2 = (np.diff(arc) * line_density) * mean(
+        stations, lambda scale, s: mass_share(scale) * s ** np.arange(3)[:, None], arc
+    )
+    return EdgeMasses(M0 - 3 / 2 * M1 + M2 / 2, (M1 - M2) / 2, (M1 + M2) / 2)
+
+
+def lump(
+    stations: Sequence[Station],
+    arc: Array,
+    *,
+    area: float,
+    second_moment: float,
+    young: float,
+    poisson: float,
+) -> tuple[Lumped, Lumped]:
+    """Vertex and edge properties, Table 3.1, of a rod whose nominal section and material vary as the stations say.
+
+    arc : (N,) arc length of the vertices.  The boundary vertices have the properties of their edges, eq. (3.4.10)
+    without its half.  Each of A, I, E, G and nu is averaged by itself, as the table has it.
+    """
+
+    def averaged(cuts: Array) -> Array:
+        return mean(
+            stations,
+            lambda s, _: np.stack(
+                [
+                    area * s.width * s.height,
+                    second_moment * s.width * s.height**3,
+                    young * s.young,
+                    young * s.young / (2 * (1 + poisson * s.poisson)),
+                    poisson * s.poisson,
+                ]
+            ),
+            cuts,
+        )
+
+    edge, inner = averaged(arc), averaged(vertex_cuts(arc))
+    vertex = np.concatenate([edge[:, :1], inner[:, 1:-1], edge[:, -1:]], axis=1)
+    return Lumped(*vertex), Lumped(*edge)

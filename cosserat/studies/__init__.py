@@ -1,0 +1,1 @@
+"""Studies: loops over problems."""

@@ -1,0 +1,227 @@
+"""The calibration of section 3.5 as a procedure: coefficients by least squares, and what they leave open.
+
+Each static problem is compared with its closed form along the whole rod; a misfit is a difference as a share of the
+largest ordinate.  The logarithms of the coefficients are fitted, so that they stay positive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.exact import beams
+from cosserat.parameters import Count
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.problems.static import RodStatics
+from cosserat.rods.problem import RodProblem
+from cosserat.solution import Field, Solution
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
+
+Array = NDArray[np.float64]
+
+_REACH = float(
+    np.log(30.0)
+)  # a fit may leave the published coefficients by this factor: some are hardly determined
+
+_STEP = 1e-3  # of the logarithms, over which a slope is taken
+
+Misfit = Callable[[Array], Array]
+Curves = Callable[[str, RodStatics, str], tuple[Array, Array]]
+
+ASSIGNED = {
+    "hanging_bar": ("c1",),
+    "clamped_free": ("c3", "c4", "c5"),
+    "clamped_clamped": ("c3", "c4", "c5"),
+    "necking": ("c2", "c6", "c7"),
+}
+"""Which coefficients the thesis finds from which problem."""
+
+_GROUP = {
+    "hanging_bar": "stretching",
+    "clamped_free": "beam",
+    "clamped_clamped": "beam",
+    "necking": "section",
+}
+"""What the coefficients of a problem are called together."""
+
+
+class CalibrationProcedure(Problem):
+    """The four problems of section 3.5, and the numbers of vertices at which to calibrate."""
+
+    kind: Literal["calibration"] = "calibration"
+    meshes: tuple[Annotated[int, Count("N", "3.3.1", at_least=5)], ...]
+    hanging_bar: RodStatics
+    clamped_free: RodStatics
+    clamped_clamped: RodStatics
+    necking: RodStatics
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Fit every problem at every mesh, and measure the published coefficients there.
+
+        Raises
+        ------
+        NotConvergedError : a solve on the way failed.
+        """
+        fits = {problem: [self.fit(problem, n, name) for n in self.meshes] for problem in ASSIGNED}
+        mesh = ("mesh",)
+        fields: dict[str, Field] = {"vertices": (mesh, np.array(self.meshes, dtype=np.float64))}
+        for problem, results in fits.items():
+            coefficient = f"{_GROUP[problem]}_coefficient"
+            direction = f"{_GROUP[problem]}_direction"
+            fields[f"{problem}_coefficients"] = (
+                (*mesh, coefficient),
+                np.exp([result.x for result in results]),
+            )
+            fields[f"{problem}_misfit"] = (
+                mesh,
+                np.array([np.sqrt(2 * result.cost) for result in results]),
+            )
+            found = [
+                sensitivities(self.misfit(problem, n, name), result.x)
+                for n, result in zip(self.meshes, results, strict=True)
+            ]
+            fields[f"{problem}_singular_values"] = (
+                (*mesh, direction),
+                np.array([size for size, _ in found]),
+            )
+            fields[f"{problem}_directions"] = (
+                (*mesh, direction, coefficient),
+                np.array([directions for _, directions in found]),
+            )
+            fields[f"{problem}_published"] = (
+                mesh,
+                np.array([self._at_published(problem, n, name) for n in self.meshes]),
+            )
+        both = [self.fit_both_beams(n, name) for n in self.meshes]
+        fields["beams_coefficients"] = (
+            (*mesh, "beam_coefficient"),
+            np.exp([result.x for result in both]),
+        )
+        fields["beams_misfit"] = (mesh, np.array([np.sqrt(2 * result.cost) for result in both]))
+        solves = sum(int(result.nfev) for results in (*fits.values(), both) for result in results)
+        labels = {f"{_GROUP[problem]}_coefficient": names for problem, names in ASSIGNED.items()}
+        return Solution(fields, {"misfit_evaluations": solves}, labels)
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of misfits."""
+        return f"{statistics['misfit_evaluations']} evaluations of the misfits"
+
+    def fit(self, problem: str, vertices: int, name: str) -> OptimizeResult:
+        """Least squares over the coefficients of one problem at one mesh, from the published ones."""
+        from scipy.optimize import least_squares
+
+        rod = getattr(self, problem).rod
+        start = np.log([getattr(rod.calibration, c) for c in ASSIGNED[problem]])
+        misfit = self.misfit(problem, vertices, name)
+        return least_squares(
+            misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
+        )
+
+    def fit_both_beams(self, vertices: int, name: str) -> OptimizeResult:
+        """c3, c4, c5 from both beams at once, displacements and directors: "simultaneously", as section 3.5 has it."""
+        from scipy.optimize import least_squares
+
+        parts = [
+            self.misfit(problem, vertices, name, curves)
+            for problem in ("clamped_free", "clamped_clamped")
+            for curves in (_curves, _director_curves)
+        ]
+        rod = self.clamped_free.rod
+        start = np.log([getattr(rod.calibration, c) for c in ASSIGNED["clamped_free"]])
+
+        def misfit(logarithms: Array) -> Array:
+            every: Array = np.concatenate([part(logarithms) for part in parts])
+            return every / float(np.sqrt(len(parts)))
+
+        return least_squares(
+            misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
+        )
+
+    def misfit(self, problem: str, vertices: int, name: str, curves: Curves | None = None) -> Misfit:
+        """Differences of one problem from its closed form at one mesh, by the logarithms of its coefficients."""
+        posed, coefficients = getattr(self, problem), ASSIGNED[problem]
+
+        def misfit(logarithms: Array) -> Array:
+            values = dict(zip(coefficients, np.exp(logarithms), strict=True))
+            computed, exact = (curves or _curves)(problem, _at(posed, vertices, values), name)
+            difference: Array = computed - exact
+            share: Array = difference / (np.abs(exact).max() * np.sqrt(exact.size))
+            return share
+
+        return misfit
+
+    def _at_published(self, problem: str, vertices: int, name: str) -> float:
+        """Computed over exact at the tip or at mid-span, with the published coefficients."""
+        computed, exact = _curves(problem, _at(getattr(self, problem), vertices, {}), name)
+        place = -1 if problem in ("hanging_bar", "clamped_free") else (exact.size - 1) // 2
+        return float(computed[place] / exact[place])
+
+
+def sensitivities(misfit: Misfit, logarithms: Array) -> tuple[Array, Array]:
+    """How far a misfit moves along orthogonal directions in log c, (k,), most first; the directions, (k, k), as rows.
+
+    By central differences over a thousandth, in which the rounding of a solve does not show.  The largest entry of
+    each direction is positive.
+    """
+    steps = _STEP * np.eye(logarithms.size)
+    slopes = [(misfit(logarithms + step) - misfit(logarithms - step)) / (2 * _STEP) for step in steps]
+    _, size, directions = np.linalg.svd(np.column_stack(slopes), full_matrices=False)
+    largest = np.take_along_axis(directions, np.abs(directions).argmax(axis=1)[:, None], axis=1)
+    return size, directions * np.sign(largest)
+
+
+def _at(posed: RodStatics, vertices: int, values: dict[str, float]) -> RodStatics:
+    assert posed.rod.calibration is not None
+    calibration = posed.rod.calibration.replace(**values)
+    return posed.replace(rod=posed.rod.replace(vertices=vertices, calibration=calibration))
+
+
+def _curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
+    fields = posed.solve(name)
+    beam, xi = beam_of(posed), fields["xi"]
+    if problem == "necking":
+        beta = beams.necking_decay(beam, "printed")
+        return fields["lam"] - 1, beams.necking_strain(beam, posed.forces[-1].force, beta, xi)
+    axis, exact = _FORMULAS[problem]
+    assert posed.gravity is not None
+    return fields["u"][:, axis], exact(beam, posed.gravity.g, xi)
+
+
+def _director_curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
+    """delta . E3 at the lateral surface of a beam, computed and by eqs. (3.5.4), (3.5.7) [m]."""
+    fields, exact = posed.solve(name), _DIRECTORS[problem]
+    assert posed.gravity is not None
+    directors = exact(beam_of(posed), posed.gravity.g, fields["xi"])
+    return fields["delta"][:, 0], posed.rod.height / 2 * directors
+
+
+_DIRECTORS: dict[str, beams.BeamCurve] = {
+    "clamped_free": beams.clamped_free_director,
+    "clamped_clamped": beams.clamped_clamped_director,
+}
+
+_FORMULAS: dict[str, tuple[int, Callable[[beams.Beam, float, Array], Array]]] = {
+    "hanging_bar": (0, beams.hanging_bar_displacement),
+    "clamped_free": (1, beams.clamped_free_displacement),
+    "clamped_clamped": (1, beams.clamped_clamped_displacement),
+}
+
+
+def beam_of(problem: RodProblem) -> beams.Beam:
+    """The beam that the closed forms know: A = W H and I = W H^3 / 12, not what the rod takes for them."""
+    rod = problem.rod
+    return beams.Beam(
+        length=rod.length,
+        area=rod.width * rod.height,
+        second_moment=rod.width * rod.height**3 / 12,
+        young=rod.young,
+        poisson=rod.poisson,
+        line_density=rod.line_density,
+        shear_correction=rod.shear_correction,
+    )

@@ -1,0 +1,139 @@
+"""How the consistent rod approaches exact answers as its meshes are refined."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.exact import beams, elastica
+from cosserat.parameters import Count
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.problems.static import RodStatics
+from cosserat.rods.problem import PointForce
+from cosserat.solution import Field, Solution
+from cosserat.studies.calibration import beam_of
+
+Array = NDArray[np.float64]
+Formula = Callable[[beams.Beam, float, Array], Array]
+
+MEASURES = (
+    "clamped-free displacement",
+    "clamped-free directors",
+    "clamped-clamped displacement",
+    "necking section stretch",
+    "elastica displacement, P = 1",
+    "elastica displacement, P = 5",
+    "elastica displacement, P = 10",
+    "elastica directors, P = 10",
+    "frequency 1",
+    "frequency 2",
+    "frequency 3",
+    "frequency 4",
+    "frequency 5",
+)
+"""What is compared, in the order of `errors`; clamped-clamped directors are exact at the vertices of every mesh."""
+
+_SMALL = 1e-4  # share of the weights taken: exact answers are linear
+_TIP_FORCES = (1.0, 5.0, 10.0)  # of the elastica, in EI / L^2
+
+
+class Convergence(Problem):
+    """Problems with exact answers, and the numbers of vertices at which to solve them."""
+
+    kind: Literal["convergence"] = "convergence"
+    meshes: tuple[Annotated[int, Count("N", "3.3.1", at_least=5)], ...]
+    clamped_free: RodStatics
+    clamped_clamped: RodStatics
+    necking: RodStatics
+    slender: RodStatics
+    """A clamped rod, of which the elastica and the frequencies are asked."""
+
+    @model_validator(mode="after")
+    def _odd(self) -> Self:
+        if any(n % 2 == 0 for n in self.meshes):
+            raise PydanticCustomError("odd", "'meshes' must be odd, so that a vertex stands at mid-span")
+        return self
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Every measure at every mesh.
+
+        Raises
+        ------
+        NotConvergedError : a solve on the way failed.
+        """
+        errors = np.array([self.errors(n, name) for n in self.meshes]).T
+        fields: dict[str, Field] = {
+            "vertices": (("mesh",), np.array(self.meshes, dtype=np.float64)),
+            "errors": (("measure", "mesh"), errors),
+        }
+        return Solution(fields, {"meshes": len(self.meshes)}, {"measure": MEASURES})
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of meshes."""
+        return f"{statistics['meshes']} meshes"
+
+    def errors(self, vertices: int, name: str) -> list[float]:
+        """The measures at one mesh, in the order of `MEASURES`."""
+        free, both = (_at(p, vertices, _SMALL) for p in (self.clamped_free, self.clamped_clamped))
+        necking, slender = _at(self.necking, vertices, 1.0), _at(self.slender, vertices, 1.0)
+        exact = elastica.timoshenko_frequencies(beam_of(slender), 5)
+        return [
+            *_bent(free, beams.clamped_free_displacement, beams.clamped_free_director, name),
+            _bent(both, beams.clamped_clamped_displacement, beams.clamped_clamped_director, name)[0],
+            _necked(necking, name),
+            *_far(slender, name),
+            *np.abs(slender.modes(5).angular_frequency / exact - 1),
+        ]
+
+
+def _bent(posed: RodStatics, displacement: Formula, director: Formula, name: str) -> list[float]:
+    """Errors of displacement and directors of a beam under its weight."""
+    assert posed.gravity is not None
+    fields, beam, g = posed.solve(name), beam_of(posed), posed.gravity.g
+    return [
+        _share(fields["u"][:, 1], displacement(beam, g, fields["xi"])),
+        _share(fields["delta"][:, 0], posed.rod.height / 2 * director(beam, g, fields["xi"])),
+    ]
+
+
+def _necked(posed: RodStatics, name: str) -> float:
+    beam, fields = beam_of(posed), posed.solve(name)
+    decay = beams.necking_decay(beam, "free section")
+    strain = beams.necking_strain(beam, posed.forces[-1].force, decay, fields["xi"])
+    return _share(fields["lam"] - 1, strain)
+
+
+def _far(posed: RodStatics, name: str) -> list[float]:
+    """Errors of displacement under each tip force, and of the directors under the last."""
+    beam = beam_of(posed)
+    unit = beam.bending_stiffness / beam.length**2
+    found = []
+    for force in _TIP_FORCES:
+        pulled = posed.replace(forces=(PointForce(at="last", along="E2", force=force * unit),))
+        fields = pulled.solve(name)
+        s = np.minimum(fields["xi"] / beam.length, 1.0)
+        shape = elastica.shearable_shape(
+            force, beam.axial_stiffness / unit, beam.shear_stiffness / unit, s
+        )
+        place = beam.length * shape[:, :2]
+        found.append(_share(fields["u"], place - fields["x_ref"]))
+    upright = posed.rod.height / 2 * np.column_stack([-np.sin(shape[:, 2]), np.cos(shape[:, 2])])
+    return [*found, _share(fields["delta"], upright - fields["d_ref"])]
+
+
+def _at(posed: RodStatics, vertices: int, share: float) -> RodStatics:
+    weight = posed.gravity
+    if weight is not None:
+        weight = weight.replace(g=share * weight.g)
+    return posed.replace(rod=posed.rod.replace(vertices=vertices), gravity=weight)
+
+
+def _share(computed: Array, exact: Array) -> float:
+    """Largest deviation over the largest exact value."""
+    return float(np.abs(computed - exact).max() / np.abs(exact).max())

@@ -1,0 +1,190 @@
+"""Chapters into executed notebooks, and those into a book that needs no network."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import io
+import shutil
+import tempfile
+from importlib import resources
+from pathlib import Path
+
+from cosserat.data.files import check_destination, whole_or_absent
+from cosserat.errors import CosseratError, InputError
+
+_WRITTEN = ".cosserat-book"
+"""File in a book that lists what was written into it."""
+
+_CONF = """
+project = "cosserat"
+author = "The cosserat project"
+extensions = ["myst_nb"]
+nb_execution_mode = "off"
+nb_merge_streams = True
+nb_render_markdown_format = "myst"
+myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
+suppress_warnings = ["mystnb.unknown_mime_type"]
+html_theme = "sphinx_book_theme"
+html_title = "Cosserat curves"
+html_static_path = ["_static"]
+html_css_files = ["book.css"]
+html_copy_source = False
+html_show_sourcelink = False
+html_last_updated_fmt = None
+html_theme_options = {
+    "use_download_button": False,
+    "use_fullscreen_button": False,
+    "show_toc_level": 2,
+    "navbar_persistent": [],
+}
+mathjax_path = "mathjax/tex-chtml-full.js"
+mathjax3_config = {
+    "options": {"enableMenu": False},
+    "tex": {"tagSide": "right"},
+    "chtml": {"matchFontHeight": False},
+}
+"""
+
+
+def execute(chapter: Path, output: Path) -> None:
+    """Run a py:percent chapter from its repository's root and write the notebook with its outputs.
+
+    Raises
+    ------
+    InputError : the chapter is missing, or the notebook cannot be written.
+    CosseratError : a cell failed; nothing is written.
+    """
+    import jupytext
+    import nbformat
+    from nbclient import NotebookClient
+    from nbclient.exceptions import CellExecutionError
+
+    if not chapter.is_file():
+        raise InputError(
+            f"there is no chapter {chapter}; chapters are the .py files of the folder chapters"
+        )
+    check_destination(output, ".ipynb")
+    notebook = jupytext.read(chapter)
+    client = NotebookClient(
+        notebook,
+        timeout=300,
+        kernel_name="python3",
+        resources={"metadata": {"path": str(chapter.resolve().parents[1])}},
+    )
+    try:
+        client.execute()
+    except CellExecutionError as error:
+        raise CosseratError(f"{chapter}: a cell failed: {error}") from None
+    with whole_or_absent(output) as temporary:
+        nbformat.write(notebook, temporary)
+
+
+def render(notebooks: list[Path], output: Path) -> Path:
+    """Build the book from executed notebooks, `index.ipynb` among them; returns its first page.
+
+    The folder is replaced only by a whole book, and only if there is nothing in it but a book that this function wrote.
+
+    Raises
+    ------
+    InputError : a notebook is missing, or the folder holds something else.
+    CosseratError : Sphinx warned or failed; the old book stays.
+    """
+    missing = [str(path) for path in notebooks if not path.is_file()]
+    if missing:
+        raise InputError(
+            f"there is no notebook {', '.join(missing)}; execute the chapters first ('cosserat chapter')"
+        )
+    _refuse_what_is_not_ours(output)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=output.parent, prefix=".book.") as scratch:
+        pages, built = Path(scratch) / "pages", Path(scratch) / "built"
+        (pages / "_static").mkdir(parents=True)
+        for path in notebooks:
+            shutil.copy(path, pages / path.name)
+        (pages / "conf.py").write_text(_CONF, encoding="utf-8")
+        style = resources.files("cosserat.thesis.book") / "book.css"
+        (pages / "_static" / "book.css").write_text(style.read_text(encoding="utf-8"), encoding="utf-8")
+        _copy_mathjax(pages / "_static" / "mathjax")
+        _sphinx(pages, built, Path(scratch) / "doctrees")
+        (built / _WRITTEN).write_text("\n".join([_WRITTEN, *_files(built)]), encoding="utf-8")
+        _refuse_what_is_not_ours(output, set(_files(built)))
+        if output.exists():
+            output.rename(Path(scratch) / "old")
+        built.rename(output)
+    return output / "index.html"
+
+
+def _refuse_what_is_not_ours(output: Path, of_a_book: set[str] | None = None) -> None:
+    """Raise InputError unless a folder is missing, empty, or holds no file but those that a book of ours has.
+
+    of_a_book : what the new book holds; a book without a list of its own may have nothing else.
+    """
+    remedy = "choose another with --output"
+    if output.is_symlink() or (output.exists() and not output.is_dir()):
+        raise InputError(f"{output} is no folder; {remedy}")
+    if Path.cwd().is_relative_to(output.resolve()):
+        raise InputError(f"{output} holds the folder you work in; {remedy}")
+    if not output.is_dir():
+        return
+    found, list_of_ours = _files(output), output / _WRITTEN
+    if list_of_ours.is_file():
+        ours = set(list_of_ours.read_text(encoding="utf-8").splitlines())
+    elif (output / "_static" / "book.css").is_file():  # a book from before there was a list
+        ours = of_a_book or {file for file in found if _looks_built(Path(file))}
+    else:
+        ours = set()
+    others = [file for file in found if file not in ours]
+    if others:
+        raise InputError(
+            f"{output} holds {others[0]}, which is not of a book that cosserat wrote; move it away or {remedy}"
+        )
+
+
+def _files(folder: Path) -> list[str]:
+    """Everything below a folder but plain folders with something in them, as paths from there."""
+    return sorted(
+        path.relative_to(folder).as_posix()
+        for path in folder.rglob("*")
+        if path.is_symlink() or not path.is_dir() or not any(path.iterdir())
+    )
+
+
+def _looks_built(file: Path) -> bool:
+    if file.parts[0] in ("_static", "_sources"):
+        return True
+    return len(file.parts) == 1 and (
+        file.suffix == ".html" or file.name in ("objects.inv", "searchindex.js")
+    )
+
+
+def _copy_mathjax(folder: Path) -> None:
+    """MathJax with its fonts, from the locked package that carries it, so that no page asks the network."""
+    spec = importlib.util.find_spec("mathjax")
+    if spec is None or not spec.submodule_search_locations:
+        raise InputError(
+            "the package django-static-mathjax is not installed; run 'make' or install cosserat[book]"
+        )
+    shipped = Path(spec.submodule_search_locations[0]) / "static" / "mathjax" / "es5"
+    fonts = Path("output") / "chtml" / "fonts" / "woff-v2"
+    shutil.copytree(shipped / fonts, folder / fonts)
+    shutil.copy(shipped / "tex-chtml-full.js", folder)
+
+
+def _sphinx(pages: Path, built: Path, doctrees: Path) -> None:
+    from sphinx.cmd.build import build_main
+
+    said = io.StringIO()
+    arguments = ["-q", "-W", "--keep-going", "-b", "html", "-d", str(doctrees), str(pages), str(built)]
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        failed = build_main(arguments)
+    if failed:
+        raise CosseratError(f"the book could not be built:\n{said.getvalue()}")
+    for page in built.glob("*.html"):
+        if "\\begin{split}" in page.read_text(
+            encoding="utf-8"
+        ):  # Sphinx wraps lines so; MathJax then refuses a tag
+            raise CosseratError(
+                f"{page.name}: write an equation of several lines as \\begin{{equation*}}, not in $$"
+            )
+    (built / ".buildinfo").unlink(missing_ok=True)

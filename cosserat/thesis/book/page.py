@@ -1,0 +1,153 @@
+"""What a chapter may use: stored data, drawn figures, rows of the report, and the library's own lines.
+
+A chapter computes no published case again and types no result; it reads what the workflow made and asserts its rows.
+"""
+
+from __future__ import annotations
+
+import base64
+import inspect
+import re
+import textwrap
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+from IPython.display import HTML, Markdown
+
+from cosserat.data.dataset import load
+from cosserat.errors import InputError, OutOfToleranceError
+from cosserat.thesis.figures.catalogue import entry
+from cosserat.thesis.table.errata import Erratum, read_errata
+from cosserat.thesis.table.left_out import LeftOutList, read_left_out
+from cosserat.thesis.table.tolerances import read_report
+
+
+def results() -> Path:
+    """The folder `results` of this checkout, from wherever the chapter runs."""
+    for folder in (Path.cwd(), *Path.cwd().parents):
+        if (folder / "results" / "tolerances.csv").is_file():
+            return folder / "results"
+    raise InputError(
+        f"no results/tolerances.csv above {Path.cwd()}; run the chapter inside a checkout of cosserat"
+    )
+
+
+def data(case: str) -> xr.Dataset:
+    """The stored Dataset of a case."""
+    return load(results() / "cases" / f"{case}.nc")
+
+
+def figure(name: str, caption: str) -> HTML:
+    """A drawn figure with its number and a caption."""
+    picture = base64.b64encode((results() / "figures" / f"{name}.svg").read_bytes()).decode()
+    title = entry(name).title
+    text = f"<b>{escape(title)}.</b> {_mathematics(caption)}"
+    image = f'<img alt="{escape(title)}" src="data:image/svg+xml;base64,{picture}">'
+    return HTML(f'<figure class="plot" id="{name}">{image}<figcaption>{text}</figcaption></figure>')
+
+
+def animation(name: str, caption: str) -> HTML:
+    """A drawn animation with a button that stops and starts it."""
+    drawing = (results() / "figures" / f"{name}.svg").read_text(encoding="utf-8")
+    text = f"<b>{escape(entry(name).title)}.</b> {_mathematics(caption)}"
+    toggle = (
+        "const s=this.closest('figure').querySelector('svg');"
+        "s.animationsPaused()?s.unpauseAnimations():s.pauseAnimations()"
+    )
+    button = f'<button type="button" onclick="{toggle}">play / pause</button>'
+    return HTML(
+        f'<figure class="plot" id="{name}">{drawing}<div>{button}</div><figcaption>{text}</figcaption></figure>'
+    )
+
+
+def rows(*prefixes: str) -> HTML:
+    """The rows of the report whose ids begin so, as a table; the chapter cannot be built if one of them fails.
+
+    Raises
+    ------
+    OutOfToleranceError : a claim does not hold.
+    InputError : there is no such row.
+    """
+    found = [row for row in read_report(results() / "report.csv") if row["id"].startswith(prefixes)]
+    if not found:
+        raise InputError(f"the report has no row that begins with {' or '.join(prefixes)}")
+    failed = [row["id"] for row in found if row["verdict"] == "FAILS"]
+    if failed:
+        raise OutOfToleranceError(
+            f"rows {', '.join(failed)} of the results table fail; see results/report.csv"
+        )
+    lines = [
+        [
+            row["id"],
+            row["quantity"],
+            row["published"],
+            amount(row["expected"], row["units"]),
+            amount(row["measured"], row["units"]),
+            f"{float(row['error_over_tolerance']):.2f}",
+            row["verdict"],
+        ]
+        for row in found
+    ]
+    return table(
+        lines,
+        ("row", "quantity", "printed text", "expected", "measured", "error / tolerance", "verdict"),
+    )
+
+
+def amount(number: str, unit: str) -> str:
+    """A number of the report with four digits and its unit."""
+    return f"{float(number):.4g}" + ("" if unit == "1" else f"\u00a0{unit}")
+
+
+def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
+    """A plain table; what stands between dollars is mathematics."""
+    head = "".join(f"<th>{_mathematics(escape(name))}</th>" for name in columns)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{_mathematics(escape(str(value)))}</td>" for value in line) + "</tr>"
+        for line in lines
+    )
+    return HTML(f'<table class="rows"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>')
+
+
+def _mathematics(html: str) -> str:
+    """What stands between dollars, as the book's other mathematics: MathJax leaves the dollars of an output alone."""
+    return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)
+
+
+def errata(*standings: str) -> dict[str, Erratum]:
+    """The entries of the errata table with one of the standings, or all."""
+    known = read_errata(results() / "errata.toml")
+    return {name: item for name, item in known.items() if not standings or item.standing in standings}
+
+
+def left_out() -> LeftOutList:
+    """What of the thesis is not here, with the reasons."""
+    return read_left_out(results() / "left_out.toml")
+
+
+def source(thing: Any) -> Markdown:
+    """The lines of the library that define a function or class."""
+    return _code(thing, inspect.getsource(getattr(thing, "py_func", thing)))
+
+
+def excerpt(thing: Any, first: str, last: str) -> Markdown:
+    """The lines of a function from the one that holds `first` up to the one that holds `last`, left out."""
+    lines = inspect.getsource(getattr(thing, "py_func", thing)).splitlines()
+    start = next(number for number, line in enumerate(lines) if first in line)
+    stop = next(number for number, line in enumerate(lines) if last in line and number > start)
+    return _code(thing, "\n".join(lines[start:stop]))
+
+
+def _code(thing: Any, text: str) -> Markdown:
+    place = f"{thing.__module__.replace('.', '/')}.py"
+    return Markdown(
+        f"`{thing.__qualname__}` in `{place}`\n\n```python\n{textwrap.dedent(text).strip()}\n```"
+    )
+
+
+def say(text: str) -> Markdown:
+    """A sentence with measured numbers in it."""
+    return Markdown(text)

@@ -1,0 +1,159 @@
+"""Earthworms of every size: the empirical scalings of Table 2.1, and the same gait at many body masses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from cosserat.parameters import Quantity
+from cosserat.problem import ALONE, Problem, Run
+from cosserat.problems.crawl import Crawl
+from cosserat.solution import Field, Solution
+
+Array = NDArray[np.float64]
+
+Muscles = Literal["strip tension", "strip tension, constant pressure", "constant stress"]
+MUSCLE_LAWS: dict[Muscles, tuple[float, float]] = {
+    "strip tension": (1.0, -1.0),
+    "strip tension, constant pressure": (1.0, 0.0),
+    "constant stress": (2.0, 0.0),
+}
+"""Powers of the radius with which the anchoring force and the advancing pressure grow.
+
+A strip of muscle one millimetre wide that pulls with the same force in every worm, as section 2.8 has it, gives a
+force that grows with the circumference, and by hoop balance a pressure that falls with the radius; the page's 5.7 kPa
+would not depend on it.  Muscle of constant stress whose thickness grows with the worm gives the third.
+"""
+
+SEGMENT_50 = 3 / 5
+"""Place of segment 50, two fifths of the length from the front end, section 2.8."""
+
+CIRCULAR, LONGITUDINAL = 1.5, 0.5
+"""Phases at which it lies well inside an advancing and an anchoring region: t_p + t_s/2 and t_p/2."""
+
+STRIP_TENSION = 0.186 * 9.80665e-3
+"""Peak tension of a strip of longitudinal muscle, eq. (2.8.1) [N]."""
+STRIP_WIDTH = 1e-3
+"""Width of that strip, section 2.8 [m]."""
+
+
+def peak_force(diameter: float) -> float:
+    """Force of strips of longitudinal muscle side by side round the body, eq. (2.8.3) [N]; diameter in m."""
+    return STRIP_TENSION * circumference(diameter) / STRIP_WIDTH
+
+
+def peak_pressure(diameter: float) -> float:
+    """The pressure (2.8.2) as it seems to have been found, E2.13: the force over diameter and strip width [Pa]."""
+    return peak_force(diameter) / (diameter * STRIP_WIDTH)
+
+
+def circumference(diameter: float) -> float:
+    """Of a round body, section 2.8 [m]."""
+    return float(np.pi * diameter)
+
+
+def stance_time(mass: float) -> float:
+    """t_s = 1.6 m^0.04, m in g, Table 2.1 [s]; mass in kg."""
+    return float(1.6 * (1e3 * mass) ** 0.04)
+
+
+def protrusion_time(mass: float) -> float:
+    """t_p = 2.5 m^0.1, m in g, Table 2.1 [s]; mass in kg."""
+    return float(2.5 * (1e3 * mass) ** 0.1)
+
+
+def resting_length(mass: float) -> float:
+    """l_0 = 10^2 m^0.397 mm, m in g, Table 2.1 [m]; mass in kg."""
+    return float(0.1 * (1e3 * mass) ** 0.397)
+
+
+def resting_diameter(mass: float) -> float:
+    """2 R = 10^0.6 m^0.278 mm, m in g, Table 2.1 [m]; mass in kg."""
+    return float(1e-3 * 10**0.6 * (1e3 * mass) ** 0.278)
+
+
+class BodyMasses(Problem):
+    """A worm's crawl at many body masses, under one law for its muscles.
+
+    Length, radius, mass and durations of the worm are replaced by those of Table 2.1, its loads by those of the law,
+    and one stride is made.
+    """
+
+    kind: Literal["body masses"] = "body masses"
+    worm: Crawl
+    masses: tuple[Annotated[float, Quantity("kg", "m", "2.8.4", above=0)], ...]
+    muscles: Muscles = "constant stress"
+
+    @model_validator(mode="after")
+    def _has_masses(self) -> Self:
+        if not self.masses:
+            raise PydanticCustomError("masses", "'masses' is empty; give at least one body mass")
+        if len(self.worm.gait.phases) != 2:
+            raise PydanticCustomError(
+                "phases",
+                f"'worm.gait.phases' has {len(self.worm.gait.phases)}; it takes two, protrusion and stance, whose "
+                "durations Table 2.1 then gives",
+            )
+        return self
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Stride, speed, frequency and the extreme stretches of segment 50 of every worm.
+
+        Raises
+        ------
+        InputError : the loads collapse a section.  NotConvergedError : an instant has no solution.
+        OutOfReachError : the surface of a worm cannot stay on the ground.
+        """
+        worms = [(self.scaled(mass), f"{name}, {1e3 * mass:g} g") for mass in self.masses]
+        for worm, called in worms:
+            worm.refuse_collapse(worm.gait.moments(worm.step), called)
+        table = np.array([_measure(worm, called) for worm, called in worms])
+        duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
+        values = {
+            "body_mass": np.array(self.masses),
+            "stride": table[:, 0],
+            "speed": table[:, 0] / duration,
+            "frequency": 1 / duration,
+            "mu_1_least": table[:, 1],
+            "mu_1_most": table[:, 2],
+            "mu_3_least": table[:, 3],
+            "mu_3_most": table[:, 4],
+        }
+        fields: dict[str, Field] = {key: (("mass",), value) for key, value in values.items()}
+        return Solution(fields, {"crawls": len(self.masses)})
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of crawls."""
+        return f"{statistics['crawls']} crawls"
+
+    def scaled(self, mass: float) -> Crawl:
+        """One stride of the worm of another mass [kg]: Table 2.1 for body and times, `MUSCLE_LAWS` for the loads."""
+        radius = resting_diameter(mass) / 2
+        force, pressure = MUSCLE_LAWS[self.muscles]
+        grown = radius / self.worm.crawler.radius
+        loads = self.worm.loads
+        return self.worm.replace(
+            crawler=self.worm.crawler.replace(
+                length=resting_length(mass), radius=radius, mass=mass, density=None
+            ),
+            loads=loads.replace(
+                anchoring=loads.anchoring * grown**force, advancing=loads.advancing * grown**pressure
+            ),
+            gait=self.worm.gait.replace(phases=(protrusion_time(mass), stance_time(mass))),
+            strides=1,
+        )
+
+
+def _measure(crawl: Crawl, name: str) -> tuple[float, ...]:
+    """Stride [m] and extreme mu_1, mu_3 of segment 50."""
+    fields = crawl.solve(name)
+    at = int(np.argmin(np.abs(crawl.places - SEGMENT_50)))
+    mu_1, mu_3 = fields["mu_1"][:, at], fields["mu_3"][:, at]
+    stride = float(fields["along"][-1, -1] - fields["along"][0, -1])
+    return stride, *(float(v) for v in (mu_1.min(), mu_1.max(), mu_3.min(), mu_3.max()))

@@ -1,0 +1,68 @@
+"""How the "right" coefficients, and the error at the published ones, move with the number of vertices."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from cosserat.data.dataset import case_of
+from cosserat.exact import beams
+from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.studies.calibration import CalibrationProcedure, beam_of
+
+_GREEN = "#3a7d44"
+
+
+def limit(data: xr.Dataset) -> float:
+    """Clamped-free tip over Timoshenko's to which the published coefficients lead."""
+    procedure = case_of(data).problem
+    assert isinstance(procedure, CalibrationProcedure)
+    posed = procedure.clamped_free
+    assert posed.gravity is not None
+    beam, c = beam_of(posed), posed.rod.calibration
+    assert c is not None
+    tip = beams.clamped_free_tip_of_published_rod(beam, posed.gravity.g, c.c3, c.c4, c.c5)
+    exact = beams.clamped_free_displacement(beam, posed.gravity.g, np.array([beam.length]))
+    return tip / float(exact[0])
+
+
+def fig_calibration(data: Mapping[str, xr.Dataset]) -> Figure:
+    """Left, answers at the published coefficients; right, coefficients that fit."""
+    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
+    run = data["calibration"]
+    n = run.vertices
+    curves = [
+        ("hanging_bar", "hanging bar", INK, "^"),
+        ("clamped_free", "clamped-free", COMPUTED, "o"),
+        ("clamped_clamped", "clamped-clamped", VARIANT, "s"),
+        ("necking", "necking", _GREEN, "D"),
+    ]
+    for name, label, colour, marker in curves:
+        left.semilogx(n, run[f"{name}_published"], color=colour, marker=marker, label=label)
+    left.axhline(limit(run), color=EXACT, linestyle="--", label="limit, clamped-free")
+    left.set(
+        xlabel="vertices $N$ [1]",
+        ylabel="computed / analytic [1]",
+        title="(a) at the published coefficients",
+    )
+    beam, section = run.clamped_free_coefficients, run.necking_coefficients
+    product = np.sqrt(beam.sel(beam_coefficient="c4") * beam.sel(beam_coefficient="c5"))
+    for values, label, colour, marker in (
+        (beam.sel(beam_coefficient="c3"), "$c_3$", COMPUTED, "o"),
+        (product, r"$\sqrt{c_4 c_5}$", VARIANT, "s"),
+        (section.sel(section_coefficient="c6"), "$c_6$", _GREEN, "D"),
+        (section.sel(section_coefficient="c7"), "$c_7$", INK, "^"),
+    ):
+        right.loglog(n, values, color=colour, marker=marker, label=label)
+    right.set(
+        xlabel="vertices $N$ [1]", ylabel="fitted coefficient [1]", title="(b) coefficients that fit"
+    )
+    right.set_yticks([0.3, 0.5, 1, 2, 5], ["0.3", "0.5", "1", "2", "5"])
+    for ax in (left, right):
+        ax.set_xticks(n.to_numpy(), [f"{value:.0f}" for value in n.to_numpy()])
+        ax.minorticks_off()
+        ax.legend(fontsize=8)
+    return figure

@@ -1,0 +1,137 @@
+"""Read-outs of the crawlers of Chapter 2."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from cosserat.data.dataset import problem_of
+from cosserat.problems.crawl import Crawl
+from cosserat.thesis.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50
+from cosserat.thesis.table.printed import number, push_pull_rod
+from cosserat.thesis.table.reading import Reading
+
+SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07}
+"""Powers of the body mass that Quillin measured on earthworms, the thesis's reference [50]; the thesis prints 0.4 for
+the stride, (2.8.4), and none of the others."""
+
+
+def crawl(data: xr.Dataset) -> Crawl:
+    """The crawl that a Dataset was computed from.
+
+    Raises
+    ------
+    InputError : it was computed from another kind of case.
+    """
+    return problem_of(data, Crawl, "has no gait; use the result of a crawl")
+
+
+def instants_per_stride(data: xr.Dataset) -> int:
+    """Stored times from the start of one stride to the start of the next."""
+    return (data.sizes["time"] - 1) // crawl(data).strides
+
+
+def segment(data: xr.Dataset) -> xr.Dataset:
+    """What is stored of segment 50."""
+    places = np.linspace(0, 1, data.sizes["section"])
+    return data.isel(section=int(np.abs(places - SEGMENT_50).argmin()))
+
+
+def strides(data: xr.Dataset) -> np.ndarray:
+    """Stride lengths by eq. (2.8.5), one for each stride [m]."""
+    front = data.along.isel(section=-1).to_numpy()[:: instants_per_stride(data)]
+    return np.diff(front)
+
+
+def at_phase(data: xr.Dataset, phase: float) -> xr.Dataset:
+    """Segment 50 at a phase of the last stride."""
+    problem = crawl(data)
+    when = (problem.strides - 1) * problem.gait.duration + problem.gait.time(phase)
+    return segment(data).isel(time=int(np.abs(data.time.to_numpy() - when).argmin()))
+
+
+def slope(data: xr.Dataset, variable: str) -> float:
+    """The power of the body mass with which a variable grows, by least squares of the logarithms."""
+    return power(data, data[variable])
+
+
+def power(data: xr.Dataset, values: xr.DataArray) -> float:
+    """The same of any numbers above zero, one for each body mass."""
+    return float(np.polyfit(np.log(data.body_mass), np.log(values), 1)[0])
+
+
+def _at(variable: str, phase: float) -> Callable[[xr.Dataset], Reading]:
+    return lambda data: Reading(float(at_phase(data, phase)[variable]))
+
+
+def _ratio(variable: str) -> Callable[[xr.Dataset], Reading]:
+    """Circular over longitudinal contraction, eq. (2.8.10)."""
+
+    def read(data: xr.Dataset) -> Reading:
+        circular, longitudinal = (float(at_phase(data, p)[variable]) for p in (CIRCULAR, LONGITUDINAL))
+        return Reading(circular / longitudinal)
+
+    return read
+
+
+def _slope(variable: str) -> Callable[[xr.Dataset], Reading]:
+    """The power of the body mass, and the one that the literature gives."""
+    return lambda data: Reading(slope(data, variable), SLOPES[variable])
+
+
+def _strain_slope(number: int) -> Callable[[xr.Dataset], Reading]:
+    """The power of a strain as section 2.8 has it, between circular and longitudinal contraction; constant: zero."""
+
+    def read(data: xr.Dataset) -> Reading:
+        circular, longitudinal = ("least", "most") if number == 1 else ("most", "least")
+        ratio = data[f"mu_{number}_{circular}"] / data[f"mu_{number}_{longitudinal}"]
+        return Reading(power(data, abs(ratio - 1)), 0.0)
+
+    return read
+
+
+def _rest_pressure(data: xr.Dataset) -> Reading:
+    return Reading(float(data.p_coelom.isel(section=data.sizes["section"] // 2)))
+
+
+def _cycle_displacement(data: xr.Dataset) -> Reading:
+    """Of the soft robot in the cycle that is farthest from the closed form, and that form for the printed robot.
+
+    The front goes on until gamma has a share T of the body left, and holds from then on.
+    """
+    rod = push_pull_rod()
+    expected = rod.stretched_length(number("soft_robot", "T") * rod.length) - rod.stretched_length(
+        rod.length
+    )
+    cycles = strides(data)
+    return Reading(float(cycles[np.abs(cycles - expected).argmax()]), expected)
+
+
+READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
+    "stride": lambda data: Reading(float(strides(data)[-1])),
+    "cycle_displacement": _cycle_displacement,
+    "rest_pressure": _rest_pressure,
+    "mu_1_circular": _at("mu_1", CIRCULAR),
+    "mu_3_circular": _at("mu_3", CIRCULAR),
+    "mu_1_longitudinal": _at("mu_1", LONGITUDINAL),
+    "mu_3_longitudinal": _at("mu_3", LONGITUDINAL),
+    "p_circular": _at("p_coelom", CIRCULAR),
+    "p_longitudinal": _at("p_coelom", LONGITUDINAL),
+    "mu_1_ratio": _ratio("mu_1"),
+    "mu_3_ratio": _ratio("mu_3"),
+    "stride_slope": _slope("stride"),
+    "speed_slope": _slope("speed"),
+    "stride_exponent": lambda data: Reading(slope(data, "stride")),
+    "strain_across_slope": _strain_slope(1),
+    "strain_along_slope": _strain_slope(3),
+    "fitted_young": lambda data: Reading(float(data.fitted_young)),
+    "fitted_anchoring_share": lambda data: Reading(
+        float(data.fitted_anchoring) / number("worm", "D_peak")
+    ),
+    "fitted_advancing_share": lambda data: Reading(
+        float(data.fitted_advancing) / number("worm", "p_peak")
+    ),
+}
+"""Read-outs by the name that a row gives."""

@@ -1,0 +1,166 @@
+"""Measure every row of the results table on the stored Datasets, and judge the claims."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import xarray as xr
+
+from cosserat.data.dataset import load
+from cosserat.errors import InputError, OutOfToleranceError
+from cosserat.thesis.table.arithmetic import ARITHMETIC
+from cosserat.thesis.table.readouts import READOUTS
+from cosserat.thesis.table.tolerances import Judged, Row
+
+
+def measure(rows: list[Row], folder: Path) -> list[Judged]:
+    """Judge the rows on the files `<case>.nc` of a folder.
+
+    Raises
+    ------
+    InputError : a file is missing, unreadable or of another case.
+    """
+    cases = sorted({row.case for row in rows if row.case and row.standing != "not attempted"})
+    datasets = {case: load(folder / f"{case}.nc") for case in cases}
+    for case, data in datasets.items():
+        if data.attrs.get("case") != case:
+            raise InputError(
+                f"{folder / case}.nc holds the case {data.attrs.get('case')!r}; run '{case}' again"
+            )
+    return [judge(row, datasets) for row in rows]
+
+
+def judge(row: Row, datasets: Mapping[str, xr.Dataset]) -> Judged:
+    """One row beside its measured number."""
+    if row.standing == "not attempted":
+        return Judged(row=row, expected=row.expected)
+    if row.kind == "arithmetic":
+        return Judged.model_construct(row=row, expected=row.expected, measured=ARITHMETIC[row.readout]())
+    reading = READOUTS[row.readout](datasets[row.case])
+    expected = row.expected if reading.expected is None else reading.expected
+    measured = reading.measured if row.against is None else abs(reading.measured / row.against - 1)
+    return Judged.model_construct(row=row, expected=expected, measured=measured)
+
+
+_STANDINGS = {
+    "reproduced": "reproduced as printed",
+    "erratum": "only with a misprint that the errata name",
+    "assumption": "only under an assumption",
+    "missed": "missed",
+    "recomputed": "arithmetic on other numbers of the page",
+    "not attempted": "not attempted",
+}
+"""What came of a number, from the best down, in words."""
+
+
+def outcomes(report: Sequence[Mapping[str, str]]) -> dict[str, str]:
+    """What came of each number of the thesis, by the id of its first row: the best of its readings.
+
+    report : the rows of a report of the thesis's own numbers, as texts.
+    """
+    order = list(_STANDINGS)
+    best: dict[str, str] = {}
+    for row in report:
+        number = row["reading_of"] or row["id"]
+        missed = row["claim"] == "outside" and row["standing"] != "recomputed"
+        came = "missed" if missed else row["standing"]
+        best[number] = min(came, best.get(number, came), key=order.index)
+    return best
+
+
+def distance(row: Mapping[str, str]) -> float:
+    """How far a row is from what is expected, as a share of that; of what is a share already, the difference."""
+    expected, error = float(row["expected"]), float(row["error"])
+    return error if row["against"] or not expected else error / abs(expected)
+
+
+def summary(report: Sequence[Mapping[str, str]]) -> str:
+    """What came of the thesis's numbers, by how much those that are missed are off, and our own rod apart."""
+    lines = [sentence(report)]
+    missed = _missed(report)
+    if missed:
+        lines.append(
+            "Missed, in the nearest reading by: "
+            + ", ".join(f"{number} {100 * share:.2g} %" for number, share in missed.items())
+        )
+    of_thesis = _of_thesis(report)
+    solved = [row for row in of_thesis if row["standing"] not in ("recomputed", "not attempted")]
+    first = [row for row in solved if not row["reading_of"]]
+    lines.append(
+        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows; without them "
+        f"{_met(first)} of {len(first)} numbers that something is solved for are met."
+    )
+    lines.append(
+        _within("Measurements of its sources", [r for r in report if r["kind"] == "literature"])
+    )
+    failed = sum(row["verdict"] == "FAILS" for row in report)
+    lines.append(f"{len(report)} rows; {failed} claims fail")
+    return "\n".join(lines)
+
+
+def sentence(report: Sequence[Mapping[str, str]]) -> str:
+    """The sentence that the README has too."""
+    came = list(outcomes(_of_thesis(report)).values())
+    parts = [f"{came.count(name)} {words}" for name, words in _STANDINGS.items() if name in came]
+    missed = list(_missed(report).items())
+    if missed:
+        number, share = missed[0]
+        worst = f"missed (the worst, {number}, by {100 * share:.2g} %)"
+        parts = [part.replace("missed", worst) for part in parts]
+    sums = [row for row in _of_thesis(report) if row["standing"] == "recomputed"]
+    others = len(sums) - _met(sums)
+    if others:
+        parts = [
+            f"{part} ({others} of them not as printed)" if "arithmetic" in part else part
+            for part in parts
+        ]
+    own = [row for row in report if row["id"].startswith("C-")]
+    return (
+        f"Of the thesis's {len(came)} numbers, curves and statements: {', '.join(parts)}. "
+        f"Of {len(own)} exact answers that judge our own rod it meets {_met(own)}."
+    )
+
+
+def _of_thesis(report: Sequence[Mapping[str, str]]) -> list[Mapping[str, str]]:
+    return [row for row in report if not row["id"].startswith("C-") and row["kind"] != "literature"]
+
+
+def _missed(report: Sequence[Mapping[str, str]]) -> dict[str, float]:
+    """Numbers that no reading meets, and how far off the nearest is, worst first."""
+    rows = _of_thesis(report)
+    far = {
+        number: min(distance(row) for row in rows if number in (row["id"], row["reading_of"]))
+        for number, came in outcomes(rows).items()
+        if came == "missed"
+    }
+    return dict(sorted(far.items(), key=lambda item: item[1], reverse=True))
+
+
+def _within(what: str, rows: Sequence[Mapping[str, str]]) -> str:
+    return f"{what}: {len(rows)} rows, {_met(rows)} of them met."
+
+
+def _met(rows: Sequence[Mapping[str, str]]) -> int:
+    return sum(row["claim"] == "within" for row in rows)
+
+
+def check(report: list[dict[str, str]]) -> str:
+    """A summary of a report whose claims all hold.
+
+    Raises
+    ------
+    OutOfToleranceError : some claim does not hold; names each row, what was expected and what was measured.
+    """
+    failed = [
+        f"{row['id']}: {row['quantity']}: published {row['published']}, expected {row['expected']} {row['units']}, "
+        f"measured {row['measured']}, {row['error_over_tolerance']} of the tolerance, claimed '{row['claim']}'"
+        + (f" at {row['found']} within {row['found_tolerance']}" if row["found"] else "")
+        for row in report
+        if row["verdict"] == "FAILS"
+    ]
+    if failed:
+        raise OutOfToleranceError(
+            "claims of the results table that do not hold:\n  " + "\n  ".join(failed)
+        )
+    return summary(report)

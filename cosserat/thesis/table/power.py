@@ -1,0 +1,135 @@
+"""The power of the results table: inputs and physics are changed one at a time, and the rows that notice are named.
+
+A row notices a change if its claim no longer holds.  Each change is noticed by some row of the cases that it touches,
+or says why no number can; one that says so and is noticed after all says something wrong.  Rows of the thesis stand on
+cases of the thesis and those of our own rod on cases of its own, so that neither can answer for the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from typing import Any
+
+from cosserat.cases.catalogue import Case, find
+from cosserat.errors import CosseratError, InputError, OutOfToleranceError
+from cosserat.runner import run
+from cosserat.thesis.table.measure import judge
+from cosserat.thesis.table.tolerances import Judged, Row
+
+Physics = Callable[[], AbstractContextManager[object]]
+Edit = Callable[[Any], Any]
+_SHOWN = 3  # rows that a line names
+
+
+@dataclass(frozen=True)
+class Change:
+    """One change of some cases.
+
+    what : in a few words.  cases : whose rows are asked.
+    places, edit : inputs of the cases that are changed, such as "rod.young", and how.
+    physics : a context in which the mechanics is another.
+    unseen : why no printed number can see the change.
+    """
+
+    what: str
+    cases: tuple[str, ...]
+    places: tuple[str, ...] = ()
+    edit: Edit | None = None
+    physics: Physics = nullcontext
+    unseen: str = ""
+
+
+@dataclass(frozen=True)
+class Noticed:
+    """A change and the rows that notice it."""
+
+    change: Change
+    rows: tuple[str, ...]
+
+    def __str__(self) -> str:
+        if not self.rows:
+            return f"{self.change.what:<52} none: {self.change.unseen or 'NO REASON GIVEN'}"
+        rest = len(self.rows) - _SHOWN
+        more = f" and {rest} more" if rest > 0 else ""
+        return f"{self.change.what:<52} {', '.join(self.rows[:_SHOWN])}{more}"
+
+    @property
+    def sound(self) -> bool:
+        """Whether a row notices, or none can and that is said."""
+        return bool(self.rows) != bool(self.change.unseen)
+
+
+def changes() -> tuple[Change, ...]:
+    """All that are tried, in the order of the thesis."""
+    from cosserat.thesis.table import power_crawlers, power_rods
+
+    return power_crawlers.CHANGES + power_rods.CHANGES
+
+
+def edited(case: Case, change: Change) -> Case:
+    """The case with its inputs changed, under its own name."""
+    table = case.problem.model_dump()
+    for place in change.places:
+        *path, last = place.split(".")
+        inner: Any = table
+        for key in path:
+            inner = inner[int(key)] if isinstance(inner, list | tuple) else inner[key]
+        assert change.edit is not None
+        inner[last] = change.edit(inner[last])
+    problem = type(case.problem).read(table, f"case '{case.name}'", units_required=False)
+    return case.model_copy(update={"problem": problem})
+
+
+def notices(change: Change, rows: Sequence[Row]) -> Noticed:
+    """Which rows notice; those of a case that no longer has an answer all do.
+
+    Raises
+    ------
+    InputError : the change is no case, so that nothing was tried.
+    """
+    found: list[str] = []
+    with change.physics():
+        for name in change.cases:
+            asked = [row for row in rows if row.case == name]
+            try:
+                data = {name: run(edited(find(name), change))}
+            except InputError:
+                raise
+            except CosseratError as error:
+                found += [f"{row.id} (no answer: {type(error).__name__})" for row in asked]
+                continue
+            found += [_named(item) for row in asked if not (item := judge(row, data)).holds]
+    return Noticed(change, tuple(found))
+
+
+def _named(item: Judged) -> str:
+    """The id of a row, and how far it is out of what it allows."""
+    if item.row.claim == "within":
+        return f"{item.row.id} ({item.error_over_tolerance:.2g})"
+    assert item.measured is not None
+    assert item.row.found is not None
+    assert item.row.found_tolerance is not None
+    return f"{item.row.id} ({abs(item.measured - item.row.found) / item.row.found_tolerance:.2g})"
+
+
+def table(rows: Sequence[Row], words: Sequence[str] = ()) -> Iterator[Noticed]:
+    """Each change whose description has one of the words, and which rows notice it.
+
+    Raises
+    ------
+    OutOfToleranceError : after the last, if no row notices a change without a reason, or one notices in spite of it.
+    """
+    wrong = []
+    for change in changes():
+        if words and not any(word in change.what for word in words):
+            continue
+        noticed = notices(change, rows)
+        if not noticed.sound:
+            wrong.append(change.what)
+        yield noticed
+    if wrong:
+        raise OutOfToleranceError(
+            f"changes that no row notices without a reason, or that one notices in spite of it: {'; '.join(wrong)}"
+        )

@@ -1,0 +1,174 @@
+"""What the thesis prints as inputs of Chapters 2 and 3: the one second copy of its numbers that the project allows.
+
+The case files hold the same numbers, and a test holds each case of the thesis to this module.  Closed forms that rows
+are judged by take their beams and loads from here, never from the case that was solved: where a case has another
+modulus than the page, its answer moves and what is expected does not.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+
+import numpy as np
+
+from cosserat.exact.beams import Beam, PushPullRod
+from cosserat.thesis.table.given import Input, Inputs
+from cosserat.thesis.table.printed_crawlers import BEHIND, CHAPTER_2
+
+# --------------------------------------------------------------------------------------------------- Chapter 3
+
+_FOUR = "section 3.5, 'In all four problems'"
+_VIBRATION = "section 3.5, after eq. (3.5.16)"
+_CLAMP = ["x3", "x2", "d3", "d2"]
+
+_ROD: Inputs = {
+    "rod.energy": Input("published", "eq. (3.4.11)"),
+    "rod.vertices": Input("20", _FOUR, "1"),
+    "rod.length": Input("5 m", _FOUR, "m"),
+    "rod.height": Input("0.5 m", _FOUR, "m"),
+    "rod.width": Input("0.5 m", _FOUR, "m"),
+    "rod.young": Input("1 GPa", _FOUR, "Pa"),
+    "rod.poisson": Input("0", "section 3.5, 'zero Poisson's ratio everywhere'", "1"),
+    "rod.line_density": Input("250 kg/m", _FOUR, "kg/m"),
+    "rod.shear_correction": Input("5/6", "section 3.5, A necking problem", "1", "E3.17"),
+    "rod.calibration.c1": Input("1/2", "Fig. 3.9", "1"),
+    "rod.calibration.c2": Input("1/2", "Fig. 3.12", "1"),
+    "rod.calibration.c3": Input("0.99", "Fig. 3.10", "1"),
+    "rod.calibration.c4": Input("2.01", "Fig. 3.10", "1"),
+    "rod.calibration.c5": Input("1", "Fig. 3.10", "1"),
+    "rod.calibration.c6": Input("1/2", "Fig. 3.12", "1"),
+    "rod.calibration.c7": Input("1.66", "Fig. 3.12", "1"),
+    "rod.end_sections": Input("full", "eq. (3.4.10)", assumed="E3.9"),
+    "rod.poisson_coupling": Input("halved", "eq. (3.4.11)", assumed="E3.2"),
+}
+
+_G = Input("9.81 m/s^2", _FOUR, "m/s^2")
+_LEFT = [{"at": "first", "hold": _CLAMP}]
+
+_HANGING_BAR: Inputs = {
+    **_ROD,
+    "gravity.g": _G,
+    "gravity.along": Input("E3", _FOUR),
+    "supports": Input(
+        [{"at": "first", "hold": ["x3", "x2", "d3"]}], "section 3.5, 'u . E3 = 0'", assumed="E3.16"
+    ),
+}
+_CLAMPED_FREE: Inputs = {
+    **_ROD,
+    "gravity.g": _G,
+    "gravity.along": Input("-E2", _FOUR),
+    "supports": Input(_LEFT, "section 3.5, A clamped-free and clamped-clamped Timoshenko beam"),
+}
+_CLAMPED_CLAMPED: Inputs = {
+    **_CLAMPED_FREE,
+    "supports": Input([*_LEFT, {"at": "last", "hold": _CLAMP}], "section 3.5, before eq. (3.5.6)"),
+}
+_NECKING: Inputs = {
+    **_ROD,
+    "rod.poisson": Input("0.3", "section 3.5, before eq. (3.5.8)", "1"),
+    "rod.shear_correction": Input("5/6", "section 3.5, A necking problem", "1"),
+    "gravity": Input(None, _FOUR, assumed="E3.16"),
+    "forces.0": Input({"at": "first", "along": "-E3"}, "section 3.5, (iv)", assumed="E3.16"),
+    "forces.0.force": Input("1 kN", "section 3.5, before eq. (3.5.8)", "N"),
+    "forces.1": Input({"at": "last", "along": "E3"}, "section 3.5, (iv)", assumed="E3.16"),
+    "forces.1.force": Input("1 kN", "section 3.5, before eq. (3.5.8)", "N"),
+    "supports": Input(
+        [*_LEFT, {"at": "last", "hold": ["d3", "d2"]}], "section 3.5, A necking problem", assumed="E3.16"
+    ),
+}
+_VIBRATING: Inputs = {
+    **_ROD,
+    "rod.length": Input("1 m", _VIBRATION, "m"),
+    "rod.width": Input("0.1 m", _VIBRATION, "m"),
+    "rod.height": Input("0.1 m", _VIBRATION, "m", "E3.19"),
+    "rod.shear_correction": Input("5/6", _VIBRATION, "1"),
+    "rod.line_density": Input("10 kg/m", f"{_VIBRATION}: 10^3 times the area", "kg/m", "E3.19"),
+    "supports": Input(_LEFT, "section 3.5, 'clamped-free'"),
+    "gravity": Input(None, _VIBRATION, assumed="E3.19"),
+    "start.shape": Input("first beam mode", "section 3.5, 'in its first mode shape'"),
+    "start.amplitude": Input("1 cm", "not given", "m", "E3.19"),
+}
+_DAMPED: Inputs = {"damping": Input("1", "section 3.5, 'towards critical damping'", "1", "E3.22")}
+_K_1: Inputs = {
+    "rod.shear_correction": Input("1", "given for no beam of the four problems", "1", "E3.17")
+}
+_HALVED: Inputs = {"rod.end_sections": Input("halved", "eq. (3.4.10)")}
+
+CHAPTER_3: Mapping[str, Inputs] = {
+    "hanging_bar": _HANGING_BAR,
+    "clamped_free": _CLAMPED_FREE,
+    "clamped_free_ends_halved": {**_CLAMPED_FREE, **_HALVED},
+    "clamped_free_k_1": {**_CLAMPED_FREE, **_K_1},
+    "clamped_free_k_1_ends_halved": {**_CLAMPED_FREE, **_K_1, **_HALVED},
+    "clamped_clamped": _CLAMPED_CLAMPED,
+    "clamped_clamped_ends_halved": {**_CLAMPED_CLAMPED, **_HALVED},
+    "clamped_clamped_k_1": {**_CLAMPED_CLAMPED, **_K_1},
+    "clamped_clamped_k_1_ends_halved": {**_CLAMPED_CLAMPED, **_K_1, **_HALVED},
+    "necking": _NECKING,
+    "necking_printed": {**_NECKING, "rod.poisson_coupling": Input("printed", "eq. (3.4.11)")},
+    "vibration_c4_2": {**_VIBRATING, "rod.calibration.c4": Input("2.0", _VIBRATION, "1")},
+    "vibration_c4_20": {**_VIBRATING, "rod.calibration.c4": Input("20", "Fig. 3.13", "1", "E3.19")},
+    "relaxing_hanging_bar": {**_HANGING_BAR, **_DAMPED},
+    "relaxing_clamped_free": {**_CLAMPED_FREE, **_DAMPED},
+    "relaxing_clamped_clamped": {**_CLAMPED_CLAMPED, **_DAMPED},
+    "relaxing_necking": {**_NECKING, **_DAMPED},
+}
+"""Inputs of the cases of Chapter 3 that are the thesis's, by case."""
+
+PRINTED: Mapping[str, Inputs] = {**CHAPTER_2, **CHAPTER_3}
+"""Both."""
+
+OURS = (
+    "newton",
+    "integrator",
+    "duration",
+    "every",
+    "mesh",
+    "tolerance",
+    "solver",
+    "collocation_tolerance",
+    "sections",
+    "strides",
+    "step",
+)
+"""Keys of a case that say how it is solved and what is stored, on which the page says nothing."""
+
+
+def number(case: str, place: str) -> float:
+    """A printed number in its SI unit: of a case ("necking", "forces.1.force"), or one that inputs are made of."""
+    given = PRINTED[case].get(place) or BEHIND[case][place]
+    return given.si
+
+
+@functools.cache
+def beam(case: str) -> Beam:
+    """The beam of a case of Chapter 3 as the closed forms know it; I = W H^3 / 12 of the printed rectangle."""
+    wide, high = number(case, "rod.width"), number(case, "rod.height")
+    return Beam(
+        length=number(case, "rod.length"),
+        area=wide * high,
+        second_moment=wide * high**3 / 12,
+        young=number(case, "rod.young"),
+        poisson=number(case, "rod.poisson"),
+        line_density=number(case, "rod.line_density"),
+        shear_correction=number(case, "rod.shear_correction"),
+    )
+
+
+def push_pull_rod() -> PushPullRod:
+    """The soft robot as its closed form knows it, the stiffnesses by eq. (2.6.20) of the printed E, nu and R."""
+    robot = functools.partial(number, "soft_robot")
+    radius = robot("crawler.radius")
+    area, poisson = np.pi * radius**2, robot("crawler.material.poisson")
+    k_s = robot("crawler.material.young") * area * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+    return PushPullRod(
+        k_s=k_s,
+        k_p=poisson / (1 - poisson) * k_s,
+        k_g=robot("crawler.material.young") * np.pi * radius**4 / (8 * (1 + poisson)),
+        length=robot("crawler.length"),
+        radius=radius,
+        weight=robot("crawler.density") * area * robot("loads.gravity"),
+        anchoring=robot("loads.anchoring"),
+        advancing=robot("loads.advancing") * area,
+    )
