@@ -25,7 +25,7 @@ CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/exact/beams.py", "cosserat/exact/elastica.py"]
 READOUTS = [
-    f"cosserat/table/{name}.py"
+    f"cosserat/thesis/table/{name}.py"
     for name in ("crawl_readouts", "given", "printed", "printed_crawlers", "reading", "readouts")
 ]
 
@@ -110,7 +110,7 @@ for batch, names in batches().items():
 
 rule measure:
     input:
-        package("table"),
+        package("thesis/table"),
         FORMULAS,
         table="results/tolerances.csv",
         cases=expand("results/cases/{case}.nc", case=CASES),
@@ -144,7 +144,7 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
         name:
             f"figure_{module}"
         input:
-            package("figures"),
+            package("figures", "thesis/figures"),
             FORMULAS,
             READOUTS,
             cases=sorted({f"results/cases/{case}.nc" for name in drawn for case in FIGURES[name].cases}),
@@ -171,7 +171,7 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
 
 rule chapter:
     input:
-        package("book", "table", "figures"),
+        package("thesis/book", "thesis/table", "figures", "thesis/figures"),
         "results/check.txt",
         "results/report.csv",
         "results/tolerances.csv",
@@ -208,7 +208,7 @@ rule peers:  # its table is tracked, so it is the output of no rule, and measure
 
 rule book:
     input:
-        package("book"),
+        package("thesis/book"),
         notebooks=expand("results/notebooks/{chapter}.ipynb", chapter=CHAPTERS),
     output:
         "results/book/index.html",

@@ -18,8 +18,9 @@
 import numpy as np
 
 import cosserat
-from cosserat.rods import problem, variation
+from cosserat.rods import variation
 from cosserat.rods.energies import hemingway_kernel
+from cosserat.rods.problem import RodProblem
 from cosserat.thesis.book import page
 
 # %% [markdown]
@@ -171,7 +172,7 @@ page.source(hemingway_kernel._work_of_couples)
 # lines would stretch it.
 
 # %% tags=["remove-input"]
-page.source(problem.RodProblem.loads)
+page.source(RodProblem.loads)
 
 # %% [markdown]
 # ## Curved references

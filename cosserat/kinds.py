@@ -1,4 +1,4 @@
-"""The registry of the kinds of problems: everything that depends on a kind is found from here.
+"""The registry of the kinds of problems: whatever depends on a kind is found from here.
 
 A kind is a class of parameters that can be solved, and a function that draws its result.  Both are named by
 "module:object" and imported when needed, so that the command line answers at once.
@@ -38,12 +38,10 @@ class Kind:
 KINDS = {
     "rod statics": Kind("cosserat.problems.static:RodStatics", "cosserat.figures.rod:picture"),
     "rod motion": Kind("cosserat.problems.motion:RodMotion", "cosserat.figures.motion:picture"),
-    "rod path": Kind("cosserat.problems.path:RodPath", "cosserat.thesis.figures.consistent:picture"),
+    "rod path": Kind("cosserat.problems.path:RodPath", "cosserat.figures.path:picture"),
     "calibration": Kind("cosserat.studies.calibration:CalibrationProcedure"),
     "convergence": Kind("cosserat.studies.convergence:Convergence"),
     "posture": Kind("cosserat.problems.crawl:Posture", "cosserat.figures.crawlers:picture"),
     "crawl": Kind("cosserat.problems.crawl:Crawl", "cosserat.figures.crawlers:picture"),
-    "body masses": Kind("cosserat.thesis.earthworm:BodyMasses"),
-    "worm calibration": Kind("cosserat.thesis.worm_calibration:WormCalibration"),
 }
-"""Kinds by the word that a case names in `kind`."""
+"""Kinds by the word that a case names in `kind`; `cosserat.publications` adds those of each publication."""

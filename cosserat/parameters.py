@@ -166,7 +166,7 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
         return ""
     field = place.model_fields[key]
     meaning = [_words(place, key)]
-    remedy = "see the cases of cosserat/cases for examples"
+    remedy = "see the cases in cosserat/thesis/cases for examples"
     tables = _classes_in(field.annotation)
     for about in field.metadata:
         if isinstance(about, Quantity | Count):

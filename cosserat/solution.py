@@ -17,6 +17,34 @@ Field = tuple[tuple[str, ...], Array]
 
 
 @dataclass(frozen=True)
+class Variable:
+    """What a stored variable is: unit, meaning, and symbol and equation of the thesis.
+
+    floor : differences below this are rounding, in the variable's unit.  Positions of a few metres are known to
+        1e-15 m; strains of an edge to that over its length; forces to that strain times the axial stiffness.
+    """
+
+    dims: tuple[str, ...]  # of one state; a motion puts `time` before them, a path `point`
+    units: str
+    long_name: str
+    symbol: str
+    equation: str
+    floor: float
+
+
+@dataclass(frozen=True)
+class Variables:
+    """What one part of the package adds to the table of stored variables.
+
+    labels : meaning of the dimensions whose values are names.  coordinates : variables that place the others.
+    """
+
+    variables: Mapping[str, Variable]
+    labels: Mapping[str, str]
+    coordinates: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Solution:
     """Fields by variable name; `solution["u"]` gives the values of one.
 

@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT
 
 import cosserat
-from cosserat.__main__ import main
+from cosserat.cli import main
 
 
 def call(capsys, *arguments):
@@ -286,7 +286,7 @@ def test_running_a_case_as_a_process_loads_no_more_than_it_needs(tmp_path):
     spared += "scipy.optimize", "scipy.integrate", "scipy.sparse.linalg", "scipy.interpolate"
     code = f"""
 import sys
-from cosserat.__main__ import main
+from cosserat.cli import main
 assert main(["run", "clamped_free"]) == 0
 print(sorted(set({spared}) & set(sys.modules)))
 """

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import cosserat
-from cosserat.__main__ import main
+from cosserat.cli import main
 from cosserat.errors import InputError
 from cosserat.exact import beams, elastica
 from cosserat.problems.static import RodStatics

@@ -118,7 +118,7 @@ def test_no_temporary_folder_at_all_is_no_error(monkeypatch):
 def test_help_and_cases_load_nothing_compiled(closed, arguments):
     code = f"""
 import sys
-from cosserat.__main__ import main
+from cosserat.cli import main
 try:
     main({list(arguments)})
 finally:

@@ -3,8 +3,8 @@
 import pytest
 from conftest import ROOT
 
-from cosserat.__main__ import main
 from cosserat.cases.catalogue import find
+from cosserat.cli import main
 from cosserat.errors import InputError, OutOfToleranceError
 from cosserat.thesis.table import power, power_rods
 from cosserat.thesis.table.power import Change, edited, notices, table

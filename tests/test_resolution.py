@@ -179,7 +179,7 @@ def test_a_coarse_mesh_is_named_at_rest_and_a_fine_one_is_not():
 
 
 def test_warnings_stand_in_the_file_on_the_screen_and_in_the_picture(tmp_path, capsys):
-    from cosserat.__main__ import main
+    from cosserat.cli import main
 
     (tmp_path / "my.toml").write_text('[coarse]\nlike = "roll_up"\nrod.vertices = 6\n')
     path = tmp_path / "coarse.nc"

@@ -15,10 +15,9 @@ from pydantic import AfterValidator, SerializeAsAny
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError, path_of
-from cosserat.kinds import KINDS
 from cosserat.parameters import Parameters, nearest
 from cosserat.problem import Problem
-from cosserat.thesis.cases.tables import published_tables, titles
+from cosserat.publications import kinds, published_tables, titles
 
 
 def _check_name(name: str) -> str:
@@ -133,7 +132,7 @@ def _remedy(error: str, text: str) -> str:
         return "for a decimal comma write a decimal point"
     if re.search(rf"{number}(?:\.\d*)?(?:[eE][+-]?\d+)?\s*[^\W\d_]", line):
         return 'write a number that has a unit between quotation marks, such as "2.5 mm"'
-    return "see cosserat/thesis/cases/chapter3.toml or chapter2.toml for examples"
+    return "see the published cases in cosserat/thesis/cases for examples"
 
 
 def parse(parameters: str) -> Case:
@@ -172,9 +171,9 @@ def _build(name: str, known: Mapping[str, Any]) -> Case:
 def _read_problem(table: dict[str, Any], name: str, *, units_required: bool) -> Problem:
     """The problem of a table, as the class of its kind reads it."""
     kind = table.pop("kind", "")
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise InputError(f"{name}: 'kind' is {kind!r}{nearest(str(kind), list(KINDS))}")
-    return KINDS[kind].problem_class().read(table, name, units_required=units_required)
+    if not isinstance(kind, str) or kind not in kinds():
+        raise InputError(f"{name}: 'kind' is {kind!r}{nearest(str(kind), list(kinds()))}")
+    return kinds()[kind].problem_class().read(table, name, units_required=units_required)
 
 
 def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:

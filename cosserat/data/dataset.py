@@ -14,6 +14,7 @@ from cosserat.data.files import check_destination, uninterrupted, whole_or_absen
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import InputError, path_of
+from cosserat.publications import kinds, reference
 from cosserat.solution import Solution
 
 P = TypeVar("P")
@@ -22,7 +23,6 @@ _FRAME = "frame"
 dates, and theirs alone may have it.  Here times count from the start, in plain seconds."""
 _ALONG = ("time", "point")
 """Dimensions that may come before those of one state."""
-THESIS = "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
 
 
 def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
@@ -67,7 +67,7 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
         "Conventions": "CF-1.11",
         "title": case.title,
         "institution": "the cosserat project",
-        "references": THESIS,
+        "references": reference(),
         "comment": case.source or "a case of the user",
         "source": source(),
         "history": f"cosserat run {case.name}",
@@ -106,16 +106,20 @@ def _name(dataset: xr.Dataset) -> str:
     return str(dataset.encoding.get("source", "this Dataset"))
 
 
-def problem_of(dataset: xr.Dataset, kind: type[P], otherwise: str) -> P:
-    """The problem that a Dataset was computed from, if it is of this kind; `otherwise` says what the case is instead.
+def problem_of(dataset: xr.Dataset, asked: type[P]) -> P:
+    """The problem that a Dataset was computed from, if it is one of these.
 
     Raises
     ------
     InputError : it is of another kind.
     """
     problem = case_of(dataset).problem
-    if not isinstance(problem, kind):
-        raise InputError(f"the case '{dataset.attrs['case']}' {otherwise}")
+    if not isinstance(problem, asked):
+        fitting = [name for name, kind in kinds().items() if issubclass(kind.problem_class(), asked)]
+        raise InputError(
+            f"the case '{dataset.attrs['case']}' is of kind '{problem.kind}'; use the result of one of kind "
+            + " or ".join(f"'{name}'" for name in fitting)
+        )
     return problem
 
 

@@ -16,13 +16,20 @@ _COMPUTING = (
     "parameters.py",
     "problem.py",
     "kinds.py",
-    "analytic.py",
-    "elastica.py",
+    "publications.py",
     "runner.py",
+    "exact",
     "solvers",
-    "models",
+    "rods",
+    "problems",
+    "peristalsis",
+    "studies",
     "cases",
     "data",
+    "thesis/__init__.py",
+    "thesis/earthworm.py",
+    "thesis/variables.py",
+    "thesis/worm_calibration.py",
 )
 
 

@@ -2,24 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True)
-class Variable:
-    """One row of the table.
-
-    floor : differences below this are rounding, in the variable's unit.  Positions of a few metres are known to
-        1e-15 m; strains of an edge to that over its length; forces to that strain times the axial stiffness.
-    """
-
-    dims: tuple[str, ...]  # of one state; a motion puts `time` before them, a path `point`
-    units: str
-    long_name: str
-    symbol: str
-    equation: str
-    floor: float
-
+from cosserat.publications import publications
+from cosserat.solution import Variable
 
 LABELS = {
     "axis": "component in the plane of motion",
@@ -29,12 +13,11 @@ LABELS = {
     "section_coefficient": "coefficient of eq. (3.4.13)",
     "part": "part of the energy of the consistent rod",
     "measure": "what is compared with an exact answer",
-    "outcome": "what the calibration of the worm matches",
     "term": "term of the strain energy, eq. (3.4.11)",
 }
 """Meaning of the dimensions whose values are names, not numbers."""
 
-COORDINATES = ("xi", "xi_edge", "xi_section", "time", "load_factor", "body_mass")
+COORDINATES: tuple[str, ...] = ("xi", "xi_edge", "xi_section", "time", "load_factor")
 """Variables that place the others."""
 
 VARIABLES: dict[str, Variable] = {
@@ -136,27 +119,6 @@ VARIABLES: dict[str, Variable] = {
     "anchor_along": Variable(
         ("time",), "m", "position of the anchored point", r"z(\xi_A)", "2.5.10", 1e-10
     ),
-    "body_mass": Variable(("mass",), "kg", "body mass", "m", "2.8.4", 1e-14),
-    "stride": Variable(("mass",), "m", "stride length", r"\Delta", "2.8.5", 1e-10),
-    "speed": Variable(("mass",), "m s-1", "stride length over stride duration", "", "2.8.5", 1e-10),
-    "frequency": Variable(("mass",), "s-1", "strides in unit time", "1/(t_p+t_s)", "2.8", 1e-12),
-    "mu_1_least": Variable(
-        ("mass",), "1", "least vertical stretch of segment 50", r"\mu_1", "1.3.6", 1e-9
-    ),
-    "mu_1_most": Variable(
-        ("mass",), "1", "largest vertical stretch of segment 50", r"\mu_1", "1.3.6", 1e-9
-    ),
-    "mu_3_least": Variable(("mass",), "1", "least stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
-    "mu_3_most": Variable(("mass",), "1", "largest stretch along segment 50", r"\mu_3", "1.3.6", 1e-9),
-    "fitted_young": Variable((), "Pa", "modulus of the worm by the fit", "E", "2.6.17", 1e-4),
-    "fitted_anchoring": Variable((), "N", "anchoring force by the fit", r"\bar{D}", "2.2.7", 1e-9),
-    "fitted_advancing": Variable((), "Pa", "advancing pressure by the fit", "p", "2.2.8", 1e-4),
-    "fitted_outcomes": Variable(
-        ("outcome",), "1", "by the fit, over what was measured", "", "2.8.6", 1e-7
-    ),
-    "given_outcomes": Variable(
-        ("outcome",), "1", "by the given worm, over what was measured", "", "2.8.6", 1e-9
-    ),
     "load_factor": Variable(("point",), "1", "share of the full load", "", "3.3.40", 1e-9),
     "stable": Variable(
         ("point",), "1", "one where the potential has a minimum, else zero", "", "3.4.7", 1e-9
@@ -219,3 +181,9 @@ for _problem, _dim in (
             ("mesh",), "1", f"{_name} over its formula at the published coefficients", "", "3.4.13", 1e-8
         ),
     }
+
+for _publication in publications():
+    _own = _publication.own_variables()
+    VARIABLES |= _own.variables
+    LABELS |= _own.labels
+    COORDINATES += _own.coordinates

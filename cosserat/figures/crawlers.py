@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
 from cosserat.problems.crawl import Crawl, CrawlerProblem
-from cosserat.thesis.table.crawl_readouts import crawl
 
 Array = NDArray[np.float64]
 
@@ -25,16 +24,6 @@ STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
 WIDTHS = {"mu_1": 2.4, "mu_2": 1.0, "mu_3": 1.4}  # mu_2 lies on mu_1 but for the weight
 _WIDTH, _MARGIN = 720, 14  # of an animation, in pixels
 _SHOWN = 126  # sections of an animated outline
-
-
-def crawler_of(data: xr.Dataset) -> CrawlerProblem:
-    """The crawler problem that a Dataset was computed from.
-
-    Raises
-    ------
-    InputError : it was computed from another kind of case.
-    """
-    return problem_of(data, CrawlerProblem, "is no crawler; use the result of one that is")
 
 
 def draw_crawler(
@@ -79,7 +68,7 @@ def draw_snapshots(
     tall: float = 1.0,
 ) -> None:
     """Instants of a crawl below each other, each in its lane with its label at the left, in cm."""
-    radius, lane = crawl(data).crawler.radius, lane_height(data, tall)
+    radius, lane = problem_of(data, Crawl).crawler.radius, lane_height(data, tall)
     for number, (index, label) in enumerate(zip(indices, labels, strict=True)):
         base = -lane * number
         draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark, tall=tall)
@@ -102,10 +91,10 @@ def draw_snapshots(
 
 def draw_fronts(ax: Axes, data: xr.Dataset, indices: list[int]) -> None:
     """The fronts on the body at instants drawn by `draw_snapshots`: a line across it, its letter above."""
-    lane, height = lane_height(data), 2e2 * crawl(data).crawler.radius
+    lane, height = lane_height(data), 2e2 * problem_of(data, Crawl).crawler.radius
     for number, index in enumerate(indices):
         state = data.isel(time=index)
-        for place, kind in fronts_on_the_body(crawl(data), float(state.time)):
+        for place, kind in fronts_on_the_body(problem_of(data, Crawl), float(state.time)):
             at = 1e2 * float(np.interp(place, np.linspace(0, 1, state.sizes["section"]), state.along))
             base, colour = -lane * number, FRONTS[kind]
             ax.plot([at, at], [base, base + 1.08 * height], color=colour, linewidth=2.2)
@@ -132,7 +121,7 @@ def fronts_on_the_body(problem: Crawl, time: float) -> list[tuple[float, str]]:
 
 def lane_height(data: xr.Dataset, tall: float = 1.0) -> float:
     """Height that a crawler takes in a row of snapshots, in cm."""
-    return 2e2 * tall * crawl(data).crawler.radius * 1.4
+    return 2e2 * tall * problem_of(data, Crawl).crawler.radius * 1.4
 
 
 def legend_of_bodies() -> list[Artist]:
@@ -151,7 +140,7 @@ def nearest(data: xr.Dataset, time: float) -> int:
 
 def picture(data: xr.Dataset) -> Figure:
     """Body, stretches and, of a crawl, its path: what `cosserat plot` shows of a crawler."""
-    problem = crawler_of(data)
+    problem = problem_of(data, CrawlerProblem)
     figure, (body, curves, path) = canvas(7.2, 6.4, 3, 1)
     last = data.isel(time=-1) if "time" in data.sizes else data
     draw_crawler(body, last, problem.crawler.radius)
@@ -175,7 +164,7 @@ def picture(data: xr.Dataset) -> Figure:
 
 def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) -> str:
     """A crawl as an SVG that plays by itself: body, advancing regions, anchor and ground."""
-    radius = crawl(data).crawler.radius
+    radius = problem_of(data, Crawl).crawler.radius
     chosen = np.unique(np.linspace(0, data.sizes["section"] - 1, _SHOWN).round().astype(int))
     along = data.along.to_numpy()[:, chosen]
     top = 2 * radius * data.mu_1.to_numpy()[:, chosen]

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.rods.problem import RodProblem, unit_vector
-from cosserat.thesis.table.readouts import problem_of
 
 Array = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ def picture(data: xr.Dataset) -> Figure:
     axes[0].remove()
     axes[1].remove()
     top = figure.add_subplot(grid[0, :])
-    magnified = magnification(data.u.to_numpy(), problem_of(data).rod.length)
+    magnified = magnification(data.u.to_numpy(), problem_of(data, RodProblem).rod.length)
     draw_body(top, data, magnified)
     top.set_aspect("equal", adjustable="datalim")
     top.set_title(f"{data.attrs['title']}, displacements × {magnified:g}")
@@ -53,7 +53,7 @@ def magnification(displacement: Array, length: float) -> float:
 
 def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
     """The rod as the body it stands for, with its supports and loads; the directors reach the upper surface."""
-    problem = problem_of(data)
+    problem = problem_of(data, RodProblem)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
     x, d = X + magnified * data.u.to_numpy(), D + magnified * data.delta.to_numpy()
     draw_outline(ax, X, D, problem, facecolor="none", edgecolor=EXACT, linestyle=":")

@@ -1,1 +1,21 @@
-"""What reproduces one publication: E. G. Hemingway's thesis (Berkeley, 2020)."""
+"""What reproduces one publication: E. G. Hemingway's thesis (Berkeley, 2020).
+
+Its cases, its worm, the table of its numbers with the judge, its figures, the errata, and the book.  Nothing outside
+this folder but the command line imports it.
+"""
+
+from cosserat.kinds import Kind
+from cosserat.publications import Publication
+
+PUBLICATION = Publication(
+    reference=(
+        "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
+    ),
+    kinds={
+        "body masses": Kind("cosserat.thesis.earthworm:BodyMasses"),
+        "worm calibration": Kind("cosserat.thesis.worm_calibration:WormCalibration"),
+    },
+    folder="cosserat.thesis.cases",
+    cases=("chapter2.toml", "chapter3.toml"),
+    variables="cosserat.thesis.variables:VARIABLES",
+)

@@ -9,8 +9,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.crawlers import crawler_of
+from cosserat.data.dataset import problem_of
 from cosserat.figures.style import COMPUTED, EXACT, INK, PAPER, VARIANT, canvas
+from cosserat.problems.crawl import CrawlerProblem
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -40,7 +41,7 @@ def fig_directed_rod(data: Data) -> Figure:
     run = data["soft_robot"]
     state = run.isel(time=int(np.abs(run.time.to_numpy() - 10.0).argmin()))
     state = state.isel(section=slice(None, None, 5))
-    radius = crawler_of(run).crawler.radius
+    radius = problem_of(run, CrawlerProblem).crawler.radius
     figure, (ax,) = canvas(7.2, 2.6)
     skin = _oblique(surface(state, radius, np.linspace(0, 2 * np.pi, 49)))
     for section in skin[::2]:

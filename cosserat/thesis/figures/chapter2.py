@@ -12,14 +12,15 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from cosserat.data.dataset import problem_of
 from cosserat.figures import crawlers
 from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.peristalsis import doublets
+from cosserat.problems.crawl import Crawl
 from cosserat.thesis.earthworm import LONGITUDINAL, SEGMENT_50
 from cosserat.thesis.table.crawl_readouts import (
     SLOPES,
     at_phase,
-    crawl,
     instants_per_stride,
     segment,
     slope,
@@ -36,7 +37,7 @@ def fig_2_1(data: Data) -> Figure:
     run, printed = data["worm"], data["worm_printed"]
     phases = [0, 1 / 3, 2 / 3, 1, 1.5, 2]
     names = ("0", "t_p/3", "2t_p/3", "t_p", "t_p + t_s/2", "t_p + t_s")
-    gait = crawl(run).gait
+    gait = problem_of(run, Crawl).gait
     indices = [crawlers.nearest(run, gait.time(p)) for p in phases]
     labels = [
         f"$t_{k} = {name}$" + (f"\n= {gait.time(p):.2f} s" if p else " s")
@@ -44,7 +45,7 @@ def fig_2_1(data: Data) -> Figure:
     ]
     figure, (ax,) = canvas(7.2, 5.4)
     crawlers.draw_snapshots(ax, run, indices, labels, mark=SEGMENT_50, tall=_TALL)
-    lane, height = crawlers.lane_height(run, _TALL), 2e2 * _TALL * crawl(run).crawler.radius
+    lane, height = crawlers.lane_height(run, _TALL), 2e2 * _TALL * problem_of(run, Crawl).crawler.radius
     for number, p in enumerate(phases):
         state = printed.isel(time=crawlers.nearest(printed, gait.time(p)))
         along, top = 1e2 * state.along.to_numpy(), height * state.mu_1.to_numpy() - lane * number
@@ -156,7 +157,7 @@ def fig_2_12(data: Data) -> Figure:
         run = data[name]
         ax.plot(
             run.time,
-            run.anchor / crawl(run).crawler.length,
+            run.anchor / problem_of(run, Crawl).crawler.length,
             "o",
             markersize=size,
             color=colour,

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
 from cosserat.figures.rod import draw_loads, draw_outline, draw_supports
 from cosserat.figures.style import (
@@ -25,8 +26,9 @@ from cosserat.figures.style import (
     exact_curve,
     plain_points,
 )
+from cosserat.rods.problem import RodProblem
 from cosserat.studies.calibration import beam_of
-from cosserat.thesis.table.readouts import problem_of, tension_of, weight_of
+from cosserat.thesis.table.readouts import tension_of, weight_of
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -54,7 +56,7 @@ def fig_3_8(data: Data) -> Figure:
             xlabel=r"along $\mathbf{E}_3$ [m]",
             ylabel=r"along $\mathbf{E}_2$ [m]",
         )
-    problem = problem_of(data["necking"])
+    problem = problem_of(data["necking"], RodProblem)
     beam = beam_of(problem)
     end = beam.length * (1 + panels[-1][2] * tension_of(problem) / beam.axial_stiffness)
     axes[-1].plot([end, end], [-0.8, 0.8], color=EXACT, linestyle="-.", label=r"elongation $n\ell/EA$")
@@ -75,7 +77,7 @@ def _equilibrium(
     ax: Axes, run: xr.Dataset, other: xr.Dataset, magnified: float, sections: float
 ) -> None:
     """The body with its supports and loads; what sections do beside the centreline is magnified on its own."""
-    problem = problem_of(run)
+    problem = problem_of(run, RodProblem)
     X, D = run.x_ref.to_numpy(), run.d_ref.to_numpy()
     x, d = X + magnified * run.u.to_numpy(), D + sections * run.delta.to_numpy()
     unit = d / np.linalg.norm(D, axis=1)[:, None]
@@ -97,7 +99,7 @@ def fig_3_9(data: Data) -> Figure:
     """The hanging bar: displacement, and what the formula leaves out."""
     figure, (left, right) = canvas(7.2, 2.9, 1, 2)
     bar = data["hanging_bar"]
-    problem = problem_of(bar)
+    problem = problem_of(bar, RodProblem)
     xi, fine = bar.xi.to_numpy(), _fine(bar)
     exact = beams.hanging_bar_displacement(beam_of(problem), weight_of(problem), fine)
     computed = bar.u.sel(axis="E3").to_numpy()
@@ -153,7 +155,7 @@ def _beam(
     equations: tuple[str, str],
 ) -> Figure:
     figure, (left, right) = canvas(7.2, 3.1, 1, 2)
-    problem = problem_of(full)
+    problem = problem_of(full, RodProblem)
     fine, surface = _fine(full), problem.rod.height / 2
     exact_curve(left, fine, displacement(beam_of(problem), weight_of(problem), fine) * 1e3, equations[0])
     exact_curve(
@@ -188,7 +190,7 @@ def fig_3_12(data: Data) -> Figure:
     figure = Figure(figsize=(7.2, 6.4), layout="constrained")
     panels = figure.subplot_mosaic([["a", "b"], ["c", "c"]], height_ratios=[1.5, 1])
     necked, printed, free = data["necking"], data["necking_printed"], data["necking_consistent"]
-    problem = problem_of(necked)
+    problem = problem_of(necked, RodProblem)
     beam, n, xi, fine = beam_of(problem), tension_of(problem), necked.xi.to_numpy(), _fine(necked)
     theories: list[tuple[beams.NeckingTheory, str, str]] = [
         ("printed", "(3.5.8), (3.5.9) as printed", "-"),
@@ -236,4 +238,4 @@ def _at_surface(ax: Axes, reach: float) -> None:
 
 
 def _fine(data: xr.Dataset) -> Array:
-    return np.linspace(0.0, problem_of(data).rod.length, _FINE)
+    return np.linspace(0.0, problem_of(data, RodProblem).rod.length, _FINE)

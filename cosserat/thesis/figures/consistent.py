@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.exact import elastica
+from cosserat.figures.path import draw_path, draw_shapes
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.thesis.table.readouts import buckling_share
 
@@ -49,22 +49,10 @@ def fig_far(data: Data) -> Figure:
         ("arch_path", "(d) hinged arch"),
     )
     for ax, (name, title) in zip(axes, titles, strict=True):
-        _shapes(ax, data[name])
+        draw_shapes(ax, data[name])
         ax.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=title)
         ax.set_aspect("equal", adjustable="datalim")
     return figure
-
-
-def _shapes(ax: Axes, run: xr.Dataset) -> None:
-    """The last shape, and every third one of a path before it."""
-    x = run.x.to_numpy()
-    ax.plot(*run.x_ref.to_numpy().T, color=EXACT, linestyle=":")
-    if x.ndim == 2:
-        ax.plot(*x.T, color=COMPUTED, marker=".")
-        return
-    for shape in x[1:-1:3]:
-        ax.plot(*shape.T, color=BODY)
-    ax.plot(*x[-1].T, color=COMPUTED, marker=".", markersize=3)
 
 
 def fig_paths(data: Data) -> Figure:
@@ -72,7 +60,7 @@ def fig_paths(data: Data) -> Figure:
     figure, (left, right) = canvas(7.2, 3.2, 1, 2)
     column, arch = data["column_path"], data["arch_path"]
     share = buckling_share(column)
-    _path(left, np.abs(column.x.sel(axis="E2").isel(vertex=-1).to_numpy()), share, column)
+    draw_path(left, np.abs(column.x.sel(axis="E2").isel(vertex=-1).to_numpy()), share, column)
     angles = np.linspace(0.01, 2.3, 60)
     loads = [elastica.column_load(a) for a in angles]
     exact = [elastica.column_tip(load)[0] for load in loads]
@@ -80,20 +68,11 @@ def fig_paths(data: Data) -> Figure:
     left.set(xlabel="tip aside [m]", ylabel="load / Euler's load [1]", title="(a) column")
     left.legend()
     middle = arch.sizes["vertex"] // 2
-    _path(right, arch.x.sel(axis="E2").isel(vertex=middle).to_numpy(), arch.load_factor.to_numpy(), arch)
+    draw_path(
+        right, arch.x.sel(axis="E2").isel(vertex=middle).to_numpy(), arch.load_factor.to_numpy(), arch
+    )
     right.set(xlabel="height of the middle [m]", ylabel="load / full load [1]", title="(b) hinged arch")
     return figure
-
-
-def _path(ax: Axes, across: Array, load: Array, run: xr.Dataset) -> None:
-    stable = run.stable.to_numpy() > 0.5
-    ax.plot(across, load, color=INK, linewidth=0.8)
-    ax.plot(across[stable], load[stable], "o", color=COMPUTED, label="stable")
-    if not stable.all():
-        ax.plot(
-            across[~stable], load[~stable], "o", markerfacecolor="none", color=VARIANT, label="unstable"
-        )
-    ax.legend()
 
 
 def fig_tumbling(data: Data) -> Figure:
@@ -123,18 +102,4 @@ def fig_tumbling(data: Data) -> Figure:
     )
     right.axhline(1e-8, color=EXACT, linestyle="--", linewidth=0.8)
     right.legend()
-    return figure
-
-
-def picture(data: xr.Dataset) -> Figure:
-    """Shapes along a path, and the load over the largest displacement: what `cosserat plot` shows of a path."""
-    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
-    _shapes(left, data)
-    left.set_aspect("equal", adjustable="datalim")
-    left.set(
-        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=data.attrs["title"]
-    )
-    moved = np.linalg.norm(data.x.to_numpy() - data.x_ref.to_numpy(), axis=2).max(axis=1)
-    _path(right, moved, data.load_factor.to_numpy(), data)
-    right.set(xlabel="largest displacement [m]", ylabel="load / full load [1]")
     return figure

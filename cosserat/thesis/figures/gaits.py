@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from cosserat.data.dataset import problem_of
 from cosserat.figures import crawlers
 from cosserat.figures.style import COMPUTED, EXACT, INK, canvas
 from cosserat.problems.crawl import Crawl
-from cosserat.thesis.table.crawl_readouts import crawl
 from cosserat.thesis.table.printed import number
 
 Array = NDArray[np.float64]
@@ -26,7 +26,7 @@ _PAUSE = "#ececec"
 def fig_2_7(data: Data) -> Figure:
     """A cycle: (a) push from the rear anchor, (b) transition, (c) pull to the forward anchor, with both fronts."""
     run = data["soft_robot"]
-    gait = crawl(run).gait
+    gait = problem_of(run, Crawl).gait
     parts = (
         ("(a) push: the rear holds", (1.0, 1.5, 2.0)),
         ("(b) transition: the forward end holds", (2.2, 2.8)),
@@ -59,7 +59,7 @@ T_STEP = number("soft_robot", "t_step")
 def fig_2_8(data: Data) -> Figure:
     """Discrete values of the robot's fronts: over both cycles, and closely where eta begins."""
     run = data["soft_robot"]
-    problem = crawl(run)
+    problem = problem_of(run, Crawl)
     figure = Figure(figsize=(7.2, 3.4), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=[1.5, 1])
     draw_gait(left, problem, run.time.to_numpy())
@@ -122,7 +122,7 @@ def draw_gait(
 def fig_2_9(data: Data) -> Figure:
     """The robot crawls: its ends and anchor, its stretches, and its body through both cycles of Fig. 2.8."""
     run = data["soft_robot"]
-    gait = crawl(run).gait
+    gait = problem_of(run, Crawl).gait
     figure = Figure(figsize=(7.2, 6.8), layout="constrained")
     panels = figure.subplot_mosaic([["a", "b"], ["c", "d"]], height_ratios=[1, 1.5])
     _paths(panels["a"], run)
@@ -139,7 +139,7 @@ def fig_2_9(data: Data) -> Figure:
 
 
 def _stretches_when_eta_appears(ax: Axes, run: xr.Dataset) -> None:
-    gait = crawl(run).gait
+    gait = problem_of(run, Crawl).gait
     appears = gait.time(gait.eta[0][0][0])
     state = run.isel(time=crawlers.nearest(run, appears))
     for variable, colour in crawlers.STRETCHES.items():
@@ -161,7 +161,7 @@ def _stretches_when_eta_appears(ax: Axes, run: xr.Dataset) -> None:
 def fig_2_11(data: Data) -> Figure:
     """The fronts of the worm's gait at its instants, and as lines the other readings of "then speeds up", E2.15."""
     run = data["worm"]
-    problem = crawl(run)
+    problem = problem_of(run, Crawl)
     gait = problem.gait
     figure, (ax,) = canvas(7.2, 3.4)
     draw_gait(ax, problem, run.time.to_numpy())

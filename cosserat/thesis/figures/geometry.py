@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, PAPER, VARIANT, canvas
 from cosserat.rods.energies.hemingway_kernel import squared_tangent, stretching
 from cosserat.rods.kinematics import Geometry, strains, vertex_tangents
-from cosserat.thesis.table.readouts import problem_of
+from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -86,7 +87,7 @@ def fig_3_2(data: Data) -> Figure:
     A tube with elliptical sections, seen obliquely; of the rod it has the length and the height.
     """
     figure, (ax,) = canvas(7.2, 2.7)
-    rod = problem_of(data["clamped_free"]).rod
+    rod = problem_of(data["clamped_free"], RodProblem).rod
     count, cut = 81, 48
     geometry = Geometry.arc(count, rod.length, np.full(count, rod.height / 2), 0.12)
     share = np.linspace(0, 1, count)[:, None]
@@ -135,7 +136,7 @@ def fig_3_2(data: Data) -> Figure:
 def fig_3_3(data: Data) -> Figure:
     """Sections with oblique coordinates: directors that end on the surface, W and H by projection on their lines."""
     figure, (left, right) = canvas(7.2, 3.8, 1, 2)
-    rod = problem_of(data["clamped_free"]).rod.replace(centreline=0.2)
+    rod = problem_of(data["clamped_free"], RodProblem).rod.replace(centreline=0.2)
     W, H = rod.width, rod.height
     slanted = np.array([[np.cos(0.15), np.sin(0.15)], [np.cos(1.35), np.sin(1.35)]])
     angle = np.linspace(0, 2 * np.pi, 721)
@@ -249,7 +250,7 @@ def _angle(
 def fig_3_5(data: Data) -> Figure:
     """Bending into a ring, then inflation: the curvature falls, its product with the stretch does not."""
     figure, (left, right) = canvas(7.2, 3.6, 1, 2)
-    rod = problem_of(data["clamped_free"]).rod
+    rod = problem_of(data["clamped_free"], RodProblem).rod
     for ax, n, title in ((left, 241, "(a) many vertices"), (right, 13, "(b) few vertices")):
         edge = rod.length / (n - 1)
         curvature = 2 * np.sin(np.pi / (n - 1)) / edge  # the polygon closes

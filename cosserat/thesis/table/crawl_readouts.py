@@ -18,19 +18,9 @@ SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07}
 the stride, (2.8.4), and none of the others."""
 
 
-def crawl(data: xr.Dataset) -> Crawl:
-    """The crawl that a Dataset was computed from.
-
-    Raises
-    ------
-    InputError : it was computed from another kind of case.
-    """
-    return problem_of(data, Crawl, "has no gait; use the result of a crawl")
-
-
 def instants_per_stride(data: xr.Dataset) -> int:
     """Stored times from the start of one stride to the start of the next."""
-    return (data.sizes["time"] - 1) // crawl(data).strides
+    return (data.sizes["time"] - 1) // problem_of(data, Crawl).strides
 
 
 def segment(data: xr.Dataset) -> xr.Dataset:
@@ -47,7 +37,7 @@ def strides(data: xr.Dataset) -> np.ndarray:
 
 def at_phase(data: xr.Dataset, phase: float) -> xr.Dataset:
     """Segment 50 at a phase of the last stride."""
-    problem = crawl(data)
+    problem = problem_of(data, Crawl)
     when = (problem.strides - 1) * problem.gait.duration + problem.gait.time(phase)
     return segment(data).isel(time=int(np.abs(data.time.to_numpy() - when).argmin()))
 

@@ -1,8 +1,8 @@
 """Named read-outs: a Dataset in, one measured number and, where a closed form judges it, the number expected.
 
 A row of `results/tolerances.csv` names its read-out here.  Shares of a curve are largest deviations over the vertices
-divided by the largest ordinate of the closed form.  Closed forms take their beam and loads from `thesis.table.printed`, not
-from the case that was solved, unless they are handed another beam.
+divided by the largest ordinate of the closed form.  Closed forms take their beam and loads from
+`thesis.table.printed`, not from the case that was solved, unless they are handed another beam.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cosserat.data.dataset import problem_of as posed
+from cosserat.data.dataset import problem_of
 from cosserat.errors import InputError
 from cosserat.exact import beams, elastica
 from cosserat.rods.problem import RodProblem
@@ -25,16 +25,6 @@ Array = NDArray[np.float64]
 
 THIN = 0.005
 """Radius over length of our slender rods; their square sections have the bending stiffness of a circle."""
-
-
-def problem_of(data: xr.Dataset) -> RodProblem:
-    """The rod problem that a Dataset was computed from.
-
-    Raises
-    ------
-    InputError : it was not computed from one.
-    """
-    return posed(data, RodProblem, "is not of one rod; use the result of one that is")
 
 
 def weight_of(problem: RodProblem) -> float:
@@ -239,7 +229,7 @@ def _inflated(data: xr.Dataset) -> Reading:
 
 def buckling_share(data: xr.Dataset) -> Array:
     """Axial load of a clamped-free column as a share of Euler's, pi^2 EI / (4 L^2), at every point of its path."""
-    problem = problem_of(data)
+    problem = problem_of(data, RodProblem)
     beam = beam_of(problem)
     euler = np.pi**2 / 4 * beam.bending_stiffness / beam.length**2
     share: Array = data.load_factor.to_numpy() * problem.forces[0].force / euler

@@ -1,0 +1,51 @@
+"""Paths of equilibria."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+
+Array = NDArray[np.float64]
+
+
+def picture(data: xr.Dataset) -> Figure:
+    """Shapes along a path, and the load over the largest displacement: what `cosserat plot` shows of a path."""
+    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
+    draw_shapes(left, data)
+    left.set_aspect("equal", adjustable="datalim")
+    left.set(
+        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=data.attrs["title"]
+    )
+    moved = np.linalg.norm(data.x.to_numpy() - data.x_ref.to_numpy(), axis=2).max(axis=1)
+    draw_path(right, moved, data.load_factor.to_numpy(), data)
+    right.set(xlabel="largest displacement [m]", ylabel="load / full load [1]")
+    return figure
+
+
+def draw_shapes(ax: Axes, run: xr.Dataset) -> None:
+    """Draw the last shape, and every third one of a path before it."""
+    x = run.x.to_numpy()
+    ax.plot(*run.x_ref.to_numpy().T, color=EXACT, linestyle=":")
+    if x.ndim == 2:
+        ax.plot(*x.T, color=COMPUTED, marker=".")
+        return
+    for shape in x[1:-1:3]:
+        ax.plot(*shape.T, color=BODY)
+    ax.plot(*x[-1].T, color=COMPUTED, marker=".", markersize=3)
+
+
+def draw_path(ax: Axes, across: Array, load: Array, run: xr.Dataset) -> None:
+    """Draw a load over a displacement, stable points filled."""
+    stable = run.stable.to_numpy() > 0.5
+    ax.plot(across, load, color=INK, linewidth=0.8)
+    ax.plot(across[stable], load[stable], "o", color=COMPUTED, label="stable")
+    if not stable.all():
+        ax.plot(
+            across[~stable], load[~stable], "o", markerfacecolor="none", color=VARIANT, label="unstable"
+        )
+    ax.legend()
