@@ -11,6 +11,7 @@ from numba.core.dispatcher import Dispatcher
 
 import cosserat
 from cosserat.data.provenance import computing_sources
+from cosserat.solvers import kernels
 from cosserat.thesis.figures.catalogue import FIGURES
 from cosserat.thesis.table.errata import read_errata
 
@@ -30,8 +31,8 @@ ROOMS = (
     "exact",
     "solvers",
     "rods",
-    "problems",
     "peristalsis",
+    "problems",
     "studies",
     "cases",
     "data",
@@ -79,7 +80,24 @@ def test_imports_follow_one_direction(file):
 def test_solvers_import_no_model_and_formulas_import_nothing_of_ours():
     for file in (PACKAGE / "solvers").glob("*.py"):
         assert {room_of(m) for m in imports_of(file)} <= {"errors", "parameters", "solvers"}
-    assert not list(imports_of(PACKAGE / "analytic.py"))
+    for file in (PACKAGE / "exact").glob("*.py"):
+        assert {room_of(m) for m in imports_of(file)} <= {"exact"}
+
+
+def test_the_library_never_imports_the_thesis():
+    """What a user imports for a rod of their own stands without the part that reproduces one publication."""
+    for file in PACKAGE.rglob("*.py"):
+        if file.relative_to(PACKAGE).parts[0] not in ("thesis", "cli.py"):
+            assert "thesis" not in {room_of(m) for m in imports_of(file)}, file
+
+
+def test_folders_of_kernels_are_those_whose_cache_is_looked_after():
+    holding = {
+        str(file.parent.relative_to(PACKAGE))
+        for file in computing_sources()
+        if re.search(r"^from numba import .*\b(njit|cfunc)\b", file.read_text(), flags=re.MULTILINE)
+    }
+    assert holding == set(kernels.FOLDERS)
 
 
 def test_the_solver_does_not_know_how_many_numbers_a_vertex_has():
@@ -179,9 +197,7 @@ def shown_equations():
 
 
 def test_equations_shown_in_a_chapter_are_cited_in_the_code():
-    folders = ("models", "data", "table", "figures")
-    sources = [file for folder in folders for file in (PACKAGE / folder).glob("*.py")]
-    text = "".join(file.read_text() for file in [*sources, PACKAGE / "analytic.py"])
+    text = "".join(file.read_text() for file in PACKAGE.rglob("*.py"))
     assert shown_equations() <= set(re.findall(EQUATION, text))
     assert len(shown_equations()) >= 20
 

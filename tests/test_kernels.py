@@ -10,6 +10,7 @@ import pytest
 from conftest import ROOT
 
 from cosserat.solvers import kernels
+from cosserat.solvers.kernels import FOLDERS
 
 # Small kernels of every kind that is decorated: a function with a cache, and one that is called from C.
 USE = """
@@ -32,7 +33,7 @@ def closed(tmp_path_factory):
     folder = tmp_path_factory.mktemp("closed")
     shutil.copytree(ROOT / "cosserat", folder / "cosserat", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "use.py").write_text(USE)
-    for place in ("solvers", "models"):
+    for place in FOLDERS:
         (folder / "cosserat" / place / "__pycache__").touch()
     return folder
 

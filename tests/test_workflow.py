@@ -149,10 +149,10 @@ def test_the_solver_edited_reruns_every_simulation(checkout, edited):
     assert set(KEPT) < set(cosserat.published())
 
 
-@pytest.mark.parametrize("name", ["analytic", "elastica"])
+@pytest.mark.parametrize("name", ["beams", "elastica"])
 def test_a_formula_edited_reruns_what_stands_on_it(checkout, edited, name):
     """Models start from closed forms, rows and figures are judged by them."""
-    file = f"cosserat/{name}.py"
+    file = f"cosserat/exact/{name}.py"
     edited(file, "import annotations", "import annotations  # edited")
     rules, outputs = planned(checkout)
     assert rules == {"simulate", "measure", "check", "figure"}

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
+FOLDERS = ("solvers", "rods/energies", "peristalsis")
+"""Folders of the package that hold compiled kernels."""
 
 
 def choose_cache() -> None:
@@ -18,7 +20,7 @@ def choose_cache() -> None:
     on stderr: when the folder is made, or by each process that keeps nothing. NUMBA_CACHE_DIR, where it is set, is
     the user's own choice.
     """
-    beside = [_PACKAGE / folder / "__pycache__" for folder in ("solvers", "models")]
+    beside = [_PACKAGE / folder / "__pycache__" for folder in FOLDERS]
     if os.environ.get("NUMBA_CACHE_DIR") or all(map(_is_writable, beside)):
         return
     for folder in _candidates():
