@@ -122,7 +122,7 @@ def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figu
     from cosserat.figures.style import settings
 
     found = entry(name)
-    module = importlib.import_module(f"cosserat.figures.{found.module}")
+    module = importlib.import_module(f"cosserat.thesis.figures.{found.module}")
     published = (_published(found.rows, table),) if found.rows else ()
     with settings():
         figure: Figure | str = getattr(module, name)(data, *published)
