@@ -6,16 +6,15 @@ import argparse
 import gc
 import os
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, InputError, NotConvergedError
+from cosserat.publications import Command, publications
 
 if TYPE_CHECKING:
     from cosserat.cases.catalogue import Case
 
-RESULTS = Path("results")
 _INTERRUPTED = "cosserat: interrupted; nothing half-done was written"
 
 
@@ -27,7 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
     gc.set_threshold(100_000)  # a tenth of the time of a short run, most of which is imports
     try:
         options = _parser().parse_args(arguments)
-        command: Callable[[argparse.Namespace], None] = options.command
+        command: Command = options.command
         command(options)
         sys.stdout.flush()
     except CosseratError as error:
@@ -60,9 +59,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
 
-    def add(
-        name: str, command: Callable[[argparse.Namespace], None], text: str
-    ) -> argparse.ArgumentParser:
+    def add(name: str, command: Command, text: str) -> argparse.ArgumentParser:
         sub = commands.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
         sub.set_defaults(command=command)
         return sub
@@ -98,79 +95,8 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("file", type=Path, help="netCDF file of ours")
     sub.add_argument("-o", "--output", type=Path, help="SVG file to write (default: beside the file)")
 
-    sub = add("figure", _figure, "draw figures of the thesis from stored results")
-    sub.add_argument("figures", nargs="+", metavar="figure", help="such as fig_3_10")
-    sub.add_argument(
-        "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
-    )
-    sub.add_argument(
-        "-o", "--output", type=Path, default=Path(), help="SVG file, or folder for several (%(default)s)"
-    )
-
-    sub = add("measure", _measure, "measure every row of the results table on stored results")
-    sub.add_argument(
-        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
-    )
-    sub.add_argument(
-        "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
-    )
-    sub.add_argument(
-        "-o", "--output", type=Path, default=RESULTS / "report.csv", help="report (%(default)s)"
-    )
-
-    sub = add("check", _check, "fail if a claim of the report does not hold")
-    sub.add_argument("report", type=Path, nargs="?", default=RESULTS / "report.csv")
-
-    sub = add(
-        "power",
-        _power,
-        "change inputs and physics one at a time and print which rows of the results table notice",
-    )
-    sub.add_argument(
-        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
-    )
-    sub.add_argument("words", nargs="*", help="only changes whose description has one of these words")
-
-    sub = add("accept", _accept, "store a fresh result as the reference of its case, with the reason")
-    sub.add_argument("case", help="name of a published case")
-    sub.add_argument(
-        "--because", required=True, help="the reason, in a sentence; it is stored in the file"
-    )
-    sub.add_argument(
-        "--references", type=Path, default=RESULTS / "reference", help="folder (%(default)s)"
-    )
-
-    add(
-        "speed",
-        _speed,
-        "time equilibria, the implicit integrator, and a stride of the worm by either solver",
-    )
-
-    sub = add(
-        "peers", _peers, "time the consistent rod beside other packages; 'snakemake peers' sets them up"
-    )
-    sub.add_argument(
-        "python", type=Path, help="the Python of the environment that holds the other packages"
-    )
-    sub.add_argument(
-        "-o", "--output", type=Path, default=RESULTS / "peers.csv", help="table to write (%(default)s)"
-    )
-
-    sub = add("chapter", _chapter, "execute a chapter into a notebook")
-    sub.add_argument("chapter", type=Path, help="the chapter's .py file")
-    sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
-
-    sub = add("book", _book, "render executed chapters as a book that needs no network")
-    sub.add_argument(
-        "notebooks", type=Path, nargs="+", help="executed notebooks, in the order of the book"
-    )
-    sub.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        required=True,
-        help="folder of the book; index.html is its first page",
-    )
+    for publication in publications():
+        publication.add_commands()(add)
     return parser
 
 
@@ -226,10 +152,10 @@ def _run(options: argparse.Namespace) -> None:
     else:
         cases = [parse(line) for line in sys.stdin.read().strip().split("\n")]
     folder = Path() if options.output is None else options.output
-    if len(cases) > 1 and not folder.is_dir():
+    if len(cases) > 1 and not os.path.isdir(folder):
         raise InputError(f"{folder} is no folder; several cases are written to one that exists")
     for case in cases:
-        path = folder / f"{case.name}.nc" if folder.is_dir() else folder
+        path = folder / f"{case.name}.nc" if os.path.isdir(folder) else folder
         _run_case(case, path, keep_last=options.keep_last)
 
 
@@ -301,13 +227,6 @@ def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]
     return rows
 
 
-def _figure(options: argparse.Namespace) -> None:
-    from cosserat.thesis.figures.catalogue import draw_all
-
-    for path in draw_all(options.figures, options.cases, options.output):
-        print(f"wrote {path}")
-
-
 def _plot(options: argparse.Namespace) -> None:
     from cosserat.data.dataset import case_of, load, warnings_of
     from cosserat.data.files import check_destination
@@ -327,78 +246,3 @@ def _plot(options: argparse.Namespace) -> None:
         note(figure, warnings_of(data))
     write(figure, path)
     print(f"wrote {path}")
-
-
-def _measure(options: argparse.Namespace) -> None:
-    from cosserat.data.files import check_destination
-    from cosserat.thesis.table.measure import measure, summary
-    from cosserat.thesis.table.tolerances import read_report, read_table, write_report
-
-    check_destination(options.output)
-    write_report(measure(read_table(options.table), options.cases), options.output)
-    print(summary(read_report(options.output)))
-    print(f"wrote {options.output}")
-
-
-def _check(options: argparse.Namespace) -> None:
-    from cosserat.thesis.table.measure import check
-    from cosserat.thesis.table.tolerances import read_report
-
-    print(check(read_report(options.report)))
-
-
-def _power(options: argparse.Namespace) -> None:
-    from cosserat.thesis.table.power import table
-    from cosserat.thesis.table.tolerances import read_table
-
-    for noticed in table(read_table(options.table), options.words):
-        print(noticed, flush=True)
-
-
-def _accept(options: argparse.Namespace) -> None:
-    from cosserat.data.files import check_destination
-    from cosserat.runner import run
-    from cosserat.thesis.table.reference import accept
-
-    path = options.references / f"{options.case}.nc"
-    check_destination(path)
-    for line in accept(run(options.case), path, options.because):
-        print(line)
-    print(f"wrote {path}")
-
-
-def _speed(_: argparse.Namespace) -> None:
-    from cosserat.thesis import benchmark
-
-    for lines in (benchmark.statics, benchmark.integrator, benchmark.stride):
-        for line in lines():
-            print(line)
-
-
-def _peers(options: argparse.Namespace) -> None:
-    from cosserat.data.files import check_destination
-    from cosserat.thesis.peers import compare
-
-    check_destination(options.output, ".csv")
-    lines = list(
-        compare.compare(options.python, lambda words: print(words, file=sys.stderr, flush=True))
-    )
-    compare.write(lines, options.output)
-    for line in lines:
-        print(
-            f"{line.problem:32} {line.package:11} {1e3 * line.seconds:10.2f} ms  error {line.error:.1e}"
-        )
-    print(f"wrote {options.output}")
-
-
-def _chapter(options: argparse.Namespace) -> None:
-    from cosserat.thesis.book.build import execute
-
-    execute(options.chapter, options.output)
-    print(f"wrote {options.output}")
-
-
-def _book(options: argparse.Namespace) -> None:
-    from cosserat.thesis.book.build import render
-
-    print(f"wrote {render(options.notebooks, options.output)}")

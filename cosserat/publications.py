@@ -5,16 +5,22 @@ A publication is one folder of the package.  The rest of the package finds it he
 
 from __future__ import annotations
 
+import argparse
 import functools
 import pkgutil
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any, cast
 
 from cosserat.kinds import KINDS, Kind
 from cosserat.solution import Variables
+
+Command = Callable[[argparse.Namespace], None]
+"""What a command does with its options."""
+AddCommand = Callable[[str, Command, str], argparse.ArgumentParser]
+"""Adds a command by its name, what it does and its help; returns its parser, for options."""
 
 PUBLICATIONS = ("cosserat.thesis:PUBLICATION",)
 """Where each `Publication` is, as "module:object"."""
@@ -27,7 +33,8 @@ class Publication:
     reference : how to cite it.
     kinds : kinds of problems that are its own.
     cases : its case files, in the order in which they are listed; `folder` is the package that holds them.
-    variables : where its `cosserat.solution.Variables` are, as "module:object".
+    variables, commands : where its `cosserat.solution.Variables` are, and the function that adds its commands to the
+        command line, as "module:object".
     """
 
     reference: str
@@ -35,10 +42,15 @@ class Publication:
     folder: str
     cases: tuple[str, ...]
     variables: str
+    commands: str
 
     def own_variables(self) -> Variables:
         """What it adds to the table of stored variables."""
         return cast("Variables", pkgutil.resolve_name(self.variables))
+
+    def add_commands(self) -> Callable[[AddCommand], None]:
+        """The function that adds its commands."""
+        return cast("Callable[[AddCommand], None]", pkgutil.resolve_name(self.commands))
 
 
 @functools.cache

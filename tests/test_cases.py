@@ -186,7 +186,7 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
         ),
         (
             'like = "clamped_free"\nsupports = [{ hold = ["x3"] }]',
-            "'supports.0.at' is missing: see the cases of cosserat/cases for examples",
+            "'supports.0.at' is missing: see the cases in cosserat/thesis/cases for examples",
         ),
         (
             'like = "clamped_free"\ngravity = "none"\nforces = [{ at = 1, force = "1 N" }]',
@@ -232,7 +232,7 @@ def test_unknown_cases_and_unreadable_files_are_refused(tmp_path):
             'write a number that has a unit between quotation marks, such as "2.5 mm"',
         ),
         ("rod.young = 1e9Pa", "between quotation marks"),
-        ("rod.vertices = [1, 2", "see cosserat/cases"),
+        ("rod.vertices = [1, 2", "in cosserat/thesis/cases"),
     ],
 )
 def test_a_number_that_is_no_toml_has_its_remedy_in_the_sentence(tmp_path, line, remedy):

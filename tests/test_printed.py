@@ -13,7 +13,7 @@ from cosserat.thesis.table.errata import read_errata
 
 CHAPTER_2, CHAPTER_3 = (
     re.findall(
-        r"^\[([a-z]\w*)\]", (ROOT / f"cosserat/cases/{name}.toml").read_text(), flags=re.MULTILINE
+        r"^\[([a-z]\w*)\]", (ROOT / f"cosserat/thesis/cases/{name}.toml").read_text(), flags=re.MULTILINE
     )
     for name in ("chapter2", "chapter3")
 )

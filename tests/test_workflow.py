@@ -90,7 +90,7 @@ def checkout(tmp_path_factory):
 
 def _shrink(folder):
     """Leave the copy with a few cases and their rows: what reruns after which change does not depend on how many."""
-    cases = folder / "cosserat/cases"
+    cases = folder / "cosserat/thesis/cases"
     (cases / "chapter2.toml").write_text("")
     blocks = re.split(r"\n(?=\[)", (cases / "chapter3.toml").read_text())
     kept = [

@@ -1,7 +1,7 @@
 """What reproduces one publication: E. G. Hemingway's thesis (Berkeley, 2020).
 
 Its cases, its worm, the table of its numbers with the judge, its figures, the errata, and the book.  Nothing outside
-this folder but the command line imports it.
+this folder but `cosserat.publications` names it.
 """
 
 from cosserat.kinds import Kind
@@ -18,4 +18,5 @@ PUBLICATION = Publication(
     folder="cosserat.thesis.cases",
     cases=("chapter2.toml", "chapter3.toml"),
     variables="cosserat.thesis.variables:VARIABLES",
+    commands="cosserat.thesis.commands:add_commands",
 )

@@ -1,0 +1,170 @@
+"""Commands of `cosserat` that reproduce the thesis: figures, the judged table, references, timings, the book."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from cosserat.publications import AddCommand
+
+RESULTS = Path("results")
+
+
+def add_commands(add: AddCommand) -> None:
+    """Add them to the command line."""
+    sub = add("figure", _figure, "draw figures of the thesis from stored results")
+    sub.add_argument("figures", nargs="+", metavar="figure", help="such as fig_3_10")
+    sub.add_argument(
+        "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, default=Path(), help="SVG file, or folder for several (%(default)s)"
+    )
+
+    sub = add("measure", _measure, "measure every row of the results table on stored results")
+    sub.add_argument(
+        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
+    )
+    sub.add_argument(
+        "--cases", type=Path, default=RESULTS / "cases", help="folder of the netCDF files (%(default)s)"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, default=RESULTS / "report.csv", help="report (%(default)s)"
+    )
+
+    sub = add("check", _check, "fail if a claim of the report does not hold")
+    sub.add_argument("report", type=Path, nargs="?", default=RESULTS / "report.csv")
+
+    sub = add(
+        "power",
+        _power,
+        "change inputs and physics one at a time and print which rows of the results table notice",
+    )
+    sub.add_argument(
+        "--table", type=Path, default=RESULTS / "tolerances.csv", help="the table (%(default)s)"
+    )
+    sub.add_argument("words", nargs="*", help="only changes whose description has one of these words")
+
+    sub = add("accept", _accept, "store a fresh result as the reference of its case, with the reason")
+    sub.add_argument("case", help="name of a published case")
+    sub.add_argument(
+        "--because", required=True, help="the reason, in a sentence; it is stored in the file"
+    )
+    sub.add_argument(
+        "--references", type=Path, default=RESULTS / "reference", help="folder (%(default)s)"
+    )
+
+    add(
+        "speed",
+        _speed,
+        "time equilibria, the implicit integrator, and a stride of the worm by either solver",
+    )
+
+    sub = add(
+        "peers", _peers, "time the consistent rod beside other packages; 'snakemake peers' sets them up"
+    )
+    sub.add_argument(
+        "python", type=Path, help="the Python of the environment that holds the other packages"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, default=RESULTS / "peers.csv", help="table to write (%(default)s)"
+    )
+
+    sub = add("chapter", _chapter, "execute a chapter into a notebook")
+    sub.add_argument("chapter", type=Path, help="the chapter's .py file")
+    sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
+
+    sub = add("book", _book, "render executed chapters as a book that needs no network")
+    sub.add_argument(
+        "notebooks", type=Path, nargs="+", help="executed notebooks, in the order of the book"
+    )
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        help="folder of the book; index.html is its first page",
+    )
+
+
+def _figure(options: argparse.Namespace) -> None:
+    from cosserat.thesis.figures.catalogue import draw_all
+
+    for path in draw_all(options.figures, options.cases, options.output):
+        print(f"wrote {path}")
+
+
+def _measure(options: argparse.Namespace) -> None:
+    from cosserat.data.files import check_destination
+    from cosserat.thesis.table.measure import measure, summary
+    from cosserat.thesis.table.tolerances import read_report, read_table, write_report
+
+    check_destination(options.output)
+    write_report(measure(read_table(options.table), options.cases), options.output)
+    print(summary(read_report(options.output)))
+    print(f"wrote {options.output}")
+
+
+def _check(options: argparse.Namespace) -> None:
+    from cosserat.thesis.table.measure import check
+    from cosserat.thesis.table.tolerances import read_report
+
+    print(check(read_report(options.report)))
+
+
+def _power(options: argparse.Namespace) -> None:
+    from cosserat.thesis.table.power import table
+    from cosserat.thesis.table.tolerances import read_table
+
+    for noticed in table(read_table(options.table), options.words):
+        print(noticed, flush=True)
+
+
+def _accept(options: argparse.Namespace) -> None:
+    from cosserat.data.files import check_destination
+    from cosserat.runner import run
+    from cosserat.thesis.table.reference import accept
+
+    path = options.references / f"{options.case}.nc"
+    check_destination(path)
+    for line in accept(run(options.case), path, options.because):
+        print(line)
+    print(f"wrote {path}")
+
+
+def _speed(_: argparse.Namespace) -> None:
+    from cosserat.thesis import benchmark
+
+    for lines in (benchmark.statics, benchmark.integrator, benchmark.stride):
+        for line in lines():
+            print(line)
+
+
+def _peers(options: argparse.Namespace) -> None:
+    from cosserat.data.files import check_destination
+    from cosserat.thesis.peers import compare
+
+    check_destination(options.output, ".csv")
+    lines = list(
+        compare.compare(options.python, lambda words: print(words, file=sys.stderr, flush=True))
+    )
+    compare.write(lines, options.output)
+    for line in lines:
+        print(
+            f"{line.problem:32} {line.package:11} {1e3 * line.seconds:10.2f} ms  error {line.error:.1e}"
+        )
+    print(f"wrote {options.output}")
+
+
+def _chapter(options: argparse.Namespace) -> None:
+    from cosserat.thesis.book.build import execute
+
+    execute(options.chapter, options.output)
+    print(f"wrote {options.output}")
+
+
+def _book(options: argparse.Namespace) -> None:
+    from cosserat.thesis.book.build import render
+
+    print(f"wrote {render(options.notebooks, options.output)}")
