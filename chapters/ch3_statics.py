@@ -323,11 +323,11 @@ page.rows("F3.11")
 # no beam, bring them together: with $k = 1$ in model and formula both move the other way (E3.17).
 
 # %% tags=["remove-input"]
-beams, lines = ("clamped_free", "clamped_clamped"), []
+fitted, lines = ("clamped_free", "clamped_clamped"), []
 for shear, k in (("", "5/6"), ("_k_1", "1")):
     for ends, areas in (("", "full"), ("_ends_halved", "halved")):
-        free, both = (page.data(f"{beam}{shear}{ends}") for beam in beams)
-        one, two = (printed.beam(f"{beam}{shear}") for beam in beams)
+        free, both = (page.data(f"{beam}{shear}{ends}") for beam in fitted)
+        one, two = (printed.beam(f"{beam}{shear}") for beam in fitted)
         readings = (
             readouts.at_tip(readouts.clamped_free_curve(free, one)),
             readouts.at_midspan(readouts.clamped_clamped_curve(both, two)),
