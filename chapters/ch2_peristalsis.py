@@ -216,7 +216,7 @@ except cosserat.InputError as error:
     print(error)
 
 # %% tags=["remove-input"]
-page.source(instant.refuse_tilt)
+page.source(instant.check_tilt)
 
 # %% [markdown]
 # ## Is the one material the limit of the other?

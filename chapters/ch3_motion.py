@@ -68,7 +68,7 @@ page.source(motion.RodMotion.mass)
 # as they are as well.
 
 # %% tags=["remove-input"]
-page.excerpt(energy_momentum._march, "arrived, near", "if not arrived")
+page.excerpt(energy_momentum._integrate_steps, "arrived, near", "if not arrived")
 
 # %% tags=["remove-input"]
 page.source(energy_momentum._sigma)

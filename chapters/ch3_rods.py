@@ -167,8 +167,8 @@ page.say(
 page.source(hemingway_kernel._work_of_couples)
 
 # %% [markdown]
-# Line loads act over any stretch of the rod, and held numbers may be moved (`moves`): at rest to a new place, in motion to
-# and fro. A held section may be turned as it is, through any angle (`turns`): to move its director's numbers along straight
+# Line loads act over any stretch of the rod, and held numbers may be moved (`prescribed_displacements`): at rest to a new place, in motion to
+# and fro. A held section may be turned as it is, through any angle (`prescribed_rotations`): to move its director's numbers along straight
 # lines would stretch it.
 
 # %% tags=["remove-input"]

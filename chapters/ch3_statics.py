@@ -30,7 +30,7 @@ from cosserat.data.dataset import case_of, statistics_of
 from cosserat.exact import beams
 from cosserat.rods import kinematics, resolution
 from cosserat.rods.energies import hemingway_kernel, hemingway_stiffness
-from cosserat.solvers import continuation
+from cosserat.solvers import incremental
 from cosserat.thesis.book import page
 from cosserat.thesis.table import printed, readouts
 
@@ -205,7 +205,7 @@ page.excerpt(hemingway_stiffness.stiffnesses, "end_factor = ", "    )")
 # Hessian of the same kernel. So the answer is the one that the growing load leads to, whichever others there are.
 
 # %% tags=["remove-input"]
-page.source(continuation._foretold)
+page.source(incremental._by_increments)
 
 # %% [markdown]
 # ## The four problems

@@ -60,7 +60,7 @@ from cosserat.thesis.table import readouts
 page.excerpt(reissner._assemble, "wide = (end_a", "if measuring")
 
 # %% [markdown]
-# A section may be free to contract in $\mathbf{E}_1$ (`section = "free"`: then $\Lambda = E\nu/(1-\nu^2)$, a pulled bar answers with
+# A section may be free to contract in $\mathbf{E}_1$ (`lateral_constraint = "free"`: then $\Lambda = E\nu/(1-\nu^2)$, a pulled bar answers with
 # $EA$ and necks by $-\nu n / EA$), it may keep its width (`"plane strain"`: Lamé's $\Lambda$, and $EI/(1-\nu^2)$ in bending), or
 # it may keep its area in the plane, edge by edge (`"incompressible"`: stretch along times stretch across is one, by a penalty
 # of $10^5 \cdot 2\mu A$ on $a \bar\lambda - 1$ in place of $a + \bar\lambda - 2$). The output says which. With
@@ -112,7 +112,7 @@ page.rows("C-3")
 lines = []
 for name in ("elastica", "roll_up"):
     done = cosserat.data.dataset.statistics_of(page.data(name))
-    lines.append((page.data(name).attrs["title"], done["iterations"], done["refused_increments"]))
+    lines.append((page.data(name).attrs["title"], done["iterations"], done["cutbacks"]))
 page.table(lines, ("problem", "Newton iterations", "increments refused"))
 
 # %% tags=["remove-input"]

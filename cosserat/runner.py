@@ -59,7 +59,7 @@ class _Stored:
         stored = self.parts.load(number)
         if stored is None:
             return None
-        self.parts.refuse_others(stored, to_dataset(self.case, Solution({}, {})))
+        self.parts.check_same_run(stored, to_dataset(self.case, Solution({}, {})))
         fields = {
             str(name): (tuple(map(str, variable.dims)), variable.to_numpy())
             for name, variable in stored.variables.items()

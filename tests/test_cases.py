@@ -133,11 +133,11 @@ def test_vary_changes_nothing_else():
         ('rod.end_sections = "half"', r"'rod\.end_sections' is 'half'; it must be 'full' or 'halved'"),
         ("rod = 3", r"it must be a table of keys|'rod' is 3"),
         (
-            'supports = [{ at = "first", hold = ["x4"] }]',
-            r"'supports\.0\.hold\.0' is 'x4'; it must be 'x3'",
+            'supports = [{ at = "first", fixed = ["x4"] }]',
+            r"'supports\.0\.fixed\.0' is 'x4'; it must be 'x3'",
         ),
-        ('supports = [{ at = 20, hold = ["x3"] }]', r"'at' is 20, but the rod's vertices are 0 to 19"),
-        ('supports = [{ hold = ["x3"] }]', r"'supports\.0\.at' is missing"),
+        ('supports = [{ at = 20, fixed = ["x3"] }]', r"'at' is 20, but the rod's vertices are 0 to 19"),
+        ('supports = [{ fixed = ["x3"] }]', r"'supports\.0\.at' is missing"),
         ('supports = "first"', r"'supports' is 'first'; it must be a list"),
         ("masses = 3", r"'masses' is not a key; known are: rod, supports"),
         ("elements = 3", r"'elements' is not a key; known are: rod, supports"),
@@ -185,7 +185,7 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
             "'rod' is missing, a rod of rectangular sections, section 3.5: write a table with vertices, length, ",
         ),
         (
-            'like = "clamped_free"\nsupports = [{ hold = ["x3"] }]',
+            'like = "clamped_free"\nsupports = [{ fixed = ["x3"] }]',
             "'supports.0.at' is missing: see the cases in cosserat/thesis/cases for examples",
         ),
         (

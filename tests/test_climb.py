@@ -6,27 +6,27 @@ from scipy.linalg import solve
 
 import cosserat
 from cosserat.errors import InputError, NotConvergedError
-from cosserat.solvers.banded import absolute_product, hold, solve_positive, to_dense
-from cosserat.solvers.continuation import lead
-from cosserat.solvers.equilibrium import Climb, NewtonSettings
+from cosserat.solvers.banded import absolute_product, constrain, solve_positive, to_dense
+from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
+from cosserat.solvers.incremental import solve_full_load
 
 
 class Springs:
     """energy = sum of q^4 / 4 - softening factor q^2 / 2 + stiffness q^2 / 2, unknowns uncoupled: no rod at all."""
 
     half_bandwidth = 0
-    stride = np.inf
+    max_increment = np.inf
 
     def __init__(self, dead, stiffness=0.0, softening=0.0):
         self.dead = np.array(dead, dtype=float)
-        self.held = np.zeros(self.dead.size, dtype=bool)
-        self.grain = np.ones(self.dead.size)
+        self.constrained = np.zeros(self.dead.size, dtype=bool)
+        self.dof_scale = np.ones(self.dead.size)
         self.stiffness, self.softening = stiffness, softening
 
-    def place(self, q, factor):
+    def prescribe(self, q, factor):
         return q
 
-    def moving(self, factor):
+    def prescribed_rate(self, factor):
         return np.zeros_like(self.dead)
 
     def assemble(self, q, factor, gradient, band):
@@ -41,14 +41,14 @@ class Springs:
     def rate(self, q, factor, band):
         return -self.dead - self.softening * q
 
-    def reach(self, q, step):
+    def max_step_fraction(self, q, step):
         largest = np.abs(step).max()
         return 1 / largest if largest > 0 else np.inf
 
     def rates(self, q, change):
         return np.column_stack([change, np.zeros_like(change)])
 
-    def foretold(self, q, moved, factor):
+    def predicted(self, q, moved, factor):
         return q + moved[:, 0]
 
     def carried(self, change):
@@ -56,8 +56,8 @@ class Springs:
 
 
 def climbed(springs, **settings):
-    climb = Climb(springs, NewtonSettings(**settings), "trial")
-    return lead(climb, np.zeros(springs.dead.size)), climb
+    solver = EquilibriumSolver(springs, NewtonSettings(**settings), "trial")
+    return solve_full_load(solver, np.zeros(springs.dead.size)), solver
 
 
 def test_springs_reach_the_root_of_the_cubic():
@@ -74,15 +74,15 @@ def test_springs_reach_the_root_of_the_cubic():
 def test_a_softening_spring_goes_to_the_side_of_any_nudge(nudge, side, steps):
     """Beyond factor 1/4.3 it has two minima, at the roots of q^3 - 3.3 q = nudge; the nudge decides from the first."""
     springs = Springs([side * nudge], stiffness=1.0, softening=4.3)
-    point, climb = climbed(springs, load_steps=steps)
+    point, solver = climbed(springs, load_increments=steps)
     assert point.q[0] == pytest.approx(side * np.roots([1, 0, -3.3, -nudge]).real.max(), rel=1e-8)
-    assert not list(climb.remarks())
+    assert not list(solver.warnings())
 
 
 def test_a_symmetric_spring_says_that_its_side_is_open():
-    point, climb = climbed(Springs([0.0], stiffness=1.0, softening=4.3))
+    point, solver = climbed(Springs([0.0], stiffness=1.0, softening=4.3))
     assert abs(point.q[0]) == pytest.approx(np.sqrt(3.3), rel=1e-8)
-    (remark,) = climb.remarks()
+    (remark,) = solver.warnings()
     assert remark.startswith("bifurcation: at 0.232")
 
 
@@ -90,13 +90,13 @@ def test_convergence_is_quadratic():
     """The unbalanced forces of one attempt fall with order two."""
     residuals = []
     for iterations in range(1, 7):
-        climb = Climb(
+        solver = EquilibriumSolver(
             Springs([8.0], stiffness=1.0),
             NewtonSettings(max_iterations=iterations, tolerance=1e-15),
             "x",
         )
-        climb.at(np.array([2.5]), 1.0)
-        residuals.append(climb.residual)
+        solver.correct(np.array([2.5]), 1.0)
+        residuals.append(solver.residual)
     first, second, third = np.log([r for r in residuals if r > 1e-12][-3:])
     assert (third - second) / (second - first) == pytest.approx(2, abs=0.1)
 
@@ -104,7 +104,7 @@ def test_convergence_is_quadratic():
 def test_load_steps_reach_the_same_equilibrium():
     one, many = (
         cosserat.run(
-            cosserat.case("clamped_free").vary("bent", gravity={"g": 500}, newton={"load_steps": n})
+            cosserat.case("clamped_free").vary("bent", gravity={"g": 500}, newton={"load_increments": n})
         )
         for n in (1, 5)
     )
@@ -155,14 +155,14 @@ def test_nothing_to_do_takes_no_iteration():
     "hold_only", [[], ["x3"], ["x3", "x2"], ["d3", "d2"], ["x3", "d3"], ["x2", "d2"]]
 )
 def test_unsupported_rods_are_refused_before_solving(hold_only):
-    free = cosserat.case("clamped_free").vary("free", supports=[{"at": "first", "hold": hold_only}])
+    free = cosserat.case("clamped_free").vary("free", supports=[{"at": "first", "fixed": hold_only}])
     with pytest.raises(cosserat.UnsupportedRodError, match="case 'free': .*free to move"):
         cosserat.run(free)
 
 
 def test_two_hinges_are_support_enough():
     hinged = cosserat.case("clamped_free").vary(
-        "hinged", supports=[{"at": "first", "hold": ["x3", "x2"]}, {"at": 19, "hold": ["x2"]}]
+        "hinged", supports=[{"at": "first", "fixed": ["x3", "x2"]}, {"at": 19, "fixed": ["x2"]}]
     )
     assert cosserat.run(hinged).u.sel(axis="E2").min() < 0
 
@@ -177,12 +177,14 @@ def test_banded_solve_product_and_hold_agree_with_dense_algebra():
     full, x = to_dense(band), rng.uniform(-1, 1, n)
     np.testing.assert_allclose(solve_positive(band, x), solve(full, x), rtol=1e-12)
     np.testing.assert_allclose(absolute_product(band, x), np.abs(full) @ np.abs(x), rtol=1e-12)
-    held = np.zeros(n, dtype=bool)
-    held[[0, 5]] = True
-    hold(band, held)
+    constrained = np.zeros(n, dtype=bool)
+    constrained[[0, 5]] = True
+    constrain(band, constrained)
     reduced = to_dense(band)
-    assert np.count_nonzero(reduced[held]) == 2
-    np.testing.assert_array_equal(reduced[np.ix_(~held, ~held)], full[np.ix_(~held, ~held)])
+    assert np.count_nonzero(reduced[constrained]) == 2
+    np.testing.assert_array_equal(
+        reduced[np.ix_(~constrained, ~constrained)], full[np.ix_(~constrained, ~constrained)]
+    )
 
 
 def test_an_indefinite_band_has_no_cholesky_factor():

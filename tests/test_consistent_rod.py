@@ -20,7 +20,7 @@ from cosserat.studies.convergence import MEASURES
 from cosserat.thesis.table.readouts import period
 
 SECTIONS = ("free", "plane strain", "incompressible")
-CLAMP = [{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}]
+CLAMP = [{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}]
 
 
 def small_rod(section="free", barrier=False, couples=True, poisson=0.3, offset=0.0):
@@ -34,7 +34,7 @@ def small_rod(section="free", barrier=False, couples=True, poisson=0.3, offset=0
         young=1e6,
         poisson=poisson,
         shear_correction=5 / 6,
-        section=section,
+        lateral_constraint=section,
     )
     moments = np.array([0, 0, 3.0, 0, 0, -2.0]) * couples
     return geometry, ConsistentRod(
@@ -207,10 +207,10 @@ def test_no_shear_locking(thickness):
 @pytest.mark.parametrize("share", [0.1, 0.2, 0.3])
 def test_an_incompressible_section_keeps_its_area(share):
     """Stretch along times stretch across is one; the force is that of the energy with lambda = 1 / a."""
-    posed, _ = slender(20, radius=0.05, section="incompressible", poisson=0.4999)
+    posed, _ = slender(20, radius=0.05, lateral_constraint="incompressible", poisson=0.4999)
     stiff = 2 * posed.rod.young / 3 * posed.rod.area
     pulled = posed.replace(
-        supports=({"at": "first", "hold": ["x3", "x2", "d3"]},),
+        supports=({"at": "first", "fixed": ["x3", "x2", "d3"]},),
         forces=({"at": "last", "along": "E3", "force": share * stiff},),
     )
     data = pulled.solve("x")
@@ -282,7 +282,7 @@ def test_eulers_load_is_where_the_straight_column_loses_its_stability():
     low, high = 0.9, 1.1
     for _ in range(20):
         middle = (low + high) / 2
-        pushed = column(middle).solve("x").statistics["branchings"]
+        pushed = column(middle).solve("x").statistics["branch_switches"]
         low, high = (low, middle) if pushed else (middle, high)
     assert low == pytest.approx(1.0, abs=1e-4)
 
@@ -391,7 +391,7 @@ def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last
     posed, _ = slender(20, radius=0.05)
     stiff = posed.rod.young * posed.rod.area
     pushed = posed.replace(
-        supports=[{"at": k, "hold": ["x2", "d3"] if k else ["x3", "x2", "d3"]} for k in range(21)],
+        supports=[{"at": k, "fixed": ["x2", "d3"] if k else ["x3", "x2", "d3"]} for k in range(21)],
         forces=({"at": "last", "along": "-E3", "force": 2 * stiff},),
     )
     with pytest.raises(
@@ -425,8 +425,10 @@ def test_a_path_that_is_given_up_keeps_its_points_on_request(tmp_path, capsys):
 
 def test_prescribed_motion_of_a_support():
     posed, _ = slender(40)
-    both = [*CLAMP, {"at": "last", "hold": ["x3", "x2", "d3", "d2"]}]
-    moved = posed.replace(supports=both, moves=({"at": "last", "unknown": "x3", "by": -0.3},)).solve("x")
+    both = [*CLAMP, {"at": "last", "fixed": ["x3", "x2", "d3", "d2"]}]
+    moved = posed.replace(
+        supports=both, prescribed_displacements=({"at": "last", "dof": "x3", "by": -0.3},)
+    ).solve("x")
     assert moved["x"][-1, 0] == pytest.approx(0.7)
     assert np.abs(moved["x"][:, 1]).max() > 0.25  # buckled between its clamps
 
@@ -455,7 +457,7 @@ def test_the_period_of_the_exact_timoshenko_beam(solved):
 def test_sections_that_hardly_change_their_volume_vibrate(section, poisson, amplitude):
     """With the pressure at the midpoint of a step these found no solution at any sensible step."""
     case = cosserat.case("vibration_consistent").vary(
-        "x", rod={"section": section, "poisson": poisson}, start={"amplitude": amplitude}
+        "x", rod={"lateral_constraint": section, "poisson": poisson}, start={"amplitude": amplitude}
     )
     data = cosserat.run(case)
     energy = (data.kinetic_energy + data.strain_energy).to_numpy()
@@ -469,7 +471,7 @@ def test_sections_that_hardly_change_their_volume_vibrate(section, poisson, ampl
 def test_an_incompressible_rod_spins_freely(section):
     case = cosserat.case("vibration_consistent").vary(
         "x",
-        rod={"section": section, "poisson": 0.4999},
+        rod={"lateral_constraint": section, "poisson": 0.4999},
         supports=[],
         start={"shape": "reference", "amplitude": 0.0, "spin": 20.0},
     )
@@ -517,8 +519,8 @@ def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
             "takes no calibration",
         ),
         ({"energy": "published"}, "needs a calibration"),
-        ({"section": "incompressible"}, "'poisson' = 0; it must be 0.49 or more"),
-        ({"section": "thick"}, "must be 'free', 'plane strain' or 'incompressible'"),
+        ({"lateral_constraint": "incompressible"}, "'poisson' = 0; it must be 0.49 or more"),
+        ({"lateral_constraint": "thick"}, "must be 'free', 'plane strain' or 'incompressible'"),
         ({"poisson": 0.5}, "'rod.poisson' is 0.5; it must be below 0.5"),
     ],
 )
@@ -529,7 +531,7 @@ def test_bad_input(changes, sentence):
 
 def test_the_published_rod_has_no_section_and_no_path():
     with pytest.raises(InputError, match="which only energy = 'consistent' knows"):
-        cosserat.case("clamped_free").vary("x", rod={"section": "plane strain"})
+        cosserat.case("clamped_free").vary("x", rod={"lateral_constraint": "plane strain"})
     table = cosserat.case("clamped_free").problem.model_dump() | {"kind": "rod path"}
     table.pop("newton")
     from cosserat.problems.path import RodPath
@@ -552,14 +554,14 @@ def test_a_million_vertices():
     ("supports", "compliance"),
     [
         # hinges at both ends: P L^3 / 48 EI + P L / 4 kGA
-        ([{"at": "first", "hold": ["x3", "x2"]}, {"at": "last", "hold": ["x2"]}], (1 / 48, 1 / 4)),
+        ([{"at": "first", "fixed": ["x3", "x2"]}, {"at": "last", "fixed": ["x2"]}], (1 / 48, 1 / 4)),
         # a clamp and a guide, which keeps the slope: half of a clamped-clamped beam of twice the length
         (
-            [{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}, {"at": "last", "hold": ["d3"]}],
+            [{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}, {"at": "last", "fixed": ["d3"]}],
             (1 / 12, 1.0),
         ),
         # a clamp and a hinge: 7 P L^3 / 768 EI without shear; left to the mesh's own limit
-        ([{"at": "first", "hold": ["x3", "x2", "d3", "d2"]}, {"at": "last", "hold": ["x2"]}], None),
+        ([{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}, {"at": "last", "fixed": ["x2"]}], None),
     ],
 )
 def test_hinges_and_guides_lose_no_order(supports, compliance):
@@ -583,7 +585,7 @@ def test_hinges_and_guides_lose_no_order(supports, compliance):
     assert errors[1] < 1e-2 * exact
 
 
-COLUMN = {"supports": [{"at": "first", "hold": ["x3", "x2"]}, {"at": "last", "hold": ["x2"]}]}
+COLUMN = {"supports": [{"at": "first", "fixed": ["x3", "x2"]}, {"at": "last", "fixed": ["x2"]}]}
 
 
 @pytest.mark.parametrize(
@@ -594,8 +596,8 @@ COLUMN = {"supports": [{"at": "first", "hold": ["x3", "x2"]}, {"at": "last", "ho
         {**COLUMN, "forces": [{"at": "last", "along": "-E3", "force": "9 N"}]},
         # a moved clamp: two eigenvalues change their sign within the first arc
         {
-            "supports": [*CLAMP, {"at": "last", "hold": ["x3", "x2", "d3", "d2"]}],
-            "moves": [{"at": "last", "unknown": "x3", "by": "-20 cm"}],
+            "supports": [*CLAMP, {"at": "last", "fixed": ["x3", "x2", "d3", "d2"]}],
+            "prescribed_displacements": [{"at": "last", "dof": "x3", "by": "-20 cm"}],
             "forces": [],
         },
         # imperfect columns, whose corrections end in rounding
@@ -647,15 +649,15 @@ def test_shear_is_that_of_the_edges():
         ),
         (
             {
-                "moves": [
-                    {"at": "first", "unknown": "x3", "by": "1 cm"},
-                    {"at": 0, "unknown": "x3", "by": "2 cm"},
+                "prescribed_displacements": [
+                    {"at": "first", "dof": "x3", "by": "1 cm"},
+                    {"at": 0, "dof": "x3", "by": "2 cm"},
                 ]
             },
             "move x3 of vertex 0 twice",
         ),
         ({"rod": {"vertices": 100_000_000}}, "'rod.vertices' is 100000000; it must be at most 20000000"),
-        ({"newton": {"load_steps": 10**9}}, "it must be at most 100000"),
+        ({"newton": {"load_increments": 10**9}}, "it must be at most 100000"),
     ],
 )
 def test_loads_that_would_be_dropped_and_sizes_that_cannot_be(changes, sentence):
@@ -673,7 +675,7 @@ def test_moved_supports_pull_by_the_mass_they_share(method):
         "shaken",
         rod={"vertices": 3},
         start={"amplitude": 0.0},
-        moves=[{"at": "first", "unknown": "x3", "by": 1e-4, "frequency": 1400}],
+        prescribed_displacements=[{"at": "first", "dof": "x3", "by": 1e-4, "frequency": 1400}],
         duration=5e-4,
         every=5e-4,
     )
@@ -713,7 +715,7 @@ def test_no_turn_is_missed_between_two_frames(method):
     motor = cosserat.case("vibration_consistent").vary(
         "motor",
         rod={"vertices": 3, "young": 1e7},
-        supports=[{"at": "first", "hold": ["x3", "x2"]}],
+        supports=[{"at": "first", "fixed": ["x3", "x2"]}],
         start={"shape": "reference", "amplitude": 0.0, "spin": 100.0},
         couples=[{"at": "first", "moment": 80.0}],
         duration=0.1,
@@ -727,9 +729,11 @@ def test_no_turn_is_missed_between_two_frames(method):
 
 
 def test_a_clamp_turned_through_a_whole_turn_winds_the_rod_up():
-    both = [*CLAMP, {"at": "last", "hold": ["d3", "d2"]}]
+    both = [*CLAMP, {"at": "last", "fixed": ["d3", "d2"]}]
     posed, bending = slender(40)
-    wound = posed.replace(supports=both, turns=({"at": "last", "by": 2 * np.pi},)).solve("x")
+    wound = posed.replace(supports=both, prescribed_rotations=({"at": "last", "by": 2 * np.pi},)).solve(
+        "x"
+    )
     assert wound["energy_parts"].sum() == pytest.approx(bending * (2 * np.pi) ** 2 / 2, rel=1e-3)
 
 

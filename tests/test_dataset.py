@@ -156,6 +156,9 @@ def test_what_a_killed_process_was_writing_is_swept_away(tmp_path, solved):
 def test_ctrl_c_waits_until_a_file_is_written(tmp_path, solved, monkeypatch):
     """In the midst of xarray's writing it would leave a lock taken, and the run would hang for ever."""
     write, written = xr.Dataset.to_netcdf, []
+    before = signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # a job in the background ignores it
 
     def interrupted(self, *arguments, **options):
         signal.raise_signal(signal.SIGINT)
@@ -168,6 +171,7 @@ def test_ctrl_c_waits_until_a_file_is_written(tmp_path, solved, monkeypatch):
             cosserat.save(solved["necking"], tmp_path / "a.nc")
     assert len(written) == 1
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    signal.signal(signal.SIGINT, before)
     assert not list(tmp_path.iterdir())
     cosserat.save(solved["necking"], tmp_path / "a.nc")
 

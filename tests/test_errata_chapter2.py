@@ -229,7 +229,7 @@ def test_E2_8_the_listed_conditions_do_not_determine_the_stretches():
     regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
     posed = Instant(ROBOT.crawler, ROBOT.loads, regions, "test")
     systems = [posed._system(number) for number in range(3)]
-    unknowns = sum(system.size for system in systems)
+    dofs = sum(system.size for system in systems)
 
     def conditions(ends):  # (24,): y at the left, then at the right ends of the regions
         left, right = ends.reshape(2, 3, 4)
@@ -241,7 +241,7 @@ def test_E2_8_the_listed_conditions_do_not_determine_the_stretches():
     joins = (matrix != 0).sum(axis=1) == 2
     of_slopes = (matrix[:, slopes.ravel()] != 0).any(axis=1)
     listed = ~(joins & of_slopes)
-    assert unknowns == np.linalg.matrix_rank(matrix) == 12
+    assert dofs == np.linalg.matrix_rank(matrix) == 12
     assert listed.sum() == np.linalg.matrix_rank(matrix[listed]) == 8
 
     def with_junctions_at(mu):

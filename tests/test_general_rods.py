@@ -71,7 +71,7 @@ def test_a_hanging_bar_of_two_materials_has_the_tip_and_the_mass_of_two_bars(nam
     whole = still.ravel() @ banded.band_product(bar.problem.mass(geometry), still.ravel())
     assert whole == pytest.approx(mass, rel=1e-12)
     data = cosserat.run(bar)
-    assert data.support_force.sel(unknown="x3")[0].item() == pytest.approx(-mass * g, rel=1e-6)
+    assert data.support_force.sel(dof="x3")[0].item() == pytest.approx(-mass * g, rel=1e-6)
     stiff = rod.young * rod.area
     exact = g * rod.line_density * (2 * (2 / 2 + 3 * 3) / stiff + 3 * 3**2 / 2 / (0.25 * stiff))
     assert tip(bar)[0] == pytest.approx(exact, rel=1e-3)
@@ -151,7 +151,7 @@ def test_inertias_are_those_of_the_section(centreline):
     low, high = -centreline * rod.height, (1 - centreline) * rod.height
     length = rod.geometry().director_length[0]
     assert length == pytest.approx(high)
-    for power, found in ((1, rod.first_inertia), (2, rod.second_inertia)):
+    for power, found in ((1, rod.Y02), (2, rod.Y22)):
         assert found == pytest.approx(
             quad(lambda y, p=power: (y / length) ** p, low, high)[0] / rod.height
         )
@@ -170,14 +170,14 @@ def test_an_offset_rod_in_flight_keeps_its_momenta_and_turns_about_its_centre_of
     )
     data = cosserat.run(case)
     rod = case.problem.rod
-    assert rod.first_inertia > 0.4
+    assert rod.Y02 > 0.4
     for name in ("momentum", "angular_momentum"):
         values = data[name].to_numpy().reshape(data.sizes["time"], -1)
         assert np.abs(values - values[0]).max() < 1e-10 * np.abs(values[0]).max()
     energy = (data.kinetic_energy + data.strain_energy).to_numpy()
     assert np.abs(energy / energy[0] - 1).max() < 1e-9
     part = rod.part_masses(rod.geometry())
-    centre = np.einsum("k,tka->ta", part, (data.x + rod.first_inertia * data.d).to_numpy()) / part.sum()
+    centre = np.einsum("k,tka->ta", part, (data.x + rod.Y02 * data.d).to_numpy()) / part.sum()
     straight = centre[0] + data.time.to_numpy()[:, None] * data.momentum.to_numpy()[0] / part.sum()
     np.testing.assert_allclose(centre, straight, atol=1e-9)
     line = np.einsum("k,tka->ta", part, data.x.to_numpy()) / part.sum()
@@ -242,7 +242,7 @@ def test_a_motor_turns_a_hinged_rod_through_many_turns(energy):
     case = cosserat.case("vibration_c4_20").vary(
         "motor",
         rod=consistent,
-        supports=[{"at": "first", "hold": ["x3", "x2"]}],
+        supports=[{"at": "first", "fixed": ["x3", "x2"]}],
         start={"amplitude": 0.0},
         couples=[{"at": "first", "moment": 80.0}],
         duration=1.2,
@@ -288,7 +288,7 @@ def test_a_line_load_over_a_stretch_has_its_resultant_there():
     case = BEAM.vary(
         "loaded", gravity=None, line_loads=[{"along": "E2", "density": 7.0, "start": 1.3, "end": 3.1}]
     )
-    force = cosserat.run(case).applied_force.sel(unknown="x2").to_numpy()
+    force = cosserat.run(case).applied_force.sel(dof="x2").to_numpy()
     arc = case.problem.rod.geometry().arc_length
     assert force.sum() == pytest.approx(7.0 * 1.8)
     assert (force[(arc < 1.1) | (arc > 3.3)] == 0).all()
@@ -368,7 +368,7 @@ def test_mass_couples_position_and_director_where_the_page_says():
     rng = np.random.default_rng(1)
     v = rng.standard_normal((20, 4))
     part = problem.rod.part_masses(geometry)
-    y02, y22 = problem.rod.first_inertia, problem.rod.second_inertia
+    y02, y22 = problem.rod.Y02, problem.rod.Y22
     matrix = np.kron(np.array([[1, y02], [y02, y22]]), np.eye(2))  # eq. (3.3.43)
     expected = np.array([m * matrix @ row for m, row in zip(part, v, strict=True)])
     found = banded.band_product(problem.mass(geometry), v.ravel()).reshape(20, 4)
@@ -381,13 +381,13 @@ def test_a_moved_support_stretches_a_bar_by_hooke():
     case = BAR.vary(
         "stretched",
         gravity=None,
-        supports=[{"at": "first", "hold": ["x3", "x2", "d3"]}, {"at": "last", "hold": ["x3"]}],
-        moves=[{"at": "last", "unknown": "x3", "by": "1 mm"}],
+        supports=[{"at": "first", "fixed": ["x3", "x2", "d3"]}, {"at": "last", "fixed": ["x3"]}],
+        prescribed_displacements=[{"at": "last", "dof": "x3", "by": "1 mm"}],
     )
     data = cosserat.run(case)
     rod = case.problem.rod
     force = rod.young * rod.area * 1e-3 / rod.length
-    assert data.support_force.sel(unknown="x3")[-1].item() == pytest.approx(force, rel=1e-3)
+    assert data.support_force.sel(dof="x3")[-1].item() == pytest.approx(force, rel=1e-3)
     np.testing.assert_allclose(data.mu_edge, 1 + 1e-3 / rod.length, rtol=1e-9)
 
 
@@ -398,7 +398,7 @@ def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
     shaken = cosserat.case("vibration_c4_20").vary(
         "shaken",
         start={"shape": "reference", "amplitude": 0.0},
-        moves=[{"at": "first", "unknown": "x2", "by": "0.1 mm", "frequency": f1 / 20}],
+        prescribed_displacements=[{"at": "first", "dof": "x2", "by": "0.1 mm", "frequency": f1 / 20}],
         duration=(5 if method == "implicit" else 1) / f1,
         every=0.05 / f1,
         integrator={"method": method, "step": 0.01 / f1},
@@ -412,9 +412,11 @@ def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
 
 def test_moves_need_a_support_and_statics_no_frequency():
     with pytest.raises(cosserat.InputError, match="moves x2 of vertex last, which no support holds"):
-        BEAM.vary("bad", moves=[{"at": "last", "unknown": "x2", "by": 0.1}])
+        BEAM.vary("bad", prescribed_displacements=[{"at": "last", "dof": "x2", "by": 0.1}])
     with pytest.raises(cosserat.InputError, match="a static problem has no time"):
-        BEAM.vary("bad", moves=[{"at": "first", "unknown": "x2", "by": 0.1, "frequency": 2}])
+        BEAM.vary(
+            "bad", prescribed_displacements=[{"at": "first", "dof": "x2", "by": 0.1, "frequency": 2}]
+        )
 
 
 @pytest.mark.parametrize(
@@ -422,7 +424,9 @@ def test_moves_need_a_support_and_statics_no_frequency():
 )
 def test_a_turned_clamp_turns_the_rod_and_stretches_nothing(energy, angle):
     consistent = {"energy": "consistent", "calibration": "none"} if energy == "consistent" else {}
-    turned = BEAM.vary("turned", rod=consistent, gravity=None, turns=[{"at": "first", "by": angle}])
+    turned = BEAM.vary(
+        "turned", rod=consistent, gravity=None, prescribed_rotations=[{"at": "first", "by": angle}]
+    )
     data = cosserat.run(turned)
     length = turned.problem.rod.length
     np.testing.assert_allclose(
@@ -435,7 +439,7 @@ def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
     rocked = cosserat.case("vibration_consistent").vary(
         "rocked",
         start={"amplitude": 0.0},
-        turns=[{"at": "first", "by": "0.5 rad", "frequency": "2 Hz"}],
+        prescribed_rotations=[{"at": "first", "by": "0.5 rad", "frequency": "2 Hz"}],
         duration="0.5 s",
         every="5 ms",
         integrator={"step": "1 ms"},
@@ -456,15 +460,21 @@ def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
     ("changes", "sentence"),
     [
         (
-            {"turns": [{"at": "last", "by": 1.0}]},
-            "'turns' turns the section of vertex last, which no support holds; add d3 to 'hold'",
+            {"prescribed_rotations": [{"at": "last", "by": 1.0}]},
+            "'prescribed_rotations' turns the section of vertex last, which no support holds; add d3 to 'fixed'",
         ),
         (
-            {"turns": [{"at": 0, "by": 1.0}], "moves": [{"at": "first", "unknown": "d3", "by": 0.1}]},
+            {
+                "prescribed_rotations": [{"at": 0, "by": 1.0}],
+                "prescribed_displacements": [{"at": "first", "dof": "d3", "by": 0.1}],
+            },
             "move d3 of vertex 0 twice",
         ),
-        ({"turns": [{"at": 0, "by": 1.0, "frequency": 2}]}, "has a 'frequency', but a static problem"),
-        ({"turns": [{"at": 99, "by": 1.0}]}, "'at' is 99"),
+        (
+            {"prescribed_rotations": [{"at": 0, "by": 1.0, "frequency": 2}]},
+            "has a 'frequency', but a static problem",
+        ),
+        ({"prescribed_rotations": [{"at": 99, "by": 1.0}]}, "'at' is 99"),
         (
             {"rod": {"stations": [{"at": "7 m"}]}},
             "'stations' has one at 7 m, but the rod goes from 0 to 5 m",

@@ -23,7 +23,7 @@ banded = cosserat.solvers.banded
 @cfunc("float64(float64)", cache=True)
 def same(x):
     return x
-print(type(banded.hold._cache).__name__, same.ctypes(2.0))
+print(type(banded.constrain._cache).__name__, same.ctypes(2.0))
 """
 
 

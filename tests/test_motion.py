@@ -7,11 +7,11 @@ import cosserat
 from cosserat.errors import DivergedError, InputError, UnstableError
 from cosserat.exact import beams
 from cosserat.problems import checkpoints
-from cosserat.problems.checkpoints import Course
+from cosserat.problems.checkpoints import CheckpointedRun
 from cosserat.rods import kinematics
 from cosserat.rods.kinematics import rigid_motions
 from cosserat.solvers import banded, integrate
-from cosserat.solvers.equilibrium import Climb
+from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.modes import modes
 from cosserat.thesis.table import readouts
 from cosserat.thesis.table.arithmetic import ARITHMETIC
@@ -51,7 +51,7 @@ def test_energy_is_kept_over_a_hundred_periods_at_a_hundred_steps_each():
     settings = integrate.IntegratorSettings(step=period / 100)
     worst = 0.0
     for _ in range(100):
-        state, steps = integrate.advance(system, state, period, settings, "beam")
+        state, steps = integrate.integrate(system, state, period, settings, "beam")
         assert steps == 100
         now = system.body.energy(state.q) + integrate.kinetic_energy(system, state)
         worst = max(worst, abs(now / start - 1))
@@ -74,7 +74,7 @@ def test_a_large_motion_keeps_energy_where_the_plain_midpoint_rule_does_not():
 
 def plain_midpoint(system, q, v, h):
     """A step of the midpoint rule without a correction of the energy, by dense Newton."""
-    change, free = np.where(system.held, 0.0, h * v), ~system.held
+    change, free = np.where(system.constrained, 0.0, h * v), ~system.constrained
     mass = banded.to_dense(system.mass)
     gradient, band = np.empty(q.size), np.empty((q.size, system.body.half_bandwidth + 1))
     for _ in range(10):
@@ -104,7 +104,7 @@ def in_its_first_mode(amplitude, **changes):
 
 def after(settings, duration=0.03, amplitude=AMPLITUDE):
     system, state = in_its_first_mode(amplitude)
-    return integrate.advance(
+    return integrate.integrate(
         system,
         state,
         duration,
@@ -220,9 +220,11 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
     push = {"at": "last", "along": "-E3", "force": euler}
     pushed = problem.replace(forces=(push,))
     system = pushed.system(geometry)
-    climb = Climb(pushed.loaded(geometry), pushed.newton, "the column")
+    solver = EquilibriumSolver(pushed.loaded(geometry), pushed.newton, "the column")
     for factor, directions in ((1.2, "1 direction,"), (12.0, "2 directions")):
-        straight = climb.at(np.zeros(system.held.size), factor).q + kinematics.reference(geometry)
+        straight = solver.correct(np.zeros(system.constrained.size), factor).q + kinematics.reference(
+            geometry
+        )
         with pytest.raises(UnstableError, match=f"the column: .* unstable in {directions}"):
             modes(system, straight, 1, "the column", anchored=True)
 
@@ -231,7 +233,7 @@ def test_damping_of_a_free_rod_is_a_share_of_that_of_its_first_bending():
     """Its three rigid motions have no frequency to be damped by."""
     problem = free_flight(damping=1.0).problem
     elastic = problem.modes(4).angular_frequency[3]
-    assert problem.system(problem.rod.geometry()).drag == pytest.approx(2 * elastic, rel=1e-9)
+    assert problem.system(problem.rod.geometry()).damping_rate == pytest.approx(2 * elastic, rel=1e-9)
     data = cosserat.run(free_flight(damping=0.01, duration=0.05, every=1e-3))
     gone = np.exp(-2 * 0.01 * elastic * data.time)
     np.testing.assert_allclose(
@@ -388,17 +390,17 @@ def test_the_stability_limit_is_where_the_motion_diverges():
     for share, bounded in ((0.95, True), (1.15, False)):
         settings = integrate.IntegratorSettings(method="rk4", step=share * limit)
         try:
-            after, _ = integrate.advance(system, state, 3000 * share * limit, settings, "beam")
+            after, _ = integrate.integrate(system, state, 3000 * share * limit, settings, "beam")
             energy = system.body.energy(after.q) + integrate.kinetic_energy(system, after)
-            grown = energy > 10 * system.body.energy(state.q)
+            at_load = energy > 10 * system.body.energy(state.q)
         except DivergedError:
-            grown = True
-        assert grown != bounded
+            at_load = True
+        assert at_load != bounded
 
 
 def test_the_limit_of_a_rod_with_one_free_number_is_that_of_one_oscillator():
     whole = ["x3", "x2", "d3", "d2"]
-    supports = [{"at": at, "hold": hold} for at, hold in enumerate((whole, whole, whole[:3]))]
+    supports = [{"at": at, "fixed": constrain} for at, constrain in enumerate((whole, whole, whole[:3]))]
     case = BEAM.vary("one", rod={"vertices": 3}, supports=supports, start={"amplitude": 0.0})
     _, system, state = parts_of(case)
     limit = integrate.stable_step(system, state.q)
@@ -407,14 +409,14 @@ def test_the_limit_of_a_rod_with_one_free_number_is_that_of_one_oscillator():
 
 def test_modes_of_a_motion_are_those_of_the_unloaded_rod():
     """Its reference is at rest without loads alone; so couples neither move them nor the damping they set."""
-    hinge = [{"at": "first", "hold": ["x3", "x2"]}]
+    hinge = [{"at": "first", "fixed": ["x3", "x2"]}]
     plain = BEAM.vary("plain", supports=hinge, damping=1.0).problem
     motor = BEAM.vary(
         "motor", supports=hinge, damping=1.0, couples=[{"at": "first", "moment": 80.0}]
     ).problem
     assert (motor.modes(3).angular_frequency == plain.modes(3).angular_frequency).all()
     assert plain.modes(1).angular_frequency[0] == 0
-    drags = [problem.system(problem.rod.geometry()).drag for problem in (plain, motor)]
+    drags = [problem.system(problem.rod.geometry()).damping_rate for problem in (plain, motor)]
     assert drags[0] == drags[1] == pytest.approx(2 * plain.modes(2).angular_frequency[1])
 
 
@@ -459,10 +461,10 @@ def test_drag_shortens_the_stable_step():
 def stays(system, state, step, count=1500):
     """Whether 1500 steps of the fixed explicit method leave the motion as small as it was."""
     noise = 1e-9 * np.random.default_rng(3).standard_normal(state.q.size)
-    start = integrate.State(np.where(system.held, state.q, state.q + noise), state.v)
+    start = integrate.State(np.where(system.constrained, state.q, state.q + noise), state.v)
     settings = integrate.IntegratorSettings(method="rk4", step=step)
     try:
-        after, _ = integrate.advance(system, start, count * step, settings, "beam")
+        after, _ = integrate.integrate(system, start, count * step, settings, "beam")
     except DivergedError:
         return False
     energies = [system.body.energy(s.q) + integrate.kinetic_energy(system, s) for s in (start, after)]
@@ -498,7 +500,7 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
     def stop(share, words):
         raise StopError
 
-    for expected in range(1, Course.of(case.problem, "beam").parts):
+    for expected in range(1, CheckpointedRun.of(case.problem, "beam").parts):
         with pytest.raises(StopError):
             cosserat.run(
                 case,
@@ -512,12 +514,14 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
 
 def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
     """Parts end between two frames where one alone takes longer than a part may; cut there, nothing changes."""
-    shaken = {"at": "first", "unknown": "x2", "by": "1 mm", "frequency": 37.0}
-    case = BEAM.vary("beam", duration=0.03, every=0.0101, moves=[shaken], start={"amplitude": 0.0})
+    shaken = {"at": "first", "dof": "x2", "by": "1 mm", "frequency": 37.0}
+    case = BEAM.vary(
+        "beam", duration=0.03, every=0.0101, prescribed_displacements=[shaken], start={"amplitude": 0.0}
+    )
     steps, vertices = 80, 20  # a frame is 10 ms, one step 0.125 ms
     monkeypatch.setattr(checkpoints, "WORK_PER_PART", steps * vertices / 6.5)
-    course = Course.of(case.problem, "beam")
-    assert (course.legs, course.stops_per_part, course.parts) == (7, 1, 21)
+    course = CheckpointedRun.of(case.problem, "beam")
+    assert (course.substeps_per_frame, course.stops_per_part, course.parts) == (7, 1, 21)
     whole = cosserat.run(case)
     np.testing.assert_allclose(whole.time, [0.0, 0.01, 0.02, 0.03], rtol=1e-15)
     cosserat.save(whole, tmp_path / "whole.nc")
@@ -547,7 +551,7 @@ def test_parts_hold_as_much_work_whatever_the_method(method, vertices, step, ste
     """Of a run of 20 s with a frame every 5 s, which is longer than a part may be: half a million vertices stepped."""
     integrator = {"method": method, "step": step}
     case = BEAM.vary("long", rod={"vertices": vertices}, duration=20, every=5, integrator=integrator)
-    course = Course.of(case.problem, "long")
+    course = CheckpointedRun.of(case.problem, "long")
     outcome, _, stopped = course.part(0, case.problem.begin())
     assert stopped is None
     assert outcome.statistics["steps"] == steps
@@ -586,9 +590,9 @@ def test_memory_of_a_step_grows_no_faster_than_the_rod():
     for n in (20, 200, 2000):
         case = BEAM.vary("beam", rod={"vertices": n})
         settings = integrate.IntegratorSettings(step=2.5e-4)
-        integrate.advance(*parts_of(case)[1:], 5e-4, settings, "warm")
+        integrate.integrate(*parts_of(case)[1:], 5e-4, settings, "warm")
         tracemalloc.start()
-        integrate.advance(*parts_of(case)[1:], 60 * 2.5e-4, settings, "traced")
+        integrate.integrate(*parts_of(case)[1:], 60 * 2.5e-4, settings, "traced")
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 10 * peaks[0]

@@ -35,7 +35,7 @@ class Spring:
         self.omega = omega
         self.parameters = np.array([[omega**2, 0.0]])
 
-    def counted_near(self, angle):
+    def unwrapped_near(self, angle):
         return self
 
     def energy(self, q):
@@ -47,11 +47,13 @@ class Spring:
         return self.energy(q)
 
 
-def oscillator(omega, drag):
-    held = np.array([False, True, True, True])
+def oscillator(omega, damping_rate):
+    constrained = np.array([False, True, True, True])
     mass = np.zeros((4, 1))
     mass[:, 0] = 1.0
-    return integrate.System(Spring(omega), mass, np.zeros(4), held, drag, np.empty((0, 4)))
+    return integrate.System(
+        Spring(omega), mass, np.zeros(4), constrained, damping_rate, np.empty((0, 4))
+    )
 
 
 def exact(omega, c, t):
@@ -62,20 +64,20 @@ def exact(omega, c, t):
     return x.real, v.real
 
 
-def rate_of_decay(omega, drag, h):
+def rate_of_decay(omega, damping_rate, h):
     """Minus the slope of log energy over a fall of six powers of ten, of the motion and of the exact one."""
-    system = oscillator(omega, drag)
+    system = oscillator(omega, damping_rate)
     state = integrate.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
-    steps = int(6 * np.log(10) / (drag * h)) + 1
+    steps = int(6 * np.log(10) / (damping_rate * h)) + 1
     times, logs = [], []
     each = max(1, steps // 2000)
     for _ in range(0, steps, each):
-        state, _ = integrate.advance(
+        state, _ = integrate.integrate(
             system, state, each * h, integrate.IntegratorSettings(step=h), "spring"
         )
         times.append(state.time)
         logs.append(np.log(system.body.energy(state.q) + integrate.kinetic_energy(system, state)))
-    x, v = exact(omega, drag, np.array(times))
+    x, v = exact(omega, damping_rate, np.array(times))
     ideal = np.log(omega**2 * x**2 / 2 + v**2 / 2)
     return -np.polyfit(times, logs, 1)[0], -np.polyfit(times, ideal, 1)[0]
 
@@ -94,14 +96,16 @@ def test_beyond_the_stated_limit_the_rate_is_another():
     assert abs(found / right - 1) > 0.2
 
 
-@pytest.mark.parametrize(("omega", "drag"), [(1.0, 0.1), (1.0, 1.0), (1.0, 2.5), (1.0, 10.0)])
-def test_a_resolved_damped_oscillator_is_followed_to_second_order(omega, drag):
+@pytest.mark.parametrize(("omega", "damping_rate"), [(1.0, 0.1), (1.0, 1.0), (1.0, 2.5), (1.0, 10.0)])
+def test_a_resolved_damped_oscillator_is_followed_to_second_order(omega, damping_rate):
     """Under-damped, nearly critical and over-damped."""
-    system, errors = oscillator(omega, drag), []
+    system, errors = oscillator(omega, damping_rate), []
     for h in (0.04, 0.02, 0.01):
         state = integrate.State(np.array([1.0, 0, 1, 0]), np.zeros(4))
-        state, _ = integrate.advance(system, state, 4.0, integrate.IntegratorSettings(step=h), "spring")
-        errors.append(np.abs(np.array([state.q[0], state.v[0]]) - exact(omega, drag, 4.0)).max())
+        state, _ = integrate.integrate(
+            system, state, 4.0, integrate.IntegratorSettings(step=h), "spring"
+        )
+        errors.append(np.abs(np.array([state.q[0], state.v[0]]) - exact(omega, damping_rate, 4.0)).max())
     np.testing.assert_allclose(np.diff(np.log2(errors)), -2, atol=0.1)
 
 
@@ -111,7 +115,7 @@ def test_what_the_drag_took_is_what_is_missing():
     start = system.body.energy(state.q)
     for method in ("implicit", "rk4", "rk45"):
         settings = integrate.IntegratorSettings(method=method, step=1e-3, tolerance=1e-10)
-        after, _ = integrate.advance(system, state, 2.0, settings, "spring")
+        after, _ = integrate.integrate(system, state, 2.0, settings, "spring")
         left = system.body.energy(after.q) + integrate.kinetic_energy(system, after)
         assert left + after.dissipated == pytest.approx(start, rel=1e-7), method
         assert 0.5 * start < after.dissipated < 0.7 * start

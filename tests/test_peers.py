@@ -29,7 +29,7 @@ if problem["elements"] == 80:
     raise SystemExit("the licence has run out")
 print(json.dumps({"python": "3", "fake": "1.2"}), flush=True)
 for line in sys.stdin:
-    with open(sys.argv[0][:-6] + "turns", "a") as log:
+    with open(sys.argv[0][:-6] + "prescribed_rotations", "a") as log:
         log.write(sys.argv[0][-6:-3] + " ")
     print("a banner\\n" + json.dumps({"seconds": 2.0, "tip": 1.0, "profile": [1.0] * 20}), flush=True)
 """
@@ -53,7 +53,7 @@ def some(monkeypatch, *kept):
 
 def test_packages_take_turns_and_the_table_says_where_it_was_measured(fakes, monkeypatch):
     some(monkeypatch, ("weight", 19), ("force", 20), ("vibration", 20))
-    solve, turns, said = compare._solve, fakes / "turns", []
+    solve, turns, said = compare._solve, fakes / "prescribed_rotations", []
 
     def ours(*given):
         with turns.open("a") as log:

@@ -9,7 +9,7 @@ from cosserat.data.dataset import warnings_of
 from cosserat.errors import CrossingError
 from cosserat.rods.energies import hemingway_kernel, reissner
 from cosserat.rods.kinematics import Geometry, reference, rigid_motions
-from cosserat.rods.resolution import refuse_crossing, surface_stretch, unresolved_energy
+from cosserat.rods.resolution import check_crossing, surface_stretch, unresolved_energy
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.modes import modes
 
@@ -91,8 +91,8 @@ def test_what_drag_takes_and_supports_give_closes_the_balance(method):
         start={"amplitude": 0.01},
         gravity={"g": 9.81, "along": "-E2"},
         damping=0.05,
-        moves=[{"at": "first", "unknown": "x2", "by": 2e-3, "frequency": 20}],
-        turns=[{"at": "first", "by": 0.02, "frequency": 30}],
+        prescribed_displacements=[{"at": "first", "dof": "x2", "by": 2e-3, "frequency": 20}],
+        prescribed_rotations=[{"at": "first", "by": 0.02, "frequency": 30}],
         duration=0.02,
         every=1e-3,
         integrator={"method": method, "step": 2e-6 if method == "rk4" else 2e-5},
@@ -115,14 +115,14 @@ def test_the_filter_agrees_with_the_modes():
     system, q = problem.system(geometry), reference(geometry)
     found = modes(system, q, 80, "x", anchored=True)
     rng = np.random.default_rng(0)
-    v = np.where(system.held, 0.0, rng.uniform(-1, 1, q.size))
+    v = np.where(system.constrained, 0.0, rng.uniform(-1, 1, q.size))
     share = found.coordinates(system.mass, [v])[0] ** 2 / 2
     gradient, band = np.empty(q.size), np.empty((q.size, 14))
     system.body.assemble(q, gradient, band)
     for h in (1e-6, 1e-5, 1e-4, 1e-3):
         x = found.angular_frequency * h
         right = float((share * x**16 / (1 + x**16)).sum())
-        assert unresolved_energy(band, system.mass, system.held, v, h) == pytest.approx(
+        assert unresolved_energy(band, system.mass, system.constrained, v, h) == pytest.approx(
             right, rel=1e-6, abs=1e-9 * share.sum()
         )
     assert share.sum() == pytest.approx(v @ to_dense(system.mass) @ v / 2, rel=1e-9)
@@ -155,7 +155,7 @@ def test_a_drive_too_fast_for_the_step_is_named(hertz):
     shaken = BEAM.vary(
         "shaken",
         start={"shape": "reference", "amplitude": 0.0},
-        moves=[{"at": "first", "unknown": "x2", "by": 1e-3, "frequency": hertz}],
+        prescribed_displacements=[{"at": "first", "dof": "x2", "by": 1e-3, "frequency": hertz}],
         duration=0.01,
         every=1e-3,
         integrator={"step": 1e-3},
@@ -163,7 +163,11 @@ def test_a_drive_too_fast_for_the_step_is_named(hertz):
     assert "fast drive" in named(cosserat.run(shaken))
     step = 0.9 / (2 * np.pi * hertz)
     assert "fast drive" not in named(cosserat.run(shaken.vary("x", integrator={"step": step})))
-    rocked = shaken.vary("rocked", moves=[], turns=[{"at": "first", "by": 1e-3, "frequency": hertz}])
+    rocked = shaken.vary(
+        "rocked",
+        prescribed_displacements=[],
+        prescribed_rotations=[{"at": "first", "by": 1e-3, "frequency": hertz}],
+    )
     assert "fast drive" in named(cosserat.run(rocked))
 
 
@@ -273,10 +277,10 @@ def test_sections_that_shear_into_each_other_are_refused_where_their_surfaces_me
         assert apart == pytest.approx(0.01 * geometry.edge_length[1], rel=1e-9)
         assert np.isfinite(rod.body(geometry).energy(np.hstack([x, d]).ravel()))
         if gap > 0:
-            refuse_crossing(geometry, x, d, rod.below, "x")
+            check_crossing(geometry, x, d, rod.below, "x")
         else:
             with pytest.raises(CrossingError, match=f"vertices 1 and 2 cross at the {surface} surface"):
-                refuse_crossing(geometry, x, d, rod.below, "x")
+                check_crossing(geometry, x, d, rod.below, "x")
 
 
 def test_a_path_and_a_motion_stop_before_sections_cross(tmp_path):

@@ -43,7 +43,7 @@ class Parts:
         with contextlib.suppress(OSError):
             self.folder.rmdir()
 
-    def refuse_others(self, part: xr.Dataset, fresh: xr.Dataset) -> None:
+    def check_same_run(self, part: xr.Dataset, fresh: xr.Dataset) -> None:
         """Raise InputError if a stored part is of another case, code or environment than the run that goes on."""
         for key in _MUST_AGREE:
             if part.attrs.get(key) != fresh.attrs.get(key):

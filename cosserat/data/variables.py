@@ -7,7 +7,7 @@ from cosserat.solution import Variable
 
 LABELS = {
     "axis": "component in the plane of motion",
-    "unknown": "unknown of a vertex, eq. (3.3.42)",
+    "dof": "degree of freedom of a vertex, eq. (3.3.42)",
     "stretching_coefficient": "coefficient of eq. (3.4.13)",
     "beam_coefficient": "coefficient of eq. (3.4.13)",
     "section_coefficient": "coefficient of eq. (3.4.13)",
@@ -45,10 +45,10 @@ VARIABLES: dict[str, Variable] = {
         ("edge",), "rad", "shear angle of the edges of the consistent rod", "g/a", "3.3.24", 1e-11
     ),
     "applied_force": Variable(
-        ("vertex", "unknown"), "N", "applied force", r"\mathbf{F}_{ext}", "3.3.40", 1e-9
+        ("vertex", "dof"), "N", "applied force", r"\mathbf{F}_{ext}", "3.3.40", 1e-9
     ),
     "support_force": Variable(
-        ("vertex", "unknown"), "N", "force of the supports", r"\mathbf{R}", "3.3.40", 1e-3
+        ("vertex", "dof"), "N", "force of the supports", r"\mathbf{R}", "3.3.40", 1e-3
     ),
     "energy": Variable(
         ("term",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-10

@@ -82,7 +82,7 @@ def draw_supports(ax: Axes, problem: RodProblem, x: Array, D: Array) -> None:
     for support in problem.supports:
         index = problem.index(support.at)
         section = np.column_stack([x[index] - 1.7 * D[index], x[index] + 1.7 * D[index]])
-        whole = {"d3", "d2"} <= set(support.hold)
+        whole = {"d3", "d2"} <= set(support.fixed)
         ax.plot(*section, color=INK, linewidth=3.0 if whole else 1.2, solid_capstyle="butt", zorder=4)
 
 

@@ -137,7 +137,7 @@ class Instant:
             f"{self.loads.advancing:g} Pa and regions that meet at {cuts}"
         )
 
-    def refuse_collapse(self) -> None:
+    def check_collapse(self) -> None:
         """Nothing, or what `plateaus` raises."""
         _ = self.plateaus
 
@@ -347,7 +347,7 @@ class _Equation:
         return 1 / (u[..., 0] * u[..., 1]), self._multiplier(u).reshape(shape)
 
 
-def refuse_tilt(profile: Profile, body: Crawler, name: str) -> float:
+def check_tilt(profile: Profile, body: Crawler, name: str) -> float:
     """The largest R mu_1' / mu_3, the sine of the tilt of the centreline, eq. (2.5.5).
 
     Raises

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, NotConvergedError
-from cosserat.rods.kinematics import AXES, UNKNOWNS, Geometry, reference, rigid_fields
+from cosserat.rods.kinematics import AXES, DOFS, Geometry, reference, rigid_fields
 from cosserat.rods.resolution import (
     FAST,
     UNBALANCED,
     UNRESOLVED,
+    check_crossing,
     coarse,
-    refuse_crossing,
     unresolved_energy,
 )
 from cosserat.rods.rod import RodBody
@@ -27,11 +27,11 @@ from cosserat.solvers.integrate import (
     DAMPED,
     State,
     System,
-    advance,
     body_at,
+    check_stable_step,
     highest_frequency,
+    integrate,
     kinetic_energy,
-    refuse_unstable_step,
     stable_step,
     step_count,
 )
@@ -53,7 +53,7 @@ _COST = {"implicit": (0.0, 1.0), "rk4": (30.0, 0.5), "rk45": (300.0, 2.0)}
 
 
 @dataclass(frozen=True)
-class Course:
+class CheckpointedRun:
     """A motion on its way through stops at equal times, of which every `legs`-th is a frame.
 
     geometry, system : of the problem, made once.  stops_per_part : stops from one stored part to the next.
@@ -63,11 +63,11 @@ class Course:
     name: str
     geometry: Geometry
     system: System
-    legs: int
+    substeps_per_frame: int
     stops_per_part: int
 
     @classmethod
-    def of(cls, problem: RodMotion, name: str) -> Course:
+    def of(cls, problem: RodMotion, name: str) -> CheckpointedRun:
         """Lay a motion out; `name` is what errors call the case.
 
         Raises
@@ -77,16 +77,16 @@ class Course:
         geometry = problem.rod.geometry()
         system = problem.system(geometry)
         work = _work_of_a_frame(problem, system, geometry)
-        legs = max(1, math.ceil(work / WORK_PER_PART))
-        stops = 1 if legs > 1 else max(1, min(FRAMES_PER_PART, int(WORK_PER_PART / work)))
-        leg = problem.between_frames / legs
-        refuse_unstable_step(system, problem.begin().q, leg, problem.integrator, name)
-        return cls(problem, name, geometry, system, legs, stops)
+        substeps_per_frame = max(1, math.ceil(work / WORK_PER_PART))
+        stops = 1 if substeps_per_frame > 1 else max(1, min(FRAMES_PER_PART, int(WORK_PER_PART / work)))
+        substep = problem.between_frames / substeps_per_frame
+        check_stable_step(system, problem.begin().q, substep, problem.integrator, name)
+        return cls(problem, name, geometry, system, substeps_per_frame, stops)
 
     @property
     def parts(self) -> int:
         """Number of parts in which the run is stored."""
-        return -(-self.problem.frames * self.legs // self.stops_per_part)
+        return -(-self.problem.frames * self.substeps_per_frame // self.stops_per_part)
 
     def part(self, number: int, state: State) -> tuple[Solution, State, CosseratError | None]:
         """States at the stops of one part, from that in which the part before it ended; the first has the start too.
@@ -94,14 +94,14 @@ class Course:
         Where the integrator cannot go on, the states before that and its error come back.
         """
         first = number * self.stops_per_part
-        last = min(first + self.stops_per_part, self.problem.frames * self.legs)
+        last = min(first + self.stops_per_part, self.problem.frames * self.substeps_per_frame)
         states, steps, stopped = ([state] if number == 0 else []), 0, None
-        leg = self.problem.between_frames / self.legs
+        substep = self.problem.between_frames / self.substeps_per_frame
         for stop in range(first + 1, last + 1):
             try:
-                state, done = advance(self.system, state, leg, self.problem.integrator, self.name)
-                q = state.q.reshape(-1, len(UNKNOWNS))
-                refuse_crossing(
+                state, done = integrate(self.system, state, substep, self.problem.integrator, self.name)
+                q = state.q.reshape(-1, len(DOFS))
+                check_crossing(
                     self.geometry,
                     q[:, :2],
                     q[:, 2:],
@@ -112,7 +112,7 @@ class Course:
                 stopped = error
                 break
             # the time that is stored: a run that goes on from it must not differ by rounding
-            state = replace(state, time=stop / self.legs * self.problem.between_frames)
+            state = replace(state, time=stop / self.substeps_per_frame * self.problem.between_frames)
             states.append(state)
             steps += done
         rod = self.problem.rod.body(self.geometry)
@@ -125,22 +125,22 @@ class Course:
         """The time step of a method that takes equal ones; zero if it chooses them [s]."""
         if self.problem.integrator.method == "rk45":
             return 0.0
-        leg = self.problem.between_frames / self.legs
-        return leg / step_count(leg, self.problem.integrator)
+        substep = self.problem.between_frames / self.substeps_per_frame
+        return substep / step_count(substep, self.problem.integrator)
 
     def _judged(self, states: list[State]) -> dict[str, float]:
         """Kinetic energy of some states, and what of it is in modes that the step does not follow [J]."""
         system, kinetic, unresolved = self.system, 0.0, 0.0
-        apart = -(-self.problem.frames * self.legs // JUDGED)
-        n = system.held.size
+        apart = -(-self.problem.frames * self.substeps_per_frame // JUDGED)
+        n = system.constrained.size
         gradient, band = np.empty(n), np.empty((n, system.body.half_bandwidth + 1))
         for state in states:
-            stop = round(state.time / self.problem.between_frames * self.legs)
+            stop = round(state.time / self.problem.between_frames * self.substeps_per_frame)
             if not self.step or stop % apart:
                 continue
             body_at(system, state).assemble(state.q, gradient, band)
             kinetic += kinetic_energy(system, state)
-            unresolved += unresolved_energy(band, system.mass, system.held, state.v, self.step)
+            unresolved += unresolved_energy(band, system.mass, system.constrained, state.v, self.step)
         return {"judged_kinetic_J": kinetic, "unresolved_kinetic_J": unresolved}
 
     def warnings(self, whole: Solution) -> tuple[str, ...]:
@@ -150,7 +150,7 @@ class Course:
             *self._unresolved(whole.statistics),
             *self._too_fast(whole),
             *self._driven_too_fast(),
-            *self.problem.rod.remarks(),
+            *self.problem.rod.warnings(),
             *coarse(whole["d"]),
             *self._damped_beyond(),
         )
@@ -187,7 +187,7 @@ class Course:
             )
 
     def _driven_too_fast(self) -> Iterator[str]:
-        moves, turns = self.problem.moves, self.problem.turns
+        moves, turns = self.problem.prescribed_displacements, self.problem.prescribed_rotations
         frequency = max([0.0, *(move.frequency for move in moves), *(turn.frequency for turn in turns)])
         if 2 * np.pi * frequency * self.step > FAST:
             yield (
@@ -196,7 +196,7 @@ class Course:
             )
 
     def _damped_beyond(self) -> Iterator[str]:
-        c, h = self.system.drag, self.step
+        c, h = self.system.damping_rate, self.step
         if self.problem.integrator.method != "implicit" or not c:
             return
         highest = highest_frequency(self.system, reference(self.geometry))
@@ -219,13 +219,15 @@ def resumed(part: Solution) -> State:
     )
 
 
-def joined(parts: list[Solution], legs: int) -> Solution:
+def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
     """One solution: fields along the time are joined, every `legs`-th instant a frame; statistics are summed."""
     first = parts[0]
     fields = {
         name: (
             dims,
-            np.concatenate([part[name] for part in parts])[::legs] if "time" in dims else values,
+            np.concatenate([part[name] for part in parts])[::substeps_per_frame]
+            if "time" in dims
+            else values,
         )
         for name, (dims, values) in first.fields.items()
     }
@@ -244,7 +246,7 @@ def _work_of_a_frame(problem: RodMotion, system: System, geometry: Geometry) -> 
 
 
 def _fields(geometry: Geometry, system: System, rod: RodBody, states: list[State]) -> dict[str, Field]:
-    q = np.array([state.q for state in states]).reshape(len(states), -1, len(UNKNOWNS))
+    q = np.array([state.q for state in states]).reshape(len(states), -1, len(DOFS))
     v = np.array([state.v for state in states]).reshape(q.shape)
     start = reference(geometry)
     strain = np.array([rod.energy(state.q) for state in states])

@@ -15,7 +15,7 @@ from pydantic_core import PydanticCustomError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.peristalsis.crawler import Crawler, Loads
 from cosserat.peristalsis.gait import Gait, Moment
-from cosserat.peristalsis.instant import Instant, Muscle, Profile, Region, holds_force, refuse_tilt
+from cosserat.peristalsis.instant import Instant, Muscle, Profile, Region, check_tilt, holds_force
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
@@ -52,7 +52,7 @@ class CrawlerProblem(Problem):
             profile, nodal = instant.solve(self.mesh, before)
         else:
             profile, nodal = instant.collocate(self.mesh, self.collocation_tolerance), None
-        return profile, nodal, refuse_tilt(profile, self.crawler, name)
+        return profile, nodal, check_tilt(profile, self.crawler, name)
 
     def length_along(self, profile: Profile) -> Array:
         """Distance along the ground from the rear end, eq. (2.5.8), at the points of the mesh [m]."""
@@ -227,7 +227,7 @@ class Crawl(CrawlerProblem):
         OutOfReachError : the surface cannot stay on the ground.
         """
         moments = self.gait.moments(self.step)
-        self.refuse_collapse(moments, name)
+        self.check_collapse(moments, name)
         steps: list[_Step] = []
         nodal, tilt = None, 0.0
         for stride in range(self.strides):
@@ -250,7 +250,7 @@ class Crawl(CrawlerProblem):
             warnings=() if thin is None else (thin,),
         )
 
-    def refuse_collapse(self, moments: Sequence[Moment], name: str) -> None:
+    def check_collapse(self, moments: Sequence[Moment], name: str) -> None:
         """The homogeneous states of all moments, before anything is solved.
 
         They depend on which loads act, not on where: each such set is looked at once, at its first moment.
@@ -265,7 +265,7 @@ class Crawl(CrawlerProblem):
             if acting not in seen:
                 seen.add(acting)
                 when = f"{name} at t = {moment.time:.4g} s"
-                Instant(self.crawler, self.loads, moment.regions, when).refuse_collapse()
+                Instant(self.crawler, self.loads, moment.regions, when).check_collapse()
 
     def _fields(self, steps: list[_Step]) -> dict[str, Field]:
         fields = self.fields(

@@ -14,20 +14,20 @@ from pydantic_core import PydanticCustomError
 from cosserat.exact import beams
 from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import ALONE, Run
-from cosserat.problems.checkpoints import Course, joined, resumed
+from cosserat.problems.checkpoints import CheckpointedRun, joined, resumed
 from cosserat.rods.energies.reissner_reference import keeping_volume
 from cosserat.rods.kinematics import (
     AXES,
     Geometry,
-    counted_angles,
     free_motions,
     reference,
     rigid_fields,
     rigid_motions,
+    unwrapped_angles,
 )
 from cosserat.rods.problem import Direction, RodProblem, unit_vector
 from cosserat.solution import Solution
-from cosserat.solvers.energy_momentum import counted_on
+from cosserat.solvers.energy_momentum import unwrap
 from cosserat.solvers.integrate import IntegratorSettings, State, System
 from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
 
@@ -85,17 +85,19 @@ class RodMotion(RodProblem):
 
     def system(self, geometry: Geometry) -> System:
         """What moves: body, mass, loads, supports and drag."""
-        held = self.held().ravel()
+        constrained = self.constrained().ravel()
         at_rest = System(
             self.body(geometry),
             self.mass(geometry),
             self.loads(geometry).ravel(),
-            held,
-            drag=0.0,
-            translations=np.empty((0, held.size))
-            if held.any()
+            constrained,
+            damping_rate=0.0,
+            translations=np.empty((0, constrained.size))
+            if constrained.any()
             else rigid_fields(reference(geometry))[:2],
-            drive=self.drive(geometry) if self.moves or self.turns else None,
+            drive=self.drive(geometry)
+            if self.prescribed_displacements or self.prescribed_rotations
+            else None,
         )
         if not self.damping:
             return at_rest
@@ -103,7 +105,7 @@ class RodMotion(RodProblem):
         lowest = first_elastic_frequency(
             unloaded, reference(geometry), anchored=self._anchored(geometry)
         )
-        return replace(at_rest, drag=2 * self.damping * lowest)
+        return replace(at_rest, damping_rate=2 * self.damping * lowest)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
         """The lowest natural frequencies and shapes of the unloaded rod about its reference configuration.
@@ -119,7 +121,7 @@ class RodMotion(RodProblem):
     def _anchored(self, geometry: Geometry) -> bool:
         """Whether no rigid motion is left free."""
         start = np.hstack([geometry.X, geometry.D])
-        return bool((free_motions(start, self.held()) == 0).all())
+        return bool((free_motions(start, self.constrained()) == 0).all())
 
     def begin(self) -> State:
         """The state at time zero."""
@@ -131,16 +133,16 @@ class RodMotion(RodProblem):
             X[:, 1] += self.start.amplitude * shape
             D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
             if self.body(geometry).stiff_volume:
-                D = keeping_volume(geometry, X, D, self.rod.section)
-        q = np.where(self.held(), np.hstack([geometry.X, geometry.D]), np.hstack([X, D]))
+                D = keeping_volume(geometry, X, D, self.rod.lateral_constraint)
+        q = np.where(self.constrained(), np.hstack([geometry.X, geometry.D]), np.hstack([X, D]))
         v = np.zeros_like(q)
         v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)
         v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
-        v[self.held()] = 0.0
+        v[self.constrained()] = 0.0
         place, rate, _ = self.drive(geometry)(0.0)
         start = q.ravel() + place
-        upright = counted_angles(geometry.D)[0]
-        return State(start, v.ravel() + rate, angle=counted_on(start[3], start[2], upright))
+        upright = unwrapped_angles(geometry.D)[0]
+        return State(start, v.ravel() + rate, angle=unwrap(start[3], start[2], upright))
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """The motion at its frames; with a store of parts it resumes where an earlier run was interrupted.
@@ -150,7 +152,7 @@ class RodMotion(RodProblem):
         InputError : the integrator's fixed step is beyond its stability limit, or stored parts are of another run.
         NotConvergedError, DivergedError, CrossingError : a step has no solution; the parts before it are stored.
         """
-        course, state = Course.of(self, name), self.begin()
+        course, state = CheckpointedRun.of(self, name), self.begin()
         done: list[Solution] = []
         for number in range(course.parts):
             part = run.checkpoints.load(number) if run.checkpoints else None
@@ -165,7 +167,7 @@ class RodMotion(RodProblem):
             done.append(part)
             reached = part["time"][-1]
             run.progress((number + 1) / course.parts, f"{reached:.4g} of {self.duration:g} s")
-        whole = joined(done, course.legs)
+        whole = joined(done, course.substeps_per_frame)
         return replace(whole, warnings=course.warnings(whole))
 
     @classmethod

@@ -13,13 +13,14 @@ from pydantic_core import PydanticCustomError
 from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
-from cosserat.problems.static import refuse_rigid_motion
+from cosserat.problems.static import check_supports
 from cosserat.rods.kinematics import AXES, Geometry
 from cosserat.rods.problem import RodProblem
-from cosserat.rods.resolution import coarse, refuse_crossing
+from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.solution import Field, Solution
-from cosserat.solvers.continuation import Arc, follow, unloaded
-from cosserat.solvers.equilibrium import Climb, NewtonSettings, Point
+from cosserat.solvers.continuation import ArcLengthSettings, trace_path
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
+from cosserat.solvers.incremental import unloaded
 
 Array = NDArray[np.float64]
 
@@ -52,7 +53,9 @@ class RodPath(RodProblem):
             )
         if self.swings:
             raise PydanticCustomError(
-                "static", "'moves' or 'turns' has a 'frequency', but a path has no time; leave it out"
+                "static",
+                "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but a path "
+                "has no time; leave it out",
             )
         return self
 
@@ -66,10 +69,10 @@ class RodPath(RodProblem):
         """
         geometry = self.rod.geometry()
         start = np.hstack([geometry.X, geometry.D])
-        refuse_rigid_motion(start, self.held(), name)
-        climb = Climb(self.loaded(geometry), self.newton, name)
-        climb.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
-        arc = Arc(
+        check_supports(start, self.constrained(), name)
+        solver = EquilibriumSolver(self.loaded(geometry), self.newton, name)
+        solver.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
+        arc = ArcLengthSettings(
             self.arc.first,
             self.arc.longest,
             self.arc.count,
@@ -77,18 +80,18 @@ class RodPath(RodProblem):
             limit=self.arc.limit,
             branches=int(self.arc.branch == "leave"),
         )
-        points: list[Point] = []
+        points: list[Equilibrium] = []
         try:
-            for point in follow(climb, unloaded(climb, np.zeros(start.size)), arc):
+            for point in trace_path(solver, unloaded(solver, np.zeros(start.size)), arc):
                 q = start + point.q.reshape(start.shape)
                 where = f"{name}, {point.factor:.4g} of the load"
-                refuse_crossing(geometry, q[:, :2], q[:, 2:], self.rod.below, where)
+                check_crossing(geometry, q[:, :2], q[:, 2:], self.rod.below, where)
                 points.append(point)
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _solution(geometry, start, points, climb, self.rod.remarks())
+                error.reached = _solution(geometry, start, points, solver, self.rod.warnings())
             raise
-        return _solution(geometry, start, points, climb, self.rod.remarks())
+        return _solution(geometry, start, points, solver, self.rod.warnings())
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -102,7 +105,11 @@ class RodPath(RodProblem):
 
 
 def _solution(
-    geometry: Geometry, start: Array, points: list[Point], climb: Climb, remarks: list[str]
+    geometry: Geometry,
+    start: Array,
+    points: list[Equilibrium],
+    solver: EquilibriumSolver,
+    warnings: list[str],
 ) -> Solution:
     q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
     along, vector = ("point",), ("vertex", "axis")
@@ -118,11 +125,11 @@ def _solution(
     }
     statistics = {
         "points": len(points),
-        "iterations": climb.iterations,
+        "iterations": solver.iterations,
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*climb.remarks(), *remarks, *coarse(q[..., 2:])]
+    warnings = [*solver.warnings(), *warnings, *coarse(q[..., 2:])]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"

@@ -16,13 +16,13 @@ from cosserat.problem import ALONE, Run
 from cosserat.rods.energies.hemingway_kernel import TERMS
 from cosserat.rods.energies.reissner import TERMS as PARTS
 from cosserat.rods.energies.reissner import ConsistentRod
-from cosserat.rods.kinematics import AXES, UNKNOWNS, Geometry, edge_shear, free_motions, strains
+from cosserat.rods.kinematics import AXES, DOFS, Geometry, edge_shear, free_motions, strains
 from cosserat.rods.loaded_rod import LoadedRod
 from cosserat.rods.problem import RodProblem
-from cosserat.rods.resolution import coarse, refuse_crossing
+from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.solution import Field, Solution
-from cosserat.solvers.continuation import lead
-from cosserat.solvers.equilibrium import Climb, NewtonSettings, Point
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
+from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.integrate import System
 from cosserat.solvers.modes import Modes, modes
 
@@ -41,7 +41,8 @@ class RodStatics(RodProblem):
         if self.swings:
             raise PydanticCustomError(
                 "static",
-                "'moves' or 'turns' has a 'frequency', but a static problem has no time; leave it out",
+                "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but a "
+                "static problem has no time; leave it out",
             )
         return self
 
@@ -56,10 +57,10 @@ class RodStatics(RodProblem):
         """
         geometry = self.rod.geometry()
         loaded = self.loaded(geometry)
-        point, climb = self.led_to(geometry, loaded, name)
-        found = _solution(geometry, loaded, point, climb)
-        refuse_crossing(geometry, found["x"], found["d"], self.rod.below, name)
-        return replace(found, warnings=(*climb.remarks(), *self.rod.remarks(), *coarse(found["d"])))
+        point, solver = self.led_to(geometry, loaded, name)
+        found = _solution(geometry, loaded, point, solver)
+        check_crossing(geometry, found["x"], found["d"], self.rod.below, name)
+        return replace(found, warnings=(*solver.warnings(), *self.rod.warnings(), *coarse(found["d"])))
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -85,38 +86,51 @@ class RodStatics(RodProblem):
 
     def system(self, geometry: Geometry) -> System:
         """The rod under its loads as something that may move."""
-        load, held = self.loads(geometry).ravel(), self.held().ravel()
+        load, constrained = self.loads(geometry).ravel(), self.constrained().ravel()
         return System(
-            self.body(geometry), self.mass(geometry), load, held, 0.0, np.empty((0, held.size))
+            self.body(geometry),
+            self.mass(geometry),
+            load,
+            constrained,
+            0.0,
+            np.empty((0, constrained.size)),
         )
 
-    def led_to(self, geometry: Geometry, loaded: LoadedRod, name: str) -> tuple[Point, Climb]:
+    def led_to(
+        self, geometry: Geometry, loaded: LoadedRod, name: str
+    ) -> tuple[Equilibrium, EquilibriumSolver]:
         """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""
-        refuse_rigid_motion(loaded.reference, self.held(), name)
-        climb = Climb(loaded, self.newton, name)
+        check_supports(loaded.reference, self.constrained(), name)
+        solver = EquilibriumSolver(loaded, self.newton, name)
         try:
-            return lead(climb, np.zeros_like(loaded.dead)), climb
+            return solve_full_load(solver, np.zeros_like(loaded.dead)), solver
         except NotConvergedError as error:
             if error.state is not None:
-                last = climb.at(error.state, error.factor)
+                last = solver.correct(error.state, error.factor)
                 assert last is not None  # it was one
-                found = _solution(geometry, loaded, last, climb)
+                found = _solution(geometry, loaded, last, solver)
                 reached = {"load_factor_reached": last.factor}
                 error.reached = replace(found, statistics=dict(found.statistics) | reached)
             raise
 
 
-def refuse_rigid_motion(q: Array, held: NDArray[np.bool_], name: str) -> None:
+def check_supports(q: Array, constrained: NDArray[np.bool_], name: str) -> None:
     """Raise UnsupportedRodError if a rigid motion moves no held number; q, held : (N, 4)."""
-    left = [motion for motion, share in zip(_MOTIONS, free_motions(q, held), strict=True) if share > 0.1]
+    left = [
+        motion
+        for motion, share in zip(_MOTIONS, free_motions(q, constrained), strict=True)
+        if share > 0.1
+    ]
     if left:
         raise UnsupportedRodError(
             f"{name}: the supports leave the rod free to move ({', '.join(left)}); "
-            "hold more numbers in 'supports', such as at = 'first', hold = ['x3', 'x2', 'd3', 'd2']"
+            "hold more numbers in 'supports', such as at = 'first', fixed = ['x3', 'x2', 'd3', 'd2']"
         )
 
 
-def _solution(geometry: Geometry, loaded: LoadedRod, point: Point, climb: Climb) -> Solution:
+def _solution(
+    geometry: Geometry, loaded: LoadedRod, point: Equilibrium, solver: EquilibriumSolver
+) -> Solution:
     load = point.factor * loaded.dead.reshape(loaded.reference.shape)
     u = point.q.reshape(load.shape)
     x, d = np.split(u + loaded.reference, [len(AXES)], axis=1)
@@ -124,7 +138,7 @@ def _solution(geometry: Geometry, loaded: LoadedRod, point: Point, climb: Climb)
     arc = geometry.arc_length
     body = loaded.coupled(point.factor)
     terms = body.energy_terms(point.q + loaded.base)
-    labels = {"axis": AXES, "unknown": UNKNOWNS}
+    labels = {"axis": AXES, "dof": DOFS}
     own: dict[str, Field]
     if isinstance(body, ConsistentRod):
         labels["part"] = PARTS
@@ -135,7 +149,7 @@ def _solution(geometry: Geometry, loaded: LoadedRod, point: Point, climb: Climb)
     else:
         labels["term"] = TERMS
         own = {"theta": (("vertex",), measured.theta), "energy": (("term",), terms)}
-    vector, force = ("vertex", "axis"), ("vertex", "unknown")
+    vector, force = ("vertex", "axis"), ("vertex", "dof")
     fields: dict[str, Field] = own | {
         "xi": (("vertex",), arc),
         "xi_edge": (("edge",), (arc[1:] + arc[:-1]) / 2),
@@ -154,9 +168,9 @@ def _solution(geometry: Geometry, loaded: LoadedRod, point: Point, climb: Climb)
         "support_force": (force, point.reaction.reshape(load.shape)),
     }
     statistics: dict[str, int | float] = {
-        "iterations": climb.iterations,
-        "refused_increments": climb.halvings,
-        "branchings": climb.branchings,
+        "iterations": solver.iterations,
+        "cutbacks": solver.cutbacks,
+        "branch_switches": solver.branch_switches,
         "residual_N": point.residual,
         "tolerance_N": point.tolerance,
         "rounding_N": point.rounding,

@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Shift:
+class DisplacedDof:
     """One number, moved by an amount [m], to and fro if it has a frequency [Hz]."""
 
     index: int
@@ -24,7 +24,7 @@ class Shift:
 
 
 @dataclass(frozen=True)
-class Turned:
+class RotatedDirector:
     """A director D (2,), the numbers from `index` on, turned by an angle [rad] as it is."""
 
     index: int
@@ -40,11 +40,11 @@ class Turned:
 
 
 @dataclass(frozen=True)
-class Drive:
+class PrescribedMotion:
     """Everything that is moved, among n numbers."""
 
     n: int
-    parts: tuple[Shift | Turned, ...]
+    parts: tuple[DisplacedDof | RotatedDirector, ...]
 
     def __call__(self, time: float) -> tuple[Array, Array, Array]:
         """Displacement, velocity and acceleration at a time, each (n,): by sin(2 pi f t), or by all from the start."""
@@ -58,7 +58,7 @@ class Drive:
             motion[:, where] = at, slope * rate, bend * rate**2 - slope * omega**2 * share
         return motion[0], motion[1], motion[2]
 
-    def grown(self, factor: float) -> tuple[Array, Array]:
+    def at_load(self, factor: float) -> tuple[Array, Array]:
         """Displacement at a factor of the load, and its derivative by the factor, each of shape (n,)."""
         place, slope = np.zeros(self.n), np.zeros(self.n)
         for part in self.parts:
@@ -70,4 +70,6 @@ class Drive:
     @property
     def largest_turn(self) -> float:
         """Largest angle that a section is turned by [rad]."""
-        return max((abs(part.by) for part in self.parts if isinstance(part, Turned)), default=0.0)
+        return max(
+            (abs(part.by) for part in self.parts if isinstance(part, RotatedDirector)), default=0.0
+        )

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 AXES = ("E3", "E2")
 """Components of every planar vector, in the order of eq. (3.3.42)."""
-UNKNOWNS = ("x3", "x2", "d3", "d2")
+DOFS = ("x3", "x2", "d3", "d2")
 """The four numbers of a vertex, eq. (3.3.42)."""
 
 
@@ -166,7 +166,7 @@ def signed_angle(a: Array, b: Array) -> Array:
     return angle
 
 
-def counted_angles(d: Array) -> Array:
+def unwrapped_angles(d: Array) -> Array:
     """Polar angles of directors (N, 2), each within half a turn of the vertex before: (N,) [rad]."""
     turns = np.concatenate([[np.arctan2(d[0, 1], d[0, 0])], signed_angle(d[:-1], d[1:])])
     angles: Array = np.cumsum(turns)
@@ -200,19 +200,19 @@ def rigid_motions(q: Array) -> Array:
 
 
 def reference(geometry: Geometry) -> Array:
-    """The unknowns of the reference configuration, shape (4 N,)."""
+    """The DOFs of the reference configuration, shape (4 N,)."""
     return np.hstack([geometry.X, geometry.D]).ravel()
 
 
 def rigid_fields(q: Array) -> Array:
     """The rigid motions at q, shape (4 N,): two translations and the rotation about the origin, shape (3, 4 N)."""
-    return rigid_motions(q.reshape(-1, len(UNKNOWNS))).reshape(3, -1)
+    return rigid_motions(q.reshape(-1, len(DOFS))).reshape(3, -1)
 
 
-def free_motions(q: Array, held: NDArray[np.bool_]) -> Array:
+def free_motions(q: Array, constrained: NDArray[np.bool_]) -> Array:
     """How much of the three rigid motions moves no held number, each from 0 to 1: q, held of shape (N, 4) -> (3,)."""
     motions = rigid_motions(q)
-    at_supports = motions[:, held] / np.abs(motions).max(axis=(1, 2))[:, None]
+    at_supports = motions[:, constrained] / np.abs(motions).max(axis=(1, 2))[:, None]
     _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
     free = directions[np.append(stretch, np.zeros(3 - stretch.size)) < 1e-10]
     left: Array = np.abs(free).max(axis=0, initial=0.0)

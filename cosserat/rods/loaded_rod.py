@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.constraints import Drive
+from cosserat.rods.constraints import PrescribedMotion
 from cosserat.rods.energies.hemingway import PublishedRod
 from cosserat.rods.energies.reissner import ConsistentRod
 from cosserat.rods.kinematics import lengths
@@ -20,10 +20,10 @@ _TURN = 1.0  # largest turning of a director in one step [rad]
 
 @dataclass(frozen=True)
 class LoadedRod:
-    """Dead loads, couples and moved supports, all of them times one factor; unknowns are displacements.
+    """Dead loads, couples and moved supports, all of them times one factor; DOFs are displacements.
 
     body : without couples.  base : (4 N,) what the body wants added to displacements: nothing, or the reference.
-    moments : (N,) [N m].  dead : (4 N,) [N].  drive : how held unknowns are moved.
+    moments : (N,) [N m].  dead : (4 N,) [N].  drive : how constrained DOFs are moved.
     reference : (N, 4) vertices and directors at rest [m].
     """
 
@@ -31,8 +31,8 @@ class LoadedRod:
     base: Vector
     moments: Array
     dead: Vector
-    held: Mask
-    drive: Drive
+    constrained: Mask
+    drive: PrescribedMotion
     reference: Array
 
     @property
@@ -41,13 +41,13 @@ class LoadedRod:
         return self.body.half_bandwidth
 
     @cached_property
-    def grain(self) -> Vector:
-        """Edges, directors and what is added to the unknowns: stretches are rounded as shares of them."""
+    def dof_scale(self) -> Vector:
+        """Edges, directors and what is added to the DOFs: stretches are rounded as shares of them."""
         edge = lengths(np.diff(self.reference[:, :2], axis=0))
         edge = np.append(edge, edge[-1])
         sizes = np.column_stack([edge, edge, self._director, self._director]).ravel()
-        grain: Vector = np.maximum(sizes, np.abs(self.base))
-        return grain
+        dof_scale: Vector = np.maximum(sizes, np.abs(self.base))
+        return dof_scale
 
     @cached_property
     def _director(self) -> Array:
@@ -58,19 +58,19 @@ class LoadedRod:
         """The rod with its couples."""
         return self.body.with_couples(factor * self.moments) if self.moments.any() else self.body
 
-    def place(self, q: Vector, factor: float) -> Vector:
-        """q with its held unknowns where the factor puts them."""
-        return np.where(self.held, self.drive.grown(factor)[0], q)
+    def prescribe(self, q: Vector, factor: float) -> Vector:
+        """q with its constrained DOFs where the factor puts them."""
+        return np.where(self.constrained, self.drive.at_load(factor)[0], q)
 
     @property
-    def stride(self) -> float:
+    def max_increment(self) -> float:
         """No section is turned by more than is safe at once: angles are told by less than half a turn."""
         turn = self.drive.largest_turn
         return _TURN / turn if turn else np.inf
 
-    def moving(self, factor: float) -> Vector:
-        """Change of the held unknowns with the factor, zero elsewhere."""
-        return self.drive.grown(factor)[1]
+    def prescribed_rate(self, factor: float) -> Vector:
+        """Change of the constrained DOFs with the factor, zero elsewhere."""
+        return self.drive.at_load(factor)[1]
 
     def load(self, factor: float, *, signed: bool = False) -> Vector:
         """Dead load, shape (4 N,) [N]; unsigned, a couple counts as the force of its director."""
@@ -94,7 +94,7 @@ class LoadedRod:
         """Change of that gradient with the factor."""
         change = -self.dead
         if self.drive.parts:
-            change = change + band_product(band, self.moving(factor))
+            change = change + band_product(band, self.prescribed_rate(factor))
         for vertex in np.flatnonzero(self.moments):
             d0, d1 = self._directors(q)[vertex]
             square = d0 * d0 + d1 * d1
@@ -103,14 +103,14 @@ class LoadedRod:
         return change
 
     def rates(self, q: Vector, change: Vector) -> Array:
-        """How fast edges and directors turn [rad] and stretch as the unknowns change: (2 N - 1, 2)."""
+        """How fast edges and directors turn [rad] and stretch as the DOFs change: (2 N - 1, 2)."""
         vectors, rates = self._vectors(q + self.reference.ravel()), self._vectors(change)
         square = (vectors**2).sum(axis=1)
         turning = (vectors[:, 0] * rates[:, 1] - vectors[:, 1] * rates[:, 0]) / square
         return np.column_stack([turning, (vectors * rates).sum(axis=1) / square])
 
-    def foretold(self, q: Vector, moved: Array, factor: float) -> Vector:
-        """The unknowns at a factor after edges and directors have turned and stretched, (2 N - 1, 2).
+    def predicted(self, q: Vector, moved: Array, factor: float) -> Vector:
+        """The DOFs at a factor after edges and directors have turned and stretched, (2 N - 1, 2).
 
         Edges that turn do not meet the supports any more; what is missing is spread along the rod between them.
         """
@@ -123,12 +123,12 @@ class LoadedRod:
         )
         x = (q[:2] + X[0, :2]) + np.vstack([np.zeros(2), np.cumsum(turned[:count], axis=0)])
         guess = np.hstack([x, turned[count:]]) - X
-        goal = self.place(guess.ravel(), factor).reshape(X.shape)
-        for axis, held in enumerate(self.held.reshape(X.shape)[:, :2].T):
-            at = np.flatnonzero(held)
+        goal = self.prescribe(guess.ravel(), factor).reshape(X.shape)
+        for axis, constrained in enumerate(self.constrained.reshape(X.shape)[:, :2].T):
+            at = np.flatnonzero(constrained)
             if at.size:
                 guess[:, axis] += np.interp(np.arange(X.shape[0]), at, (goal - guess)[at, axis])
-        return self.place(guess.ravel(), factor)
+        return self.prescribe(guess.ravel(), factor)
 
     def carried(self, change: Vector) -> Vector:
         """The mean translation of the supported vertices, in the change of every vertex.
@@ -136,7 +136,7 @@ class LoadedRod:
         derived: where two ends have moved against each other, what is left is as symmetric as the rod.
         """
         vertices = change.reshape(-1, 4)
-        supported = self.held.reshape(-1, 4)[:, :2].any(axis=1)
+        supported = self.constrained.reshape(-1, 4)[:, :2].any(axis=1)
         translation = np.zeros_like(vertices)
         if supported.any():
             translation[:, :2] = vertices[supported, :2].mean(axis=0)
@@ -147,7 +147,7 @@ class LoadedRod:
         at = q.reshape(self.reference.shape)
         return np.vstack([np.diff(at[:, :2], axis=0), at[:, 2:]])
 
-    def reach(self, q: Vector, step: Vector) -> float:
+    def max_step_fraction(self, q: Vector, step: Vector) -> float:
         """Largest share of a step that changes no director by more than its length, one radian."""
         d, change = self._directors(q), step.reshape(-1, 4)[:, 2:]
         fastest = float((np.hypot(*change.T) / np.hypot(*d.T)).max())

@@ -12,9 +12,9 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import Problem
-from cosserat.rods.constraints import Drive, Shift, Turned
+from cosserat.rods.constraints import DisplacedDof, PrescribedMotion, RotatedDirector
 from cosserat.rods.energies.reissner import ConsistentRod
-from cosserat.rods.kinematics import UNKNOWNS, Geometry
+from cosserat.rods.kinematics import DOFS, Geometry
 from cosserat.rods.loaded_rod import LoadedRod
 from cosserat.rods.rod import Rod, RodBody
 from cosserat.solvers.banded import band_product
@@ -45,7 +45,7 @@ class _VertexName:
 
 Vertex = Annotated[str | int, _VertexName()]
 Direction = Literal["E3", "-E3", "E2", "-E2"]
-UnknownName = Literal["x3", "x2", "d3", "d2"]
+DofName = Literal["x3", "x2", "d3", "d2"]
 
 
 def unit_vector(direction: Direction) -> Array:
@@ -57,7 +57,7 @@ class Support(Parameters):
     """Numbers of one vertex that keep their reference value."""
 
     at: Vertex
-    hold: tuple[UnknownName, ...]
+    fixed: tuple[DofName, ...]
 
 
 class Gravity(Parameters):
@@ -92,19 +92,19 @@ class Couple(Parameters):
     moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
 
 
-class Move(Parameters):
+class PrescribedDisplacement(Parameters):
     """A held number that is moved: at rest to a new place, in motion there at once or to and fro.
 
     With a frequency f it stands at by sin(2 pi f t) from its reference value.
     """
 
     at: Vertex
-    unknown: UnknownName
+    dof: DofName
     by: Annotated[float, Quantity("m")]
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
 
 
-class Turn(Parameters):
+class PrescribedRotation(Parameters):
     """A held section that is turned as it is, from E3 towards E2: at rest by an angle, in motion at once or to and fro.
 
     With a frequency f it has turned by sin(2 pi f t) times the angle.
@@ -124,12 +124,18 @@ class RodProblem(Problem):
     forces: tuple[PointForce, ...] = ()
     line_loads: tuple[LineLoad, ...] = ()
     couples: tuple[Couple, ...] = ()
-    moves: tuple[Move, ...] = ()
-    turns: tuple[Turn, ...] = ()
+    prescribed_displacements: tuple[PrescribedDisplacement, ...] = ()
+    prescribed_rotations: tuple[PrescribedRotation, ...] = ()
 
     @model_validator(mode="after")
     def _vertices_exist(self) -> Self:
-        named = (self.supports, self.forces, self.couples, self.moves, self.turns)
+        named = (
+            self.supports,
+            self.forces,
+            self.couples,
+            self.prescribed_displacements,
+            self.prescribed_rotations,
+        )
         for at in [item.at for items in named for item in items]:
             if isinstance(at, int) and at >= self.rod.vertices:
                 raise PydanticCustomError(
@@ -149,44 +155,56 @@ class RodProblem(Problem):
 
     @model_validator(mode="after")
     def _what_is_moved_is_held(self) -> Self:
-        moved: list[tuple[str, Vertex, tuple[UnknownName, ...]]] = [
-            *((f"moves {move.unknown}", move.at, (move.unknown,)) for move in self.moves),
-            *(("turns the section", turn.at, ("d3", "d2")) for turn in self.turns),
+        moved: list[tuple[str, Vertex, tuple[DofName, ...]]] = [
+            *(
+                (f"'prescribed_displacements' moves {move.dof}", move.at, (move.dof,))
+                for move in self.prescribed_displacements
+            ),
+            *(
+                ("'prescribed_rotations' turns the section", turn.at, ("d3", "d2"))
+                for turn in self.prescribed_rotations
+            ),
         ]
-        held, met = self.held(), set()
-        for words, at, unknowns in moved:
-            for unknown in unknowns:
-                number = self.index(at), UNKNOWNS.index(unknown)
+        constrained, met = self.constrained(), set()
+        for words, at, dofs in moved:
+            for dof in dofs:
+                number = self.index(at), DOFS.index(dof)
                 if number in met:
                     raise PydanticCustomError(
                         "twice",
-                        f"'moves' and 'turns' move {unknown} of vertex {at} twice; put both together",
+                        f"'prescribed_displacements' and 'prescribed_rotations' move {dof} of vertex {at} twice; "
+                        "put both together",
                     )
                 met.add(number)
-                if not held[number]:
+                if not constrained[number]:
                     raise PydanticCustomError(
                         "support",
-                        f"'{words.split()[0]}' {words} of vertex {at}, which no support holds; "
-                        f"add {unknown} to 'hold' of a support there",
+                        f"{words} of vertex {at}, which no support holds; "
+                        f"add {dof} to 'fixed' of a support there",
                     )
         at_once = self.rod.calibration is not None or getattr(self, "kind", "") == "rod motion"
-        for turn in self.turns:
+        for turn in self.prescribed_rotations:
             if at_once and not turn.frequency and abs(turn.by) > np.pi / 2:
                 raise PydanticCustomError(
                     "range",
-                    f"'turns' turns the section of vertex {turn.at} by {turn.by:.4g} rad at once; only the "
-                    "consistent rod at rest turns by more than a quarter, in steps: take that, or a smaller angle",
+                    f"'prescribed_rotations' turns the section of vertex {turn.at} by {turn.by:.4g} rad at once; "
+                    "only the consistent rod at rest turns by more than a quarter, in steps: take "
+                    "that, or a smaller angle",
                 )
         return self
 
     @property
     def swings(self) -> bool:
         """Whether a support is moved to and fro, which takes time."""
-        return any(item.frequency for items in (self.moves, self.turns) for item in items)
+        prescribed: tuple[PrescribedDisplacement | PrescribedRotation, ...] = (
+            *self.prescribed_displacements,
+            *self.prescribed_rotations,
+        )
+        return any(item.frequency for item in prescribed)
 
     def loads(self, geometry: Geometry) -> Array:
-        """Dead forces on the unknowns of each vertex, shape (N, 4) [N]."""
-        load = np.zeros((self.rod.vertices, len(UNKNOWNS)))
+        """Dead forces on the DOFs of each vertex, shape (N, 4) [N]."""
+        load = np.zeros((self.rod.vertices, len(DOFS)))
         if self.gravity is not None:
             fall = np.zeros_like(load)
             fall[:, :2] = self.gravity.g * unit_vector(self.gravity.along)
@@ -212,8 +230,8 @@ class RodProblem(Problem):
         base = reference.ravel()
         if isinstance(rod, ConsistentRod):
             rod, base = rod.displaced(geometry), np.zeros_like(base)
-        dead, held = self.loads(geometry).ravel(), self.held().ravel()
-        return LoadedRod(rod, base, self._moments(), dead, held, self.drive(geometry), reference)
+        dead, constrained = self.loads(geometry).ravel(), self.constrained().ravel()
+        return LoadedRod(rod, base, self._moments(), dead, constrained, self.drive(geometry), reference)
 
     def _moments(self) -> Array:
         """Couple at each vertex, shape (N,) [N m]."""
@@ -226,25 +244,27 @@ class RodProblem(Problem):
         """Mass matrix as a symmetric band, eq. (3.3.43)."""
         return self.rod.mass(geometry)
 
-    def drive(self, geometry: Geometry) -> Drive:
-        """How held numbers are moved."""
+    def drive(self, geometry: Geometry) -> PrescribedMotion:
+        """How prescribed DOFs are moved."""
         shifts = [
-            Shift(self.index(m.at) * len(UNKNOWNS) + UNKNOWNS.index(m.unknown), m.by, m.frequency)
-            for m in self.moves
+            DisplacedDof(self.index(m.at) * len(DOFS) + DOFS.index(m.dof), m.by, m.frequency)
+            for m in self.prescribed_displacements
         ]
         turned = [
-            Turned(self.index(t.at) * len(UNKNOWNS) + 2, geometry.D[self.index(t.at)], t.by, t.frequency)
-            for t in self.turns
+            RotatedDirector(
+                self.index(t.at) * len(DOFS) + 2, geometry.D[self.index(t.at)], t.by, t.frequency
+            )
+            for t in self.prescribed_rotations
         ]
-        return Drive(self.rod.vertices * len(UNKNOWNS), (*shifts, *turned))
+        return PrescribedMotion(self.rod.vertices * len(DOFS), (*shifts, *turned))
 
-    def held(self) -> NDArray[np.bool_]:
-        """Which unknowns of each vertex keep their value, shape (N, 4)."""
-        held = np.zeros((self.rod.vertices, len(UNKNOWNS)), dtype=np.bool_)
+    def constrained(self) -> NDArray[np.bool_]:
+        """Which DOFs of each vertex keep their value, shape (N, 4)."""
+        constrained = np.zeros((self.rod.vertices, len(DOFS)), dtype=np.bool_)
         for support in self.supports:
-            for unknown in support.hold:
-                held[self.index(support.at), UNKNOWNS.index(unknown)] = True
-        return held
+            for dof in support.fixed:
+                constrained[self.index(support.at), DOFS.index(dof)] = True
+        return constrained
 
     def index(self, at: Vertex) -> int:
         """The index of a vertex that a load or a support names."""

@@ -42,7 +42,7 @@ def surface_stretch(geometry: Geometry, x: Array, d: Array, lower: Array) -> Arr
     return stretch
 
 
-def refuse_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: str) -> None:
+def check_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: str) -> None:
     """Raise CrossingError where neighbouring sections of one configuration, x and d of shape (N, 2), cross."""
     stretch = surface_stretch(geometry, x, d, np.full(x.shape[0], lower))
     if not (stretch > 0).all():
@@ -74,14 +74,14 @@ def coarse(d: Array) -> list[str]:
     ]
 
 
-def unresolved_energy(stiffness: Band, mass: Band, held: Mask, v: Vector, h: float) -> float:
+def unresolved_energy(stiffness: Band, mass: Band, constrained: Mask, v: Vector, h: float) -> float:
     """Kinetic energy in modes with omega h > 1 [J], of small motions with a stiffness and a mass.
 
     derived: with z = (omega h)^2, 1 / (1 + z^n) is the mean of 1 / (1 - z / z_k) over the n roots z_k of -1.  Each
     takes one solution with M - h^2 K / z_k, so no modes have to be found.  n = 8 parts modes with omega h = 0.7 and 1.4
     to 0.4 %.
     """
-    free = ~held
+    free = ~constrained
     moving = np.where(free, v, 0.0)
     momentum = np.where(free, band_product(mass, moving), 0.0)
     width = stiffness.shape[1] - 1
@@ -91,7 +91,7 @@ def unresolved_energy(stiffness: Band, mass: Band, held: Mask, v: Vector, h: flo
             column = np.where(free[: v.size - k] & free[k:], band[: v.size - k, k], 0.0)
             target[width + k, : v.size - k] = column
             target[width - k, k:] = column
-        target[width, held] = 1.0
+        target[width, constrained] = 1.0
     resolved = 0.0
     for k in range(_ORDER // 2):
         root = np.exp(1j * np.pi * (2 * k + 1) / _ORDER)

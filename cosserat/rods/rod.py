@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.rods.energies import compliance
-from cosserat.rods.energies.compliance import SectionState
+from cosserat.rods.energies.compliance import LateralConstraint
 from cosserat.rods.energies.hemingway import PublishedRod
 from cosserat.rods.energies.hemingway_stiffness import (
     Calibration,
@@ -23,7 +23,7 @@ from cosserat.rods.energies.hemingway_stiffness import (
 )
 from cosserat.rods.energies.reissner import ConsistentRod
 from cosserat.rods.energies.reissner_reference import coefficients
-from cosserat.rods.kinematics import UNKNOWNS, Geometry
+from cosserat.rods.kinematics import DOFS, Geometry
 from cosserat.rods.variation import Station, edge_masses, lump, mass_share, mean, vertex_cuts
 from cosserat.rods.variation import share as share_of
 
@@ -53,7 +53,7 @@ class Rod(Parameters):
     """Of the reference configuration, an arc that turns from E3 towards E2."""
     calibration: Calibration | None = None
     """Of the published energy, which cannot do without; the consistent one takes none."""
-    section: SectionState = "free"
+    lateral_constraint: LateralConstraint = "free"
     """What the sections of the consistent rod may do in E1; the published one has no such choice."""
     barrier: bool = False
     """Whether the consistent rod resists collapse as Fig. 3.7 shows; equal to second order in the strains."""
@@ -75,10 +75,10 @@ class Rod(Parameters):
                 "calibration",
                 f"has energy = '{self.energy}', which {fault}; give the one, or calibration = 'none'",
             )
-        if self.energy == "published" and (self.section != "free" or self.barrier):
+        if self.energy == "published" and (self.lateral_constraint != "free" or self.barrier):
             raise PydanticCustomError(
                 "section",
-                "has 'section' or 'barrier', which only energy = 'consistent' knows; leave them out",
+                "has 'lateral_constraint' or 'barrier', which only energy = 'consistent' knows; leave them out",
             )
         ratios = [self.poisson * station.poisson for station in self.stations] or [self.poisson]
         if not -1 < min(ratios) <= max(ratios) < 0.5:
@@ -87,11 +87,11 @@ class Rod(Parameters):
                 f"'stations' take Poisson's ratio from {min(ratios):g} to {max(ratios):g}; "
                 "keep it above -1 and below 0.5",
             )
-        if self.section == "incompressible" and min(ratios) < _INCOMPRESSIBLE:
+        if self.lateral_constraint == "incompressible" and min(ratios) < _INCOMPRESSIBLE:
             raise PydanticCustomError(
                 "section",
-                f"has section = 'incompressible' and 'poisson' = {min(ratios):g}; it must be {_INCOMPRESSIBLE} "
-                "or more",
+                f"has lateral_constraint = 'incompressible' and 'poisson' = {min(ratios):g}; it must be "
+                f"{_INCOMPRESSIBLE} or more",
             )
         places = [station.at for station in self.stations]
         if places != sorted(places):
@@ -121,7 +121,7 @@ class Rod(Parameters):
         return self.area * self.height**2 * (1 / 12 + (0.5 - self.centreline) ** 2)
 
     @property
-    def first_inertia(self) -> float:
+    def Y02(self) -> float:
         """Y02 of eq. (3.3.28): mean of y / |D| over the section, y counted from the centreline [1]."""
         return (0.5 - self.centreline) / (1 - self.centreline)
 
@@ -131,11 +131,11 @@ class Rod(Parameters):
         return self.centreline / (1 - self.centreline)
 
     @property
-    def second_inertia(self) -> float:
+    def Y22(self) -> float:
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
         return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
 
-    def remarks(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """What of the rod its edges follow less well than the rest."""
         steps = [
             after.at
@@ -178,8 +178,8 @@ class Rod(Parameters):
 
     def _mass_band(self, own: Array, shared: Array) -> Array:
         """Masses of vertices (N,) and between neighbours (N - 1,), times 1, Y02 and Y22, shape (4 N, 7)."""
-        first, second = self.first_inertia, self.second_inertia
-        band = np.zeros((own.size, len(UNKNOWNS), 7))
+        first, second = self.Y02, self.Y22
+        band = np.zeros((own.size, len(DOFS), 7))
         band[:, :2, 0], band[:, :2, 2], band[:, 2:, 0] = (
             factor * own[:, None] for factor in (1.0, first, second)
         )
@@ -203,7 +203,7 @@ class Rod(Parameters):
                 young=self.young,
                 poisson=self.poisson,
                 shear_correction=self.shear_correction,
-                section=self.section,
+                lateral_constraint=self.lateral_constraint,
             )
             return ConsistentRod(
                 coefficients(
@@ -211,8 +211,8 @@ class Rod(Parameters):
                     stiffness,
                     np.zeros(self.vertices) if couples is None else couples,
                     barrier=self.barrier,
-                    product=self.section == "incompressible",
-                    offset=self.first_inertia,
+                    product=self.lateral_constraint == "incompressible",
+                    offset=self.Y02,
                 )
             )
         vertex, edge = lump(

@@ -17,14 +17,14 @@ Mask = NDArray[np.bool_]
 
 
 @njit(cache=True)
-def hold(band: Band, held: Mask) -> None:
-    """Uncouple the held unknowns in place: their rows and columns become zero, their diagonal positive."""
+def constrain(band: Band, constrained: Mask) -> None:
+    """Uncouple the constrained DOFs in place: their rows and columns become zero, their diagonal positive."""
     n, width = band.shape
     for j in range(n):
-        if held[j]:
+        if constrained[j]:
             band[j, 0] = abs(band[j, 0]) or 1.0
         for k in range(1, min(width, n - j)):
-            if held[j] or held[j + k]:
+            if constrained[j] or constrained[j + k]:
                 band[j, k] = 0.0
 
 

@@ -50,7 +50,7 @@ Order 1 writes the gradient at the midpoint, its stresses those of the mean of t
 Hessian at the midpoint with these stresses, but with no less tension than at the start, and the pressures of the start:
 on the way to an answer a stress that is not there must not make it indefinite.
 
-The unknowns are plane vectors, two numbers each.  The second is a direction whose angle may count through whole turns:
+The DOFs are plane vectors, two numbers each.  The second is a direction whose angle may count through whole turns:
 the last of the first row of parameters is the angle within half a turn of which it is counted.
 """
 
@@ -116,8 +116,8 @@ def _times(mass: Band, x: Vector, y: Vector) -> None:
 
 
 @njit(cache=True)
-def _step_matrix(band: Band, mass: Band, inertia: float, held: Mask) -> float:
-    """Overwrite a Hessian with half of it plus inertia times the mass, held unknowns uncoupled; its stiffest entry."""
+def _step_matrix(band: Band, mass: Band, inertia: float, constrained: Mask) -> float:
+    """Overwrite a Hessian with half of it plus inertia times the mass, constrained DOFs uncoupled; stiffest entry."""
     n, width = band.shape
     stiffest = 0.0
     for j in range(n):
@@ -128,7 +128,7 @@ def _step_matrix(band: Band, mass: Band, inertia: float, held: Mask) -> float:
             band[j, k] += inertia * mass[j, k]
     for j in range(n):
         for k in range(1, min(width, n - j)):
-            if held[j] or held[j + k]:
+            if constrained[j] or constrained[j + k]:
                 band[j, k] = 0.0
     return stiffest
 
@@ -166,7 +166,7 @@ def _deforming(change: Vector, middle: Vector, translations: Fields, spin: Vecto
 
 
 @njit(cache=True)
-def counted_on(y: float, x: float, near: float) -> float:
+def unwrap(y: float, x: float, near: float) -> float:
     """Polar angle of (x, y), within half a turn of another angle."""
     angle = np.arctan2(y, x)
     return float(angle - 2 * np.pi * np.round((angle - near) / (2 * np.pi)))
@@ -192,39 +192,53 @@ def _sigma(
 
 @njit(cache=True)
 def _decay(
-    v: Vector, mass: Band, factor: Band, held: Mask, share: float, work: Vector, books: Vector
+    v: Vector, mass: Band, factor: Band, constrained: Mask, share: float, work: Vector, exchanged: Vector
 ) -> None:
-    """Take a drag's share off the momenta of the free unknowns; books: what it takes, and what the supports give."""
+    """Take a drag's share off the momenta of the free DOFs; exchanged: what it takes, and what the supports give."""
     n = v.size
     _times(mass, v, work)
     before, loss = 0.0, work.copy()
     for i in range(n):
         before += v[i] * work[i] / 2
-        loss[i] = 0.0 if held[i] else -share * work[i]
+        loss[i] = 0.0 if constrained[i] else -share * work[i]
     _substitute(factor, loss)
     for i in range(n):
         v[i] += loss[i]
     _times(mass, loss, work)
     given = 0.0
     for i in range(n):
-        if held[i]:
+        if constrained[i]:
             given += v[i] * work[i]
     _times(mass, v, work)
     now = 0.0
     for i in range(n):
         now += v[i] * work[i] / 2
-    books[0] += before - now + given
-    books[1] += given
+    exchanged[0] += before - now + given
+    exchanged[1] += given
 
 
-def _march(  # type: ignore[no-untyped-def]
-    kernel, rod, q, v, mass, load, held, moved, places, rates, translations, drag, h, width, books
+def _integrate_steps(  # type: ignore[no-untyped-def]
+    kernel,
+    rod,
+    q,
+    v,
+    mass,
+    load,
+    constrained,
+    moved,
+    places,
+    rates,
+    translations,
+    damping_rate,
+    h,
+    width,
+    exchanged,
 ):
     """Take steps of h, overwriting q, v and the angle in rod; returns how many, fewer where one found no solution.
 
     translations : (2, n), or (0, n) where something is held.
-    moved : (m,) held unknowns that are moved; places, rates : (steps + 1, m) where and how fast they are.
-    books : energy that the drag has taken, and that moved supports have given; added to [J].
+    moved : (m,) constrained DOFs that are moved; places, rates : (steps + 1, m) where and how fast they are.
+    exchanged : energy that the drag has taken, and that moved supports have given; added to [J].
     """
     n, steps = q.size, places.shape[0] - 1
     gradient, none, terms, nothing = np.empty(n), np.empty((0, width + 1)), np.empty(16), np.empty(0)
@@ -234,22 +248,22 @@ def _march(  # type: ignore[no-untyped-def]
     measures = np.zeros((rod.shape[0], 4))
     inertia = 2 / h**2
     stiffest, fresh, judged, turning, first = 0.0, False, False, False, np.empty(n)
-    share, mass_factor = 1 - np.exp(-drag * h / 2), mass.copy()
-    if drag > 0.0:
+    share, mass_factor = 1 - np.exp(-damping_rate * h / 2), mass.copy()
+    if damping_rate > 0.0:
         for j in range(n):
             for k in range(1, min(mass.shape[1], n - j)):
-                if held[j] or held[j + k]:
+                if constrained[j] or constrained[j + k]:
                     mass_factor[j, k] = 0.0
         _cholesky(mass_factor)
     before = kernel(q, nothing, rod, 3, measures, nothing, none, terms)
     for done in range(steps):
-        if drag > 0.0:
-            _decay(v, mass, mass_factor, held, share, product, books)
+        if damping_rate > 0.0:
+            _decay(v, mass, mass_factor, constrained, share, product, exchanged)
         _times(mass, v, pull)
         for i in range(n):
             pull[i] = load[i] + 2 / h * pull[i]
             guess = h * v[i] if done < 2 or turning else 2 * earlier[i] - earliest[i]
-            change[i] = 0.0 if held[i] else guess
+            change[i] = 0.0 if constrained[i] else guess
             first[i] = change[i]
         for i in range(moved.size):
             change[moved[i]] = first[moved[i]] = places[done + 1, i] - places[done, i]
@@ -271,7 +285,7 @@ def _march(  # type: ignore[no-untyped-def]
             if not fresh:
                 if not np.isfinite(kernel(middle, end, rod, 2, measures, gradient, factor, terms)):
                     return done
-                stiffest = _step_matrix(factor, mass, inertia, held)
+                stiffest = _step_matrix(factor, mass, inertia, constrained)
                 if not _cholesky(factor):
                     return done
                 fresh, judged, stale = True, False, False
@@ -281,10 +295,10 @@ def _march(  # type: ignore[no-untyped-def]
                 continue
             if not np.isfinite(after):
                 return done
-            reach = np.abs(q).max()
+            max_step_fraction = np.abs(q).max()
             sigma = 0.0
             if near and iteration <= _PATIENCE:
-                blur = _EPS * reach * np.sqrt(2 * stiffest)
+                blur = _EPS * max_step_fraction * np.sqrt(2 * stiffest)
                 rigid = _deforming(change, middle, translations, spin, z)
                 if rigid:
                     z[:] = gradient
@@ -299,13 +313,13 @@ def _march(  # type: ignore[no-untyped-def]
                 gained[moved[i]] = h / 2 * (rates[done, i] + rates[done + 1, i])
             _times(mass, gained, product)
             for i in range(n):
-                force[i] = 0.0 if held[i] else pull[i] - inertia * product[i] - gradient[i]
+                force[i] = 0.0 if constrained[i] else pull[i] - inertia * product[i] - gradient[i]
             _substitute(factor, force)
             sized, size, farthest = size, 0.0, 0.0
             for i in range(n):
                 change[i] += force[i]
                 size, farthest = max(size, abs(force[i])), max(farthest, abs(change[i]))
-            rounding = _EPS * reach
+            rounding = _EPS * max_step_fraction
             settled = size <= max(TOLERANCE * farthest, rounding)
             stalled = size > relative * farthest / 2 and size < STALL * rounding
             if near and (settled or stalled):
@@ -323,16 +337,16 @@ def _march(  # type: ignore[no-untyped-def]
         for i in range(moved.size):
             k = moved[i]
             pushed = inertia * product[k] - (pull[k] - load[k])
-            books[1] += pushed * gained[k] + (gradient[k] - load[k]) * change[k]
+            exchanged[1] += pushed * gained[k] + (gradient[k] - load[k]) * change[k]
         for i in range(n):
             q[i] += change[i]
             v[i] = 2 / h * change[i] - v[i]
             earliest[i], earlier[i] = earlier[i], change[i]
-        rod[0, -1] = counted_on(q[3], q[2], rod[0, -1])
+        rod[0, -1] = unwrap(q[3], q[2], rod[0, -1])
         for i in range(moved.size):
             v[moved[i]] = rates[done + 1, i]
-        if drag > 0.0:
-            _decay(v, mass, mass_factor, held, share, product, books)
+        if damping_rate > 0.0:
+            _decay(v, mass, mass_factor, constrained, share, product, exchanged)
         before = kernel(q, nothing, rod, 3, measures, nothing, none, terms)
         if not np.isfinite(before):
             return done
@@ -340,7 +354,7 @@ def _march(  # type: ignore[no-untyped-def]
 
 
 @functools.cache
-def march() -> Callable[..., int]:
+def integrate_steps() -> Callable[..., int]:
     """`_march`, compiled; loaded only where a motion needs it."""
     vector, matrix = types.float64[::1], types.float64[:, ::1]
     signature = types.int64(
@@ -360,5 +374,5 @@ def march() -> Callable[..., int]:
         types.int64,
         vector,
     )
-    compiled: Callable[..., int] = njit(signature, cache=True)(_march)
+    compiled: Callable[..., int] = njit(signature, cache=True)(_integrate_steps)
     return compiled

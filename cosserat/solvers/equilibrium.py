@@ -2,7 +2,7 @@
 
 Slender bodies turn far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
 creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how
-much of a step that is.  Nothing here knows what the unknowns mean.
+much of a step that is.  Nothing here knows what the DOFs mean.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from cosserat.solvers.banded import (
     Vector,
     absolute_product,
     band_product,
-    hold,
+    constrain,
     negative_eigenvalues,
     solve_positive,
 )
-from cosserat.solvers.indefinite import softest, solve_any
+from cosserat.solvers.indefinite import lowest_eigenvector, solve_any
 
 Fields = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ class NewtonSettings(Parameters):
     tolerance: Annotated[float, Quantity("1", above=0, below=1)] = 1e-10
     """Largest unbalanced force allowed, as a share of the largest load or reaction."""
     max_iterations: Annotated[int, Count(at_least=1)] = 50
-    load_steps: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
+    load_increments: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
     """Equal steps in which the load is brought up."""
 
 
@@ -53,25 +53,25 @@ class Loaded(Protocol):
 
     @property
     def half_bandwidth(self) -> int:
-        """Largest distance of two coupled unknowns."""
+        """Largest distance of two coupled DOFs."""
 
     @property
-    def held(self) -> Mask:
-        """Which unknowns keep their value, or the one that the factor gives them, shape (n,)."""
+    def constrained(self) -> Mask:
+        """Which DOFs keep their value, or the one that the factor gives them, shape (n,)."""
 
     @property
-    def grain(self) -> Vector:
-        """Sizes (n,) that are rounded where the energy is computed, however small the unknowns are."""
+    def dof_scale(self) -> Vector:
+        """Sizes (n,) that are rounded where the energy is computed, however small the DOFs are."""
 
-    def place(self, q: Vector, factor: float) -> Vector:
-        """q with its held unknowns where the factor puts them."""
+    def prescribe(self, q: Vector, factor: float) -> Vector:
+        """q with its constrained DOFs where the factor puts them."""
 
     @property
-    def stride(self) -> float:
+    def max_increment(self) -> float:
         """Largest change of the factor by which supports may move at once."""
 
-    def moving(self, factor: float) -> Vector:
-        """Change of the held unknowns with the factor, zero elsewhere, shape (n,)."""
+    def prescribed_rate(self, factor: float) -> Vector:
+        """Change of the constrained DOFs with the factor, zero elsewhere, shape (n,)."""
 
     def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
         """Elastic energy at q; overwrites the gradient of the potential, loads included, and the Hessian."""
@@ -82,21 +82,21 @@ class Loaded(Protocol):
     def rate(self, q: Vector, factor: float, band: Band) -> Vector:
         """Change of that gradient with the factor, shape (n,); `band` is the Hessian at q."""
 
-    def reach(self, q: Vector, step: Vector) -> float:
+    def max_step_fraction(self, q: Vector, step: Vector) -> float:
         """Largest share of a step that turns no part by more than is safe."""
 
     def rates(self, q: Vector, change: Vector) -> Fields:
-        """How fast the parts of the body turn [rad] and stretch as the unknowns change, (parts, 2)."""
+        """How fast the parts of the body turn [rad] and stretch as the DOFs change, (parts, 2)."""
 
-    def foretold(self, q: Vector, moved: Fields, factor: float) -> Vector:
-        """The unknowns at a factor after the parts have turned and stretched by so much."""
+    def predicted(self, q: Vector, moved: Fields, factor: float) -> Vector:
+        """The DOFs at a factor after the parts have turned and stretched by so much."""
 
     def carried(self, change: Vector) -> Vector:
-        """What of a change of the unknowns only follows supports that move or slide, and strains nothing."""
+        """What of a change of the DOFs only follows supports that move or slide, and strains nothing."""
 
 
 @dataclass(frozen=True)
-class Point:
+class Equilibrium:
     """One equilibrium.
 
     factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance : largest
@@ -120,7 +120,7 @@ class Point:
         return self.negative == 0
 
 
-class Climb:
+class EquilibriumSolver:
     """Equilibria at given factors, and what finding them took.
 
     branchings : how often a path was left where another crosses it.  undecided : factors at which the body was so
@@ -128,70 +128,72 @@ class Climb:
     """
 
     def __init__(self, body: Loaded, settings: NewtonSettings, name: str) -> None:
-        n = body.held.size
+        n = body.constrained.size
         self.body, self.settings, self.name = body, settings, name
         self.gradient, self.band = np.empty(n), np.empty((n, body.half_bandwidth + 1))
-        self.iterations = self.halvings = self.branchings = 0
-        self.undecided: list[float] = []
-        self.turned_back = False
+        self.iterations = self.cutbacks = self.branch_switches = 0
+        self.undecided_factors: list[float] = []
+        self.passed_limit_load = False
         self.residual = self.tolerance = np.inf  # of the last attempt
         self.remedy = (
             "try a smaller load or more 'newton.max_iterations', see where the path goes with kind = 'rod path', and "
             "check supports and loads"
         )
 
-    def remarks(self) -> Iterator[str]:
+    def warnings(self) -> Iterator[str]:
         """What is to be said of an answer: where its side was open, and whether it lies beyond a limit load."""
-        for factor in self.undecided:
+        for factor in self.undecided_factors:
             yield (
                 f"bifurcation: at {factor:.4g} of the load the body is so symmetric that it may buckle to either side; "
                 "this is one of two answers, and a small load or an imperfection decides between them"
             )
-        if self.turned_back:
+        if self.passed_limit_load:
             yield (
                 "limit load: no stable path leads to the full load; a body under it jumps, and this is where the path "
                 "arrives beyond its unstable part: see it with kind = 'rod path'"
             )
 
-    def at(self, q: Vector, factor: float, *, share: float | None = None) -> Point | None:
+    def correct(self, q: Vector, factor: float, *, share: float | None = None) -> Equilibrium | None:
         """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.
 
         share : of the loads that may be left unbalanced, in place of the tolerance of the settings.
         """
         allowed = self.settings.tolerance if share is None else share
-        body, held = self.body, self.body.held
-        q = body.place(q, factor)
+        body, constrained = self.body, self.body.constrained
+        q = body.prescribe(q, factor)
         load = float(np.abs(body.load(factor)).max())
         largest, last = 0.0, np.inf
         for iteration in range(self.settings.max_iterations + 1):
             energy = body.assemble(q, factor, self.gradient, self.band)
             if not np.isfinite(energy):
                 return None
-            unbalanced = np.where(held, 0.0, -self.gradient)
+            unbalanced = np.where(constrained, 0.0, -self.gradient)
             residual = float(np.abs(unbalanced).max())
             largest = max(largest, residual)
             rounding = self.rounding(q)
-            scale = max(load, float(np.abs(self.gradient[held]).max(initial=0.0)), largest * (load == 0))
+            scale = max(
+                load, float(np.abs(self.gradient[constrained]).max(initial=0.0)), largest * (load == 0)
+            )
             tolerance = max(allowed * scale, rounding)
             self.residual, self.tolerance = residual, tolerance
             if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
                 if iteration > 0:
                     return None  # a step went astray, to where everything is stiff
-                raise self._blurred(rounding)
-            hold(self.band, held)
+                raise self._drowned_in_round_off(rounding)
+            constrain(self.band, constrained)
             step = solve_positive(self.band, unbalanced)
             if residual <= tolerance or stalled(residual, last, rounding):
                 negative = 0 if step is not None else negative_eigenvalues(self.band)
-                reaction = np.where(held, self.gradient, 0.0)
+                reaction = np.where(constrained, self.gradient, 0.0)
                 if step is not None and share is None:  # the last correction costs one more energy
                     ahead = body.assemble(q + step, factor, self.gradient, self.band)
-                    nearer = float(np.abs(np.where(held, 0.0, self.gradient)).max())
+                    nearer = float(np.abs(np.where(constrained, 0.0, self.gradient)).max())
                     if nearer <= max(
                         residual, rounding
                     ):  # where forces drown in rounding, soft motions do not
                         q, energy, residual = q + step, ahead, nearer
-                        reaction = np.where(held, self.gradient, 0.0)
-                return Point(
+                        reaction = np.where(constrained, self.gradient, 0.0)
+                return Equilibrium(
                     q, factor, energy, reaction, self.iterations, residual, tolerance, rounding, negative
                 )
             last = residual
@@ -199,20 +201,20 @@ class Climb:
                 step = solve_any(self.band, unbalanced)
             if step is None or not np.isfinite(step).all():
                 return None
-            q = q + min(1.0, body.reach(q, step)) * step
+            q = q + min(1.0, body.max_step_fraction(q, step)) * step
             self.iterations += 1
         return None
 
-    def refuse_blur(self, point: Point) -> None:
+    def check_round_off(self, point: Equilibrium) -> None:
         """Raise NotConvergedError if no support moves and rounding makes forces that drown the full load."""
         load = self.body.load(1.0)
-        if point.rounding > _BLUR * float(load.sum()) > 0 and not self.body.moving(1.0).any():
-            raise self._blurred(point.rounding)
+        if point.rounding > _BLUR * float(load.sum()) > 0 and not self.body.prescribed_rate(1.0).any():
+            raise self._drowned_in_round_off(point.rounding)
 
-    def _blurred(self, rounding: float) -> NotConvergedError:
+    def _drowned_in_round_off(self, rounding: float) -> NotConvergedError:
         return NotConvergedError(
-            f"{self.name}: rounding the unknowns makes forces up to {rounding:.2g} N, too much beside the loads; use "
-            "fewer vertices, or loads that strain the body less",
+            f"{self.name}: rounding the degrees of freedom makes forces up to {rounding:.2g} N, too much beside "
+            "the loads; use fewer vertices, or loads that strain the body less",
             iterations=self.iterations,
             residual=self.residual,
             tolerance=self.tolerance,
@@ -220,10 +222,10 @@ class Climb:
 
     def rounding(self, q: Vector) -> float:
         """Largest force that rounding can cause, by the Hessian assembled last [N]."""
-        size = np.maximum(np.abs(q), self.body.grain)
+        size = np.maximum(np.abs(q), self.body.dof_scale)
         return _EPS * float(absolute_product(self.band, size).max())
 
-    def softest_motion(self, before: Point, after: Point) -> tuple[Vector, bool]:
+    def buckling_direction(self, before: Equilibrium, after: Equilibrium) -> tuple[Vector, bool]:
         """The softest motion of a stable body that is about to buckle, one reach long, and whether its side is decided.
 
         before, after : on both sides of the load at which it loses its stability.
@@ -236,20 +238,20 @@ class Climb:
         q = self._polished(before)
         body.assemble(q, before.factor, self.gradient, self.band)
         rate = body.rate(q, before.factor, self.band)
-        hold(self.band, body.held)
-        motion = softest(self.band, body.held)
+        constrain(self.band, body.constrained)
+        motion = lowest_eigenvector(self.band, body.constrained)
         motion *= np.sign(motion[np.abs(motion).argmax()])
         stiff = float(motion @ band_product(self.band, motion))
-        change = solve_positive(self.band, np.where(body.held, 0.0, -rate))
+        change = solve_positive(self.band, np.where(body.constrained, 0.0, -rate))
         carried = 0.0
         if change is not None:
-            moved = np.where(body.held, body.moving(before.factor), change)
+            moved = np.where(body.constrained, body.prescribed_rate(before.factor), change)
             carried = float(motion @ body.carried(moved)) / float(motion @ motion)
         pull = -float(motion @ rate) - stiff * carried
-        size = np.maximum(np.abs(q), body.grain)
+        size = np.maximum(np.abs(q), body.dof_scale)
         noise = _EPS * float(np.linalg.norm(motion * absolute_product(self.band, size)))
         body.assemble(after.q, after.factor, self.gradient, self.band)
-        hold(self.band, body.held)
+        constrain(self.band, body.constrained)
         softening = (stiff - float(motion @ band_product(self.band, motion))) / max(
             abs(after.factor - before.factor), _EPS
         )
@@ -257,23 +259,23 @@ class Climb:
         decided = abs(pull * before.factor) > _SURE * magnified * noise
         if decided and pull < 0:
             motion = -motion
-        return body.reach(q, motion) * motion, decided
+        return body.max_step_fraction(q, motion) * motion, decided
 
-    def _polished(self, point: Point) -> Vector:
-        """The unknowns of a stable point after Newton steps beyond the tolerance, down to rounding."""
+    def _polished(self, point: Equilibrium) -> Vector:
+        """The DOFs of a stable point after Newton steps beyond the tolerance, down to rounding."""
         body, q, last = self.body, point.q, np.inf
         for _ in range(_POLISH):
             body.assemble(q, point.factor, self.gradient, self.band)
-            unbalanced = np.where(body.held, 0.0, -self.gradient)
+            unbalanced = np.where(body.constrained, 0.0, -self.gradient)
             residual = float(np.abs(unbalanced).max())
-            hold(self.band, body.held)
+            constrain(self.band, body.constrained)
             step = solve_positive(self.band, unbalanced)
             if step is None or residual >= last:
                 break
             q, last = q + step, residual
         return q
 
-    def failure(self, done: float, goal: float, last: Point | None) -> NotConvergedError:
+    def failure(self, done: float, goal: float, last: Equilibrium | None) -> NotConvergedError:
         """An error that says how far the load came and what was tried next."""
         return self.stopped(
             f"no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}, largest unbalanced force "
@@ -281,8 +283,8 @@ class Climb:
             last,
         )
 
-    def stopped(self, reason: str, last: Point | None) -> NotConvergedError:
-        """An error that holds the last equilibrium, its unknowns as the body counts them."""
+    def stopped(self, reason: str, last: Equilibrium | None) -> NotConvergedError:
+        """An error that holds the last equilibrium, its DOFs as the body counts them."""
         error = NotConvergedError(
             f"{self.name}: {reason}",
             iterations=self.iterations,

@@ -44,12 +44,12 @@ def shifted(band: Band, right: Vector) -> Vector | None:
     return _made_positive(band, right)[1]
 
 
-def softest(band: Band, held: Mask) -> Vector:
+def lowest_eigenvector(band: Band, constrained: Mask) -> Vector:
     """The eigenvector of the smallest eigenvalue, of unit largest component, by inverse iteration with a shift."""
-    x = np.where(held, 0.0, np.cos(1.7 * np.arange(held.size)))
+    x = np.where(constrained, 0.0, np.cos(1.7 * np.arange(constrained.size)))
     trial, _ = _made_positive(band, x)
     for _ in range(50):
         found = solve_positive(trial, x)
         assert found is not None
-        x = np.where(held, 0.0, found / np.abs(found).max())
+        x = np.where(constrained, 0.0, found / np.abs(found).max())
     return x

@@ -15,15 +15,15 @@ from scipy.linalg import eigvalsh
 
 from cosserat.errors import DivergedError, InputError, NotConvergedError
 from cosserat.parameters import Parameters, Quantity
-from cosserat.solvers.banded import Band, Mask, Vector, band_product, hold, solve_positive
-from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, counted_on, march
+from cosserat.solvers.banded import Band, Mask, Vector, band_product, constrain, solve_positive
+from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps, unwrap
 
 if TYPE_CHECKING:
     from scipy.sparse import dia_array
 
 DAMPED = 8.0
 """Largest c omega h^2 at which the implicit method takes energy from a mode of frequency omega at the rate c."""
-_FEW = 8  # unknowns of which all eigenvalues are sought, as an iteration needs more than it seeks
+_FEW = 8  # DOFs of which all eigenvalues are sought, as an iteration needs more than it seeks
 _EXACT = 1e-9  # a duration that is so near to a whole number of steps is one
 
 
@@ -32,7 +32,7 @@ class Body(Protocol):
 
     @property
     def half_bandwidth(self) -> int:
-        """Largest distance of two coupled unknowns."""
+        """Largest distance of two coupled DOFs."""
 
     @property
     def kernel(self) -> object:
@@ -40,9 +40,9 @@ class Body(Protocol):
 
     @property
     def parameters(self) -> NDArray[np.float64]:
-        """What the kernel takes besides the unknowns."""
+        """What the kernel takes besides the DOFs."""
 
-    def counted_near(self, angle: float) -> Body:
+    def unwrapped_near(self, angle: float) -> Body:
         """The same body, the angle of its first director counted within half a turn of this one [rad]."""
 
     def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
@@ -72,20 +72,20 @@ class System:
 
     The damping force is -drag M v.
     translations : (2, n) displacements of a free body that only move it; (0, n) where something is held.
-    drive : how held unknowns are moved; None where they rest.
+    drive : how constrained DOFs are moved; None where they rest.
     """
 
     body: Body
     mass: Band
     load: Vector
-    held: Mask
-    drag: float
+    constrained: Mask
+    damping_rate: float
     translations: NDArray[np.float64]
-    drive: Drive | None = None
+    drive: PrescribedMotion | None = None
 
 
-class Drive(Protocol):
-    """Prescribed displacements of held unknowns."""
+class PrescribedMotion(Protocol):
+    """Prescribed displacements of constrained DOFs."""
 
     def __call__(self, time: float) -> tuple[Vector, Vector, Vector]:
         """Displacement, velocity and acceleration at a time, each (n,), zero where nothing is prescribed."""
@@ -109,7 +109,7 @@ class State:
 
 def body_at(system: System, state: State) -> Body:
     """The body with its angles counted as in this state."""
-    return system.body if state.angle is None else system.body.counted_near(state.angle)
+    return system.body if state.angle is None else system.body.unwrapped_near(state.angle)
 
 
 def kinetic_energy(system: System, state: State) -> float:
@@ -117,7 +117,7 @@ def kinetic_energy(system: System, state: State) -> float:
     return float(state.v @ band_product(system.mass, state.v)) / 2
 
 
-def advance(
+def integrate(
     system: System, state: State, duration: float, settings: IntegratorSettings, name: str
 ) -> tuple[State, int]:
     """Move on by a duration; returns the new state and the number of steps (of evaluations for "rk45").
@@ -133,13 +133,13 @@ def advance(
         return _adaptive(system, state, duration, settings, name)
     count = step_count(duration, settings)
     if settings.method == "implicit":
-        return _marched(system, state, duration / count, count, name), count
+        return _implicit(system, state, duration / count, count, name), count
     move = _Rk4(system)
     after = state
     with np.errstate(over="ignore", invalid="ignore"):
         for _ in range(count):
             after = _counted(move.step(after, duration / count))
-    _refuse_divergence(system, after, settings, name)
+    _check_divergence(system, after, settings, name)
     return _driven(system, state, after), count
 
 
@@ -149,15 +149,15 @@ def step_count(duration: float, settings: IntegratorSettings) -> int:
 
 
 def _driven(system: System, before: State, after: State) -> State:
-    """The state after an explicit method has moved on, its held unknowns where and as fast as they are moved."""
+    """The state after an explicit method has moved on, its constrained DOFs where and as fast as they are moved."""
     if system.drive is None:
         return after
     start, _, _ = system.drive(before.time)
-    place, rate, _ = system.drive(after.time)
+    prescribe, rate, _ = system.drive(after.time)
     return replace(
         after,
-        q=np.where(system.held, before.q - start + place, after.q),
-        v=np.where(system.held, rate, after.v),
+        q=np.where(system.constrained, before.q - start + prescribe, after.q),
+        v=np.where(system.constrained, rate, after.v),
     )
 
 
@@ -165,35 +165,35 @@ def _counted(state: State) -> State:
     """The state with the angle of its first director, if that is counted, followed by less than half a turn."""
     if state.angle is None:
         return state
-    return replace(state, angle=counted_on(state.q[3], state.q[2], state.angle))
+    return replace(state, angle=unwrap(state.q[3], state.q[2], state.angle))
 
 
-def _marched(system: System, state: State, h: float, count: int, name: str) -> State:
-    held = system.held
+def _implicit(system: System, state: State, h: float, count: int, name: str) -> State:
+    constrained = system.constrained
     q, v, parameters = state.q.copy(), state.v.copy(), body_at(system, state).parameters.copy()
     mass_width = 1 + max(np.flatnonzero(system.mass.any(axis=0)), default=0)
-    moved = np.flatnonzero(held) if system.drive else np.empty(0, dtype=np.int64)
+    moved = np.flatnonzero(constrained) if system.drive else np.empty(0, dtype=np.int64)
     path = np.zeros((2, count + 1, moved.size))
     if system.drive:
         for number in range(count + 1):
-            place, rate, _ = system.drive(state.time + number * h)
-            path[:, number] = place[moved], rate[moved]
-    books = np.array([state.dissipated, state.driven])
-    done = march()(
+            prescribe, rate, _ = system.drive(state.time + number * h)
+            path[:, number] = prescribe[moved], rate[moved]
+    exchanged = np.array([state.dissipated, state.driven])
+    done = integrate_steps()(
         system.body.kernel,
         parameters,
         q,
         v,
         np.ascontiguousarray(system.mass[:, :mass_width]),
         system.load,
-        held,
+        constrained,
         moved,
         *path,
         system.translations,
-        system.drag,
+        system.damping_rate,
         h,
         system.body.half_bandwidth,
-        books,
+        exchanged,
     )
     if done < count:
         raise NotConvergedError(
@@ -201,7 +201,7 @@ def _marched(system: System, state: State, h: float, count: int, name: str) -> S
             iterations=MAX_ITERATIONS,
             tolerance=TOLERANCE,
         )
-    return State(q, v, state.time + count * h, float(parameters[0, -1]), *books.tolist())
+    return State(q, v, state.time + count * h, float(parameters[0, -1]), *exchanged.tolist())
 
 
 def stable_step(system: System, q: Vector) -> float:
@@ -211,8 +211,8 @@ def stable_step(system: System, q: Vector) -> float:
     real axis between -c and 0 and on a line across its middle, up to those of the highest frequency.  The region of
     stability holds with -c and those two whatever lies between.
     """
-    root = np.emath.sqrt(system.drag**2 / 4 - highest_frequency(system, q) ** 2)
-    ends = (-system.drag / 2 + root, -system.drag / 2 - root, -system.drag)
+    root = np.emath.sqrt(system.damping_rate**2 / 4 - highest_frequency(system, q) ** 2)
+    ends = (-system.damping_rate / 2 + root, -system.damping_rate / 2 - root, -system.damping_rate)
     return min(_longest(complex(z)) for z in ends if z)
 
 
@@ -228,7 +228,7 @@ def _longest(z: complex) -> float:
     return float(brentq(growth, 1.0, 4.0, xtol=1e-12)) / abs(z)
 
 
-def refuse_unstable_step(
+def check_stable_step(
     system: System, q: Vector, duration: float, settings: IntegratorSettings, name: str
 ) -> None:
     """Raise InputError if the steps of a fixed explicit method in a duration are beyond the stability limit at q."""
@@ -243,7 +243,7 @@ def refuse_unstable_step(
 
 
 def highest_frequency(system: System, q: Vector) -> float:
-    """Largest angular frequency of small motions about q, held unknowns left out [rad/s]."""
+    """Largest angular frequency of small motions about q, constrained DOFs left out [rad/s]."""
     stiffness, mass = free_matrices(system, q)
     if mass.shape[0] < _FEW:
         largest = np.abs(eigvalsh(stiffness.toarray(), mass.toarray())).max()
@@ -257,10 +257,10 @@ def highest_frequency(system: System, q: Vector) -> float:
 
 
 def free_matrices(system: System, q: Vector) -> tuple[dia_array, dia_array]:
-    """Hessian at q and mass, of the free unknowns, as sparse matrices."""
+    """Hessian at q and mass, of the free DOFs, as sparse matrices."""
     gradient, band = np.empty(q.size), np.empty((q.size, system.body.half_bandwidth + 1))
     system.body.assemble(q, gradient, band)
-    free = ~system.held
+    free = ~system.constrained
     return tuple(_sparse(matrix)[free][:, free].tocsc() for matrix in (band, system.mass))
 
 
@@ -314,9 +314,9 @@ class _Rates:
 
     def __init__(self, system: System) -> None:
         self.system = system
-        self.gradient = np.empty(system.held.size)
+        self.gradient = np.empty(system.constrained.size)
         self.mass = system.mass.copy()
-        hold(self.mass, system.held)
+        constrain(self.mass, system.constrained)
 
     def __call__(self, time: float, y: Vector) -> Vector:
         system, n = self.system, self.gradient.size
@@ -325,18 +325,18 @@ class _Rates:
         force, gaining = system.load - self.gradient, np.zeros_like(v)
         if system.drive is not None:
             _, given, gaining = system.drive(time)
-            v = np.where(system.held, given, v)
-            force -= band_product(system.mass, gaining + system.drag * given)
-        force[system.held] = 0.0
+            v = np.where(system.constrained, given, v)
+            force -= band_product(system.mass, gaining + system.damping_rate * given)
+        force[system.constrained] = 0.0
         acceleration = solve_positive(self.mass, force)
         assert acceleration is not None  # a mass is positive
-        slowing = np.where(system.held, 0.0, acceleration - system.drag * v)
-        if system.drive is None and not system.drag:
+        slowing = np.where(system.constrained, 0.0, acceleration - system.damping_rate * v)
+        if system.drive is None and not system.damping_rate:
             return np.concatenate([v, slowing, np.zeros(2)])
         momentum = band_product(system.mass, v)
-        taken = system.drag * float((v * momentum)[~system.held].sum())
+        taken = system.damping_rate * float((v * momentum)[~system.constrained].sum())
         pushed = band_product(system.mass, slowing + gaining) + self.gradient - system.load
-        return np.concatenate([v, slowing, [taken, float((v * pushed)[system.held].sum())]])
+        return np.concatenate([v, slowing, [taken, float((v * pushed)[system.constrained].sum())]])
 
 
 def _adaptive(
@@ -361,14 +361,14 @@ def _adaptive(
     after = state
     for y in done.y.T:  # every step, so that no turn is missed
         after = _counted(_unpacked(y, state.time + duration, after.angle))
-    _refuse_divergence(system, after, settings, name)
+    _check_divergence(system, after, settings, name)
     return _driven(system, state, after), int(done.nfev)
 
 
 _REMEDY = "take a shorter 'integrator.step' or the method 'implicit'"
 
 
-def _refuse_divergence(system: System, state: State, settings: IntegratorSettings, name: str) -> None:
+def _check_divergence(system: System, state: State, settings: IntegratorSettings, name: str) -> None:
     with np.errstate(over="ignore", invalid="ignore"):
         energy = system.body.energy(state.q) + kinetic_energy(system, state)
     if not np.isfinite(energy):

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from cosserat.errors import UnstableError
-from cosserat.solvers.banded import Band, Vector, band_product, hold, negative_eigenvalues
+from cosserat.solvers.banded import Band, Vector, band_product, constrain, negative_eigenvalues
 from cosserat.solvers.integrate import System, free_matrices
 
 Dense = NDArray[np.float64]
@@ -34,7 +34,7 @@ class Modes:
 
 
 def modes(system: System, q: Vector, count: int, name: str, *, anchored: bool) -> Modes:
-    """The lowest `count` modes about q, with the held unknowns at rest.
+    """The lowest `count` modes about q, with the constrained DOFs at rest.
 
     anchored : no motion without deformation is left free, so that a stable body has no frequency zero.
 
@@ -44,7 +44,7 @@ def modes(system: System, q: Vector, count: int, name: str, *, anchored: bool) -
     """
     stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q))
     if anchored:
-        rounding, growing = 0.0, _growing(system, q)
+        rounding, growing = 0.0, _count_unstable(system, q)
     else:
         every = eigh(stiffness, mass, eigvals_only=True)
         rounding = _ROUNDING * every[-1]
@@ -57,18 +57,18 @@ def modes(system: System, q: Vector, count: int, name: str, *, anchored: bool) -
         )
     squared, vectors = _lowest(stiffness, mass, min(count, mass.shape[0]), anchored)
     shapes = np.zeros((squared.size, q.size))
-    shapes[:, ~system.held] = vectors.T
+    shapes[:, ~system.constrained] = vectors.T
     largest = np.take_along_axis(shapes, np.abs(shapes).argmax(axis=1)[:, None], axis=1)
     frequencies = np.sqrt(np.where(squared > rounding, squared, 0.0))
     return Modes(frequencies, shapes * np.sign(largest))
 
 
-def _growing(system: System, q: Vector) -> int:
-    """How many directions of the free unknowns the Hessian at q bends down in."""
+def _count_unstable(system: System, q: Vector) -> int:
+    """How many directions of the free DOFs the Hessian at q bends down in."""
     gradient, band = np.empty(q.size), np.empty((q.size, system.body.half_bandwidth + 1))
     system.body.assemble(q, gradient, band)
-    hold(band, system.held)
-    band[system.held, 0] = 1.0
+    constrain(band, system.constrained)
+    band[system.constrained, 0] = 1.0
     return negative_eigenvalues(band)
 
 

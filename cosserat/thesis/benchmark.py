@@ -11,7 +11,7 @@ from cosserat.cases.catalogue import find
 from cosserat.problems.crawl import Crawl
 from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
-from cosserat.solvers.integrate import IntegratorSettings, advance
+from cosserat.solvers.integrate import IntegratorSettings, integrate
 
 T = TypeVar("T")
 _STEP = 2.5e-4  # s
@@ -65,8 +65,8 @@ def integrator() -> Iterator[str]:
             problem = find(name).vary("speed", rod={"vertices": vertices}).problem
             assert isinstance(problem, RodMotion)
             system, state = problem.system(problem.rod.geometry()), problem.begin()
-            advance(system, state, settings.step, settings, "speed")
-            work = functools.partial(advance, system, state, steps * settings.step, settings, "speed")
+            integrate(system, state, settings.step, settings, "speed")
+            work = functools.partial(integrate, system, state, steps * settings.step, settings, "speed")
             best, _ = _fastest(work, _RUNS)
             yield (
                 f"{vertices:5d} vertices: {steps / best:8.0f} steps/s, {1e6 * best / steps:8.0f} µs a step "

@@ -111,7 +111,7 @@ class BodyMasses(Problem):
         """
         worms = [(self.scaled(mass), f"{name}, {1e3 * mass:g} g") for mass in self.masses]
         for worm, called in worms:
-            worm.refuse_collapse(worm.gait.moments(worm.step), called)
+            worm.check_collapse(worm.gait.moments(worm.step), called)
         table = np.array([_measure(worm, called) for worm, called in worms])
         duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
         values = {

@@ -117,14 +117,14 @@ def overhang():
         run(
             "overhang",
             rod={"vertices": 30 * k + 1},
-            supports=[{"at": "first", "hold": ["x3", "x2"]}, {"at": 20 * k, "hold": ["x2"]}],
+            supports=[{"at": "first", "fixed": ["x3", "x2"]}, {"at": 20 * k, "fixed": ["x2"]}],
         )
         for k in (1, 2, 4)
     ]
     yield from converging(
         "sag of the free end [m]", -sag, [last(d) for d in runs], 5e-4, "beam with shear"
     )
-    force = runs[0].support_force.sel(unknown="x2").to_numpy()
+    force = runs[0].support_force.sel(dof="x2").to_numpy()
     yield Row("reaction at the first hinge [N]", left, float(force[0]), 1e-5 * left, "statics")
     yield Row("reaction at the second hinge [N]", right, float(force[20]), 1e-5 * right, "statics")
 
@@ -142,7 +142,7 @@ def couple_at_middle():
         d = data.d.isel(vertex=10 * k)
         turns.append(float(np.arctan2(-d.sel(axis="E3"), d.sel(axis="E2"))))
     yield from converging("turn at the middle [rad]", turn, turns, 5e-4, "beam with shear")
-    force = runs[0].support_force.sel(unknown="x2").to_numpy()
+    force = runs[0].support_force.sel(dof="x2").to_numpy()
     yield Row("reaction at the first end [N]", first, float(force[0]), 1e-6 * first, "statics")
     yield Row("reaction at the last end [N]", second, float(force[-1]), 1e-6 * first, "statics")
 
@@ -193,7 +193,7 @@ def curl():
 def tower():
     rod = inputs()["tower"].problem.rod
     weight = rod.line_density * rod.length * 9.80665
-    base = float(run("tower").support_force.sel(unknown="x3").isel(vertex=0))
+    base = float(run("tower").support_force.sel(dof="x3").isel(vertex=0))
     yield Row("force at the base [N]", weight, base, 1e-9 * weight, "weight")
     right = timoshenko.frequencies([piece("tower")], 2)
     for k, share in ((0, 5e-4), (1, 3e-3)):
@@ -269,10 +269,10 @@ def toggle():
     for share in (0.4, 1.0, 1.6):
         down = share * rise  # of the apex; along the bar and across it, which at rest lies along E3
         moves = [
-            {"at": "last", "unknown": "x3", "by": -down * np.sin(0.1)},
-            {"at": "last", "unknown": "x2", "by": -down * base},
+            {"at": "last", "dof": "x3", "by": -down * np.sin(0.1)},
+            {"at": "last", "dof": "x2", "by": -down * base},
         ]
-        force = run("toggle", moves=moves).support_force.isel(vertex=-1).to_numpy()
+        force = run("toggle", prescribed_displacements=moves).support_force.isel(vertex=-1).to_numpy()
         found = float(-force[0] * np.sin(0.1) - force[1] * base)
         right = closed.toggle(1.0, 0.1, down, EA)
         yield Row(f"force at {share:g} of the rise [N]", right, found, 1e-8 * largest, "linear bar")
@@ -286,7 +286,7 @@ def drawn():
         ("free", 1.0, nu),
         ("plane strain", 1 - nu**2, nu * (1 + nu)),
     ):
-        data = run("drawn", rod={"section": section})
+        data = run("drawn", rod={"lateral_constraint": section})
         yield Row(f"stretch, {section}", along * strain, last(data, "E3") - 1, 1e-5 * strain, "Hooke")
         narrowed = float(data.lam.isel(vertex=10)) - 1
         yield Row(f"narrowing, {section}", -across * strain, narrowed, 1e-5 * strain, "Hooke")
@@ -376,7 +376,7 @@ def shaken():
         period = 1 / frequency
         data = run(
             "shaken",
-            moves=[{"at": "first", "unknown": "x2", "by": 1e-4, "frequency": frequency}],
+            prescribed_displacements=[{"at": "first", "dof": "x2", "by": 1e-4, "frequency": frequency}],
             duration=60 * period,
             every=period / 16,
             integrator={"step": period / 160},

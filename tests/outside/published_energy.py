@@ -180,7 +180,7 @@ def plucked(beam, amplitude, damping, times, tolerance, method="DOP853"):
     turned = d * np.exp(1j * np.arctan(amplitude * slope))
     n = x.size - 1
     own, turning = (mass[1:] for mass in beam.mass)
-    drag = 2 * damping * lowest_frequency(beam)
+    damping_rate = 2 * damping * lowest_frequency(beam)
     clamp_x, clamp_d = x[:1], d[:1]
     fixed = (beam.h, beam.part, beam.height / 2, *beam.stiffness)
 
@@ -192,8 +192,8 @@ def plucked(beam, amplitude, damping, times, tolerance, method="DOP853"):
         )
         out = np.empty_like(z)
         out[: 2 * n] = v
-        out[2 * n : 3 * n] = -on_x[1:] / own - drag * v[:n]
-        out[3 * n :] = -on_d[1:] / turning - drag * v[n:]
+        out[2 * n : 3 * n] = -on_x[1:] / own - damping_rate * v[:n]
+        out[3 * n :] = -on_d[1:] / turning - damping_rate * v[n:]
         return out.view(float)
 
     start = np.concatenate([bent[1:], turned[1:], np.zeros(2 * n)]).astype(complex).view(float)

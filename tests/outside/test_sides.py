@@ -24,14 +24,16 @@ def test_the_pushed_bar_goes_where_it_is_pushed(steps, side):
         {"at": "last", "along": "-E3", "force": 980665.0},
         {"at": "last", "along": "E2", "force": side * 1000.0},
     ]
-    data = cosserat.run(inputs()["pushed_bar"].vary("x", forces=forces, newton={"load_steps": steps}))
+    data = cosserat.run(
+        inputs()["pushed_bar"].vary("x", forces=forces, newton={"load_increments": steps})
+    )
     assert last(data) == pytest.approx(side * PUSHED[1], abs=2e-3)
     assert last(data, "E3") == pytest.approx(PUSHED[0], abs=4e-3)
 
 
 @pytest.mark.parametrize("steps", [1, 3, 10, 30])
 def test_the_ribbon_sags_the_way_of_its_weight_for_any_number_of_load_steps(steps):
-    data = cosserat.run(inputs()["ribbon"].vary("x", newton={"load_steps": steps}))
+    data = cosserat.run(inputs()["ribbon"].vary("x", newton={"load_increments": steps}))
     assert middle(data) == pytest.approx(RIBBONS[1e9, 0.1], abs=1e-3)
 
 
@@ -41,8 +43,12 @@ def middle(data):
 
 @pytest.mark.parametrize(("young", "push"), RIBBONS)
 def test_a_ribbon_of_any_stiffness_sags_however_far_it_is_pushed_together(young, push):
-    moves = [{"at": "last", "unknown": "x3", "by": -push}]
-    data = cosserat.run(inputs()["ribbon"].vary("x", rod={"young": young}, moves=moves))
+    prescribed_displacements = [{"at": "last", "dof": "x3", "by": -push}]
+    data = cosserat.run(
+        inputs()["ribbon"].vary(
+            "x", rod={"young": young}, prescribed_displacements=prescribed_displacements
+        )
+    )
     assert middle(data) == pytest.approx(RIBBONS[young, push], abs=1e-3)
 
 
@@ -53,18 +59,24 @@ def test_and_upwards_where_its_weight_pulls_upwards():
 
 def between_clamps(curvature, push, aside, **more):
     """The slender rod without weight, its last clamp moved nearer and aside."""
-    moves = [
-        {"at": "last", "unknown": "x3", "by": -push},
-        {"at": "last", "unknown": "x2", "by": aside},
+    prescribed_displacements = [
+        {"at": "last", "dof": "x3", "by": -push},
+        {"at": "last", "dof": "x2", "by": aside},
     ]
-    return inputs()["ribbon"].vary("x", gravity=None, rod={"curvature": curvature}, moves=moves, **more)
+    return inputs()["ribbon"].vary(
+        "x",
+        gravity=None,
+        rod={"curvature": curvature},
+        prescribed_displacements=prescribed_displacements,
+        **more,
+    )
 
 
 @pytest.mark.parametrize("steps", [1, 3, 10, 40])
 @pytest.mark.parametrize(("curvature", "push", "aside"), SHIFTED)
 def test_a_bow_decides_also_where_the_clamp_moves_aside(curvature, push, aside, steps):
     """The rod that its clamp carries along is not pulled to that side by it."""
-    data = cosserat.run(between_clamps(curvature, push, aside, newton={"load_steps": steps}))
+    data = cosserat.run(between_clamps(curvature, push, aside, newton={"load_increments": steps}))
     assert middle(data) == pytest.approx(SHIFTED[curvature, push, aside], abs=1e-3)
 
 
@@ -84,7 +96,7 @@ def test_a_tiny_load_beside_moved_supports_is_no_reason_to_refuse(side):
 @pytest.mark.parametrize(("push", "aside"), [(0.056, 0.128), (0.0104, 0.0309), (0.06, -0.07)])
 def test_without_a_bow_the_side_is_open_and_that_is_said(push, aside, steps):
     """A turn by half a circle about the middle between the clamps makes of either answer the other."""
-    data = cosserat.run(between_clamps(0.0, push, aside, newton={"load_steps": steps}))
+    data = cosserat.run(between_clamps(0.0, push, aside, newton={"load_increments": steps}))
     assert abs(middle(data) - aside / 2) > 0.05
     assert [warning.split(":")[0] for warning in warnings_of(data)] == ["bifurcation"]
 
@@ -125,7 +137,7 @@ def test_a_bow_of_any_size_decides(bow, side):
 @pytest.mark.parametrize("steps", [2, 7, 20])
 @pytest.mark.parametrize("multiple", [1.2, 4, 12])
 def test_for_any_number_of_load_steps(steps, multiple):
-    stands_at(column(multiple, -0.01, newton={"load_steps": steps}), MULTIPLES[multiple], -1.0)
+    stands_at(column(multiple, -0.01, newton={"load_increments": steps}), MULTIPLES[multiple], -1.0)
 
 
 @pytest.mark.parametrize("steps", [1, 5, 20])
@@ -140,7 +152,7 @@ def test_so_it_does_for_the_published_rod(multiple, aside, steps):
         {"at": "last", "along": "-E3", "force": multiple * euler},
         {"at": "last", "along": "E2", "force": aside},
     ]
-    data = cosserat.run(beam.vary("x", gravity=None, forces=forces, newton={"load_steps": steps}))
+    data = cosserat.run(beam.vary("x", gravity=None, forces=forces, newton={"load_increments": steps}))
     assert last(data) * np.sign(aside) > 0.2 * rod.length
     assert warnings_of(data) == []
 

@@ -20,7 +20,7 @@ class CompiledRod(ABC):
     @property
     @abstractmethod
     def half_bandwidth(self) -> int:
-        """Largest distance of two coupled unknowns."""
+        """Largest distance of two coupled DOFs."""
 
     @property
     @abstractmethod
@@ -30,7 +30,7 @@ class CompiledRod(ABC):
     @property
     @abstractmethod
     def parameters(self) -> Array:
-        """What the kernel takes besides the unknowns."""
+        """What the kernel takes besides the DOFs."""
 
     @abstractmethod
     def evaluate(

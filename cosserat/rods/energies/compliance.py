@@ -22,7 +22,7 @@ from cosserat.rods.variation import Shares, Station, mean, vertex_cuts
 
 Array = NDArray[np.float64]
 
-SectionState = Literal["free", "plane strain", "incompressible"]
+LateralConstraint = Literal["free", "plane strain", "incompressible"]
 """What the section may do in E1: contract freely, not at all, or (in plane strain) nothing that changes the area."""
 
 PENALTY = 1e5
@@ -52,7 +52,7 @@ def stiffnesses(
     young: float,
     poisson: float,
     shear_correction: float,
-    section: SectionState,
+    lateral_constraint: LateralConstraint,
 ) -> EdgeStiffnesses:
     """Of a rod whose nominal section and material vary as the stations say.
 
@@ -62,7 +62,7 @@ def stiffnesses(
     def along(s: Shares) -> tuple[Array, Array, Array, Array, Array]:
         """2 mu A, Lambda A, k mu A, EI and mu I at places."""
         here, bending = area * s.width * s.height, second_moment * s.width * s.height**3
-        mu, first, plane = moduli(young * s.young, poisson * s.poisson, section)
+        mu, first, plane = moduli(young * s.young, poisson * s.poisson, lateral_constraint)
         return 2 * mu * here, first * here, shear_correction * mu * here, plane * bending, mu * bending
 
     def on_edges(s: Shares, _: Array) -> Array:
@@ -91,13 +91,15 @@ def stiffnesses(
     )
 
 
-def moduli(young: Array, poisson: Array, section: SectionState) -> tuple[Array, Array, Array]:
+def moduli(
+    young: Array, poisson: Array, lateral_constraint: LateralConstraint
+) -> tuple[Array, Array, Array]:
     """mu, Lambda and the modulus of bending [Pa]."""
-    if section == "incompressible":
+    if lateral_constraint == "incompressible":
         shear = young / 3
         return shear, PENALTY * 2 * shear, young / 0.75
     shear = young / (2 * (1 + poisson))
-    if section == "free":
+    if lateral_constraint == "free":
         return shear, young * poisson / (1 - poisson**2), young
     return (
         shear,

@@ -12,7 +12,7 @@ from cosserat.rods.energies import hemingway_kernel
 from cosserat.rods.energies.compiled_rod import CompiledRod
 from cosserat.rods.energies.hemingway_kernel import K6, START, VORONOI
 from cosserat.rods.energies.hemingway_stiffness import Stiffness
-from cosserat.rods.kinematics import Geometry, counted_angles
+from cosserat.rods.kinematics import Geometry, unwrapped_angles
 from cosserat.solvers.banded import Band, Vector
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ class PublishedRod(CompiledRod):
     def of(cls, stiffness: Stiffness, geometry: Geometry, couples: Array | None = None) -> PublishedRod:
         """The rod of a reference configuration, without couples if none are given."""
         moments = np.zeros(geometry.X.shape[0]) if couples is None else couples
-        return cls(stiffness, moments, counted_angles(geometry.D))
+        return cls(stiffness, moments, unwrapped_angles(geometry.D))
 
     @property
     def half_bandwidth(self) -> int:
@@ -54,7 +54,7 @@ class PublishedRod(CompiledRod):
 
     @functools.cached_property
     def parameters(self) -> Array:
-        """What the kernel takes besides the unknowns, shape (N, 14)."""
+        """What the kernel takes besides the DOFs, shape (N, 14)."""
         k = self.stiffness
         rod = np.zeros((k.voronoi.size, START + 1))
         rod[:-1, : K6 + 1] = np.column_stack([k.edge, k.k1, k.k5, k.k6])
@@ -69,7 +69,7 @@ class PublishedRod(CompiledRod):
         """It has no volume."""
         return False
 
-    def counted_near(self, angle: float) -> PublishedRod:
+    def unwrapped_near(self, angle: float) -> PublishedRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
         return replace(self, start=angle)
 

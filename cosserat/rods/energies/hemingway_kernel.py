@@ -2,7 +2,7 @@
 
 The kernel works in three short passes.  The first measures strains: lengths |e|, |d| and the angles phi, theta, with
 their gradients.  The second is the physics: the seven terms of eq. (3.4.11) and their derivatives by those strains.
-The third carries them back to the unknowns by the chain rule; forces are minus the gradient, eq. (3.4.7).
+The third carries them back to the DOFs by the chain rule; forces are minus the gradient, eq. (3.4.7).
 
 Two facts make the third pass short.  Every angle is a difference of polar angles alpha(v) of edges e, chords
 c_K = x_(K+1) - x_(K-1) or directors d.  And with t = v / |v| and n = t turned by a right angle,

@@ -50,7 +50,7 @@ TERMS = (
 _STIFF = 5.0
 """Lambda over 2 mu from which on a volume is stiff: Poisson's ratio 0.45 in plane strain."""
 
-(EDGE, AXIAL, SLIDE, TURN, K_AXIAL, K_VOLUME, K_SHEAR, K_BENDING, K_JUMP) = range(9)
+(EDGE, AXIAL, SLIDE, TURN, K_AXIAL, K_VOLUME, K_SHEAR, K_BENDING, K_STRETCH_GRADIENT) = range(9)
 (DIRECTOR, VORONOI, K_SECTION, COUPLE, BARRIER, ANGLE) = range(9, 15)
 (EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, OFFSET, START) = range(15, 22)
 """Columns of what the kernel reads; `consistent_reference.coefficients` says what they hold."""
@@ -76,7 +76,7 @@ class ConsistentRod(CompiledRod):
 
     @property
     def parameters(self) -> Array:
-        """What that kernel takes besides the unknowns."""
+        """What that kernel takes besides the DOFs."""
         return self.rod
 
     @property
@@ -89,14 +89,14 @@ class ConsistentRod(CompiledRod):
         """Of the area centres from the centreline, in directors."""
         return float(self.rod[0, OFFSET])
 
-    def counted_near(self, angle: float) -> ConsistentRod:
+    def unwrapped_near(self, angle: float) -> ConsistentRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
         rod = self.rod.copy()
         rod[0, START] = angle
         return ConsistentRod(rod)
 
     def displaced(self, geometry: Geometry) -> ConsistentRod:
-        """The same rod, its unknowns counted from the reference.
+        """The same rod, its DOFs counted from the reference.
 
         Forces then feel the rounding of displacements instead of positions, which on fine meshes is far less.
         """
@@ -122,7 +122,7 @@ _NOTHING = np.empty(0)
 
 
 @njit(cache=True)
-def _well(s: float, barrier: float) -> tuple[float, float, float]:
+def _stretch_energy(s: float, barrier: float) -> tuple[float, float, float]:
     """(s - 1)^2, or with a barrier (s^2 - s + 1/s - 1) / 2 of Fig. 3.7(a): equal to second order; two derivatives."""
     u = s - 1
     if barrier == 0.0:
@@ -131,7 +131,7 @@ def _well(s: float, barrier: float) -> tuple[float, float, float]:
 
 
 @njit(cache=True)
-def _bow(turn: float, barrier: float) -> tuple[float, float, float]:
+def _bending_energy(turn: float, barrier: float) -> tuple[float, float, float]:
     """T^2, or with a barrier 4 tan(T/2)^2 of Fig. 3.7(b), and two derivatives: equal to second order."""
     if barrier == 0.0:
         return turn * turn, 2 * turn, 2.0
@@ -142,7 +142,7 @@ def _bow(turn: float, barrier: float) -> tuple[float, float, float]:
 
 @njit(cache=True)
 def _curve(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
-    """Add sum over k of w_k v_k v_k + c b + b c, b the last row of v, to the block of eight unknowns from p on."""
+    """Add sum over k of w_k v_k v_k + c b + b c, b the last row of v, to the block of eight DOFs from p on."""
     for j in range(8):
         for i in range(j, 8):
             total = c[i] * v[5, j] + c[j] * v[5, i]
@@ -153,7 +153,7 @@ def _curve(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
 
 @njit(cache=True)
 def _pair(band: Band, p: int, u: Array, v: Array, w: float) -> None:
-    """Add w (u v + v u) to the block of eight unknowns from p on."""
+    """Add w (u v + v u) to the block of eight DOFs from p on."""
     for j in range(8):
         for i in range(j, 8):
             band[p + j, i - j] += w * (u[i] * v[j] + u[j] * v[i])
@@ -222,11 +222,11 @@ def _assemble(
             used_b = (measures[K, STRETCH] + end_b) / 2
         if measuring:
             measures[K, STRETCH] = end_b
-        terms[1] += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * _well(end_b, barrier)[0]
+        terms[1] += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * _stretch_energy(end_b, barrier)[0]
         W_rb = W_rr = 0.0
         W_turn = -rod[K, COUPLE]
         if deriving:
-            _, first, second = _well(used_b, barrier)
+            _, first, second = _stretch_energy(used_b, barrier)
             W_rb = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * first / D
             W_rr = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * second / D**2
         if K == 0:
@@ -256,11 +256,11 @@ def _assemble(
             angle += turn
             wide = (end_a + end_b) / 2
             volume, jump = _volume(strain, wide, product), end_b - end_a
-            terms[0] += rod[J, K_AXIAL] / 2 * E * _well(1 + strain, barrier)[0]
+            terms[0] += rod[J, K_AXIAL] / 2 * E * _stretch_energy(1 + strain, barrier)[0]
             terms[4] += rod[J, K_VOLUME] / 2 * E * volume * volume
             terms[3] += rod[J, K_SHEAR] / 2 * E * slide * slide
-            terms[2] += rod[J, K_BENDING] / (2 * E) * _bow(turn - rod[J, TURN], barrier)[0]
-            terms[5] += rod[J, K_JUMP] / (2 * E) * jump * jump
+            terms[2] += rod[J, K_BENDING] / (2 * E) * _bending_energy(turn - rod[J, TURN], barrier)[0]
+            terms[5] += rod[J, K_STRETCH_GRADIENT] / (2 * E) * jump * jump
             if measuring:
                 measures[J, STRAIN], measures[J, SLIDING], measures[J, TURNING] = strain, slide, turn
             if deriving:
@@ -272,20 +272,20 @@ def _assemble(
                     )
                     old_volume = _volume(old, old_wide, product)
                     if curving:  # but pressure and least tension are those of the start
-                        least, volume = _well(1 + old, barrier)[1], old_volume
+                        least, volume = _stretch_energy(1 + old, barrier)[1], old_volume
                     volume, strain = (old_volume + volume) / 2, (old + strain) / 2
                     slide, turn = (measures[J, SLIDING] + slide) / 2, (measures[J, TURNING] + turn) / 2
                     wide, jump = (used_a + used_b) / 2, used_b - used_a
                 by_axial, by_wide = (wide, 1 + strain) if product else (1.0, 1.0)
-                _, first, w_axial = _well(1 + strain, barrier)
-                _, bent_first, bent_second = _bow(turn - rod[J, TURN], barrier)
+                _, first, w_axial = _stretch_energy(1 + strain, barrier)
+                _, bent_first, bent_second = _bending_energy(turn - rod[J, TURN], barrier)
                 pressure = rod[J, K_VOLUME] * volume
                 W_A = rod[J, K_AXIAL] / 2 * max(first, least) + pressure * by_axial
                 W_G = rod[J, K_SHEAR] * slide
                 W_T = rod[J, K_BENDING] / (2 * E) * bent_first
                 W_wide = pressure * E / 2 * by_wide
-                W_ra = (W_wide - rod[J, K_JUMP] / E * jump) / D_a
-                W_rb += (W_wide + rod[J, K_JUMP] / E * jump) / D
+                W_ra = (W_wide - rod[J, K_STRETCH_GRADIENT] / E * jump) / D_a
+                W_rb += (W_wide + rod[J, K_STRETCH_GRADIENT] / E * jump) / D
                 W_b = W_A * G - W_G * A
                 f0, f1 = W_A * m1 + W_G * m0, -W_A * m0 + W_G * m1
                 turn_a = (W_b / 2 - W_T) / r_a
@@ -319,7 +319,11 @@ def _assemble(
                     rod[J, K_SHEAR] / E,
                     rod[J, K_BENDING] / (2 * E) * bent_second,
                 )
-                w[3], w[4], w[5] = rod[J, K_VOLUME] / E, rod[J, K_JUMP] / E, -W_A * A - W_G * G
+                w[3], w[4], w[5] = (
+                    rod[J, K_VOLUME] / E,
+                    rod[J, K_STRETCH_GRADIENT] / E,
+                    -W_A * A - W_G * G,
+                )
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
                 c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
                 c[2], c[3], c[6], c[7] = -offset * c0, -offset * c1, offset * c0, offset * c1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.energies.compliance import EdgeStiffnesses, SectionState
+from cosserat.rods.energies.compliance import EdgeStiffnesses, LateralConstraint
 from cosserat.rods.energies.reissner import (
     ANGLE,
     AXIAL,
@@ -15,9 +15,9 @@ from cosserat.rods.energies.reissner import (
     EDGE,
     K_AXIAL,
     K_BENDING,
-    K_JUMP,
     K_SECTION,
     K_SHEAR,
+    K_STRETCH_GRADIENT,
     K_VOLUME,
     OFFSET,
     PRODUCT,
@@ -26,7 +26,7 @@ from cosserat.rods.energies.reissner import (
     TURN,
     VORONOI,
 )
-from cosserat.rods.kinematics import Geometry, counted_angles
+from cosserat.rods.kinematics import Geometry, unwrapped_angles
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def coefficients(
     centres = geometry.X + offset * geometry.D
     n = geometry.X.shape[0]
     rod = np.zeros((n, START + 1))
-    e, alpha = np.diff(centres, axis=0), counted_angles(geometry.D)
+    e, alpha = np.diff(centres, axis=0), unwrapped_angles(geometry.D)
     turn = np.diff(alpha)
     b = alpha[:-1] + turn / 2
     rod[:-1, EDGE] = np.linalg.norm(e, axis=1)
@@ -65,7 +65,7 @@ def coefficients(
     rod[:-1, K_VOLUME] = stiffness.volume
     rod[:-1, K_SHEAR] = stiffness.shear
     rod[:-1, K_BENDING] = stiffness.bending
-    rod[:-1, K_JUMP] = stiffness.stretch_gradient
+    rod[:-1, K_STRETCH_GRADIENT] = stiffness.stretch_gradient
     rod[:, DIRECTOR] = geometry.director_length
     rod[:, VORONOI] = geometry.voronoi_length
     rod[:, K_SECTION] = stiffness.section
@@ -78,7 +78,9 @@ def coefficients(
     return rod
 
 
-def keeping_volume(geometry: Geometry, x: Array, d: Array, section: SectionState) -> Array:
+def keeping_volume(
+    geometry: Geometry, x: Array, d: Array, lateral_constraint: LateralConstraint
+) -> Array:
     """Directors of the same directions, (N, 2) [m], so long that each edge keeps its volume; the first is not scaled.
 
     A volume that hardly changes would otherwise set off vibrations of its own at the start of a motion.
@@ -88,6 +90,6 @@ def keeping_volume(geometry: Geometry, x: Array, d: Array, section: SectionState
     axial = (e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0]) / np.linalg.norm(m, axis=1) / geometry.edge_length
     wide = np.ones(axial.size + 1)
     for K, a in enumerate(axial):
-        wide[K + 1] = 2 * (1 / a if section == "incompressible" else 2 - a) - wide[K]
+        wide[K + 1] = 2 * (1 / a if lateral_constraint == "incompressible" else 2 - a) - wide[K]
     directors: Array = (geometry.director_length * wide)[:, None] * unit
     return directors

@@ -95,7 +95,7 @@ def render(notebooks: list[Path], output: Path) -> Path:
         raise InputError(
             f"there is no notebook {', '.join(missing)}; execute the chapters first ('cosserat chapter')"
         )
-    _refuse_what_is_not_ours(output)
+    _check_destination(output)
     output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".book.") as scratch:
         pages, built = Path(scratch) / "pages", Path(scratch) / "built"
@@ -108,14 +108,14 @@ def render(notebooks: list[Path], output: Path) -> Path:
         _copy_mathjax(pages / "_static" / "mathjax")
         _sphinx(pages, built, Path(scratch) / "doctrees")
         (built / _WRITTEN).write_text("\n".join([_WRITTEN, *_files(built)]), encoding="utf-8")
-        _refuse_what_is_not_ours(output, set(_files(built)))
+        _check_destination(output, set(_files(built)))
         if output.exists():
             output.rename(Path(scratch) / "old")
         built.rename(output)
     return output / "index.html"
 
 
-def _refuse_what_is_not_ours(output: Path, of_a_book: set[str] | None = None) -> None:
+def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
     """Raise InputError unless a folder is missing, empty, or holds no file but those that a book of ours has.
 
     of_a_book : what the new book holds; a book without a list of its own may have nothing else.

@@ -149,9 +149,7 @@ def fig_3_3(data: Data) -> Figure:
     low = -rod.centreline * H
     corners = np.array([[-W / 2, low], [W / 2, low], [W / 2, low + H], [-W / 2, low + H], [-W / 2, low]])
     _section(right, corners, np.eye(2))
-    right.set_title(
-        f"(b) as in this rod: $Y^{{02}}$ = {rod.first_inertia:.3g}, $Y^{{22}}$ = {rod.second_inertia:.3g}"
-    )
+    right.set_title(f"(b) as in this rod: $Y^{{02}}$ = {rod.Y02:.3g}, $Y^{{22}}$ = {rod.Y22:.3g}")
     for ax in (left, right):
         ax.set_aspect("equal")
         ax.set(xlim=(-0.68, 0.48), ylim=(-0.52, 0.52), xlabel=r"along $\mathbf{E}_1$ [m]", ylabel=_UP)

@@ -32,9 +32,9 @@ from cosserat.exact import beams, elastica
 from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import PointForce
-from cosserat.solvers.continuation import lead
-from cosserat.solvers.equilibrium import Climb
-from cosserat.solvers.integrate import IntegratorSettings, advance
+from cosserat.solvers.equilibrium import EquilibriumSolver
+from cosserat.solvers.incremental import solve_full_load
+from cosserat.solvers.integrate import IntegratorSettings, integrate
 from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table.readouts import period
 
@@ -266,7 +266,9 @@ def _solve(problem: Problem, posed: RodStatics | RodMotion) -> dict[str, Any]:
     if isinstance(posed, RodStatics):  # as for the others, the model is built before
         loaded = posed.loaded(posed.rod.geometry())
         start = time.perf_counter()
-        found = lead(Climb(loaded, posed.newton, problem.name), np.zeros(loaded.held.size))
+        found = solve_full_load(
+            EquilibriumSolver(loaded, posed.newton, problem.name), np.zeros(loaded.constrained.size)
+        )
         taken = time.perf_counter() - start
         u = found.q.reshape(-1, 4)[:, 1]
         return {"seconds": taken, "profile": u.tolist(), "tip": float(u[-1])}
@@ -274,11 +276,11 @@ def _solve(problem: Problem, posed: RodStatics | RodMotion) -> dict[str, Any]:
     system, state = small.system(small.rod.geometry()), small.begin()
     settings = IntegratorSettings(step=problem.duration / problem.steps)
     start = time.perf_counter()
-    advance(system, state, problem.duration, settings, problem.name)
+    integrate(system, state, problem.duration, settings, problem.name)
     taken = time.perf_counter() - start
     times, tips = [0.0], [float(state.q[-3])]
     for _ in range(problem.steps // 4):
-        state, _done = advance(system, state, 4 * settings.step, settings, problem.name)
+        state, _done = integrate(system, state, 4 * settings.step, settings, problem.name)
         times.append(state.time)
         tips.append(float(state.q[-3]))
     return {"seconds": taken, "times": times, "tips": tips}

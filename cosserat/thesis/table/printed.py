@@ -44,14 +44,14 @@ _ROD: Inputs = {
 }
 
 _G = Input("9.81 m/s^2", _FOUR, "m/s^2")
-_LEFT = [{"at": "first", "hold": _CLAMP}]
+_LEFT = [{"at": "first", "fixed": _CLAMP}]
 
 _HANGING_BAR: Inputs = {
     **_ROD,
     "gravity.g": _G,
     "gravity.along": Input("E3", _FOUR),
     "supports": Input(
-        [{"at": "first", "hold": ["x3", "x2", "d3"]}], "section 3.5, 'u . E3 = 0'", assumed="E3.16"
+        [{"at": "first", "fixed": ["x3", "x2", "d3"]}], "section 3.5, 'u . E3 = 0'", assumed="E3.16"
     ),
 }
 _CLAMPED_FREE: Inputs = {
@@ -62,7 +62,7 @@ _CLAMPED_FREE: Inputs = {
 }
 _CLAMPED_CLAMPED: Inputs = {
     **_CLAMPED_FREE,
-    "supports": Input([*_LEFT, {"at": "last", "hold": _CLAMP}], "section 3.5, before eq. (3.5.6)"),
+    "supports": Input([*_LEFT, {"at": "last", "fixed": _CLAMP}], "section 3.5, before eq. (3.5.6)"),
 }
 _NECKING: Inputs = {
     **_ROD,
@@ -74,7 +74,9 @@ _NECKING: Inputs = {
     "forces.1": Input({"at": "last", "along": "E3"}, "section 3.5, (iv)", assumed="E3.16"),
     "forces.1.force": Input("1 kN", "section 3.5, before eq. (3.5.8)", "N"),
     "supports": Input(
-        [*_LEFT, {"at": "last", "hold": ["d3", "d2"]}], "section 3.5, A necking problem", assumed="E3.16"
+        [*_LEFT, {"at": "last", "fixed": ["d3", "d2"]}],
+        "section 3.5, A necking problem",
+        assumed="E3.16",
     ),
 }
 _VIBRATING: Inputs = {

@@ -198,7 +198,7 @@ def _thinned(data: xr.Dataset) -> Reading:
     beam = printed.beam("clamped_free")
     part = beam.length / (data.sizes["vertex"] - 1)
     k2 = printed.number("clamped_free", "rod.calibration.c2") * beam.axial_stiffness
-    force = float(data.support_force.sel(unknown="d2").isel(vertex=1))
+    force = float(data.support_force.sel(dof="d2").isel(vertex=1))
     return Reading(force, k2 / 2 * _uniform(0.5) * part / half_height(beam))
 
 
@@ -210,7 +210,7 @@ def _sheared(data: xr.Dataset) -> Reading:
     beam, stretch = printed.beam("clamped_free"), np.sqrt(2.0)
     c1, c4 = (printed.number("clamped_free", f"rod.calibration.{c}") for c in ("c1", "c4"))
     expected = c4 * beam.shear_stiffness + c1 * beam.axial_stiffness / 2 * _uniform(stretch) / stretch
-    return Reading(float(data.support_force.sel(unknown="x2")[-1]), float(expected))
+    return Reading(float(data.support_force.sel(dof="x2")[-1]), float(expected))
 
 
 def _inflated(data: xr.Dataset) -> Reading:
@@ -223,7 +223,7 @@ def _inflated(data: xr.Dataset) -> Reading:
     k3 = printed.number("clamped_free", "rod.calibration.c3") * beam.bending_stiffness
     part = beam.length / (data.sizes["vertex"] - 1)
     edge = np.diff(data.x.to_numpy(), axis=0)[-1]
-    force = data.support_force.sel(unknown=["x3", "x2"])[-1].to_numpy()
+    force = data.support_force.sel(dof=["x3", "x2"])[-1].to_numpy()
     return Reading(float(edge[0] * force[1] - edge[1] * force[0]), 2 * k3 / part * 0.5 * (1 + 0.5**2))
 
 

@@ -1,0 +1,97 @@
+"""The equilibrium that a growing load leads to, in increments of the load.
+
+Increments are as long as the path before them predicts their end and the body stays stable.  From where it does not,
+the path is traced by `solvers.continuation`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cosserat.solvers.banded import Vector
+from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, trace_path
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, Fields
+
+_PREDICTION_TOLERANCE = 0.3  # share of an increment by which its end may lie off what is foretold
+_NEGLIGIBLE_ROTATION = 1e-5  # turning below which an increment needs no foretelling [rad]
+_INTERMEDIATE_TOLERANCE = 1e-8  # share of the loads that may be left unbalanced before the end
+_MAX_ROTATION = 0.7  # most that a part may turn in an increment [rad]
+_MAX_ARCS = 10_000  # arcs on the way to one equilibrium
+_MAX_CUTBACKS = 4  # increments refused short of the same factor before the path is followed
+
+
+def solve_full_load(solver: EquilibriumSolver, start: Vector) -> Equilibrium:
+    """The equilibrium at the factor one that the load leads to as it grows from nothing.
+
+    Raises
+    ------
+    NotConvergedError : no path leads there, or to no stable equilibrium; the last point is its `state`.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused, not warned of
+        point = unloaded(solver, start)
+        solver.check_round_off(point)
+        point = _by_increments(solver, point)
+        if point.factor == 1.0:
+            return point
+        point = solver.correct(point.q, point.factor) or point
+        arc = ArcLengthSettings(
+            first=0.05, longest=0.3, count=_MAX_ARCS, until=1.0, limit=3.0, branches=_MAX_ARCS
+        )
+        last = point
+        for last in trace_path(solver, point, arc):
+            solver.passed_limit_load |= not last.stable
+    if last.factor != 1.0 or not last.stable:
+        raise solver.failure(point.factor, 1.0, last)
+    return last
+
+
+def unloaded(solver: EquilibriumSolver, start: Vector) -> Equilibrium:
+    """The equilibrium without any load."""
+    point = solver.correct(start, 0.0)
+    if point is None:
+        raise solver.failure(0.0, 0.0, None)
+    return point
+
+
+def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium:
+    """The last equilibrium that increments reach which the path before them foretells."""
+    body, refused, wall = solver.body, 0, 0.0
+    longest = min(1.0 / solver.settings.load_increments, body.max_increment)
+    increment = longest
+    before: tuple[float, Fields] | None = None
+    bend: Fields = np.zeros(())
+    while point.factor < 1.0 and point.stable and refused < _MAX_CUTBACKS:
+        velocity = rate_with_load(solver, point)
+        if velocity is None:
+            break
+        rates = body.rates(point.q, velocity)
+        if before is not None:
+            bend = (rates - before[1]) / (point.factor - before[0])
+        fastest = float(np.abs(rates).max())
+        increment = min(increment, longest, _MAX_ROTATION / fastest if fastest > 0 else longest)
+        goal = point.factor + increment if point.factor + 1.001 * increment < 1.0 else 1.0
+        step = goal - point.factor
+        moved = step * (rates + step / 2 * bend)
+        found = solver.correct(
+            body.predicted(point.q, moved, goal),
+            goal,
+            share=None if goal == 1.0 else _INTERMEDIATE_TOLERANCE,
+        )
+        off = np.inf
+        if found is not None and found.stable:
+            turned = body.rates((point.q + found.q) / 2, found.q - point.q)
+            off = float(np.abs(turned - moved).max()) / max(
+                float(np.abs(turned).max()), _NEGLIGIBLE_ROTATION
+            )
+        if found is None or off > _PREDICTION_TOLERANCE:
+            refused, wall = refused + 1, goal
+            solver.cutbacks += 1
+            increment = step / 2
+            continue
+        before, point = (point.factor, rates), found
+        if (
+            point.factor >= wall
+        ):  # short of it, ever shorter increments would come close to a crossing of paths
+            refused = 0
+        increment *= float(np.clip(np.sqrt(_PREDICTION_TOLERANCE / 2 / max(off, 1e-3)), 0.5, 2.0))
+    return point
