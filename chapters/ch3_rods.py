@@ -167,9 +167,9 @@ page.say(
 page.source(hemingway_kernel._work_of_couples)
 
 # %% [markdown]
-# Line loads act over any stretch of the rod, and held numbers may be moved (`prescribed_displacements`): at rest to a new place, in motion to
-# and fro. A held section may be turned as it is, through any angle (`prescribed_rotations`): to move its director's numbers along straight
-# lines would stretch it.
+# Line loads act over any stretch of the rod. Fixed degrees of freedom may be moved (`prescribed_displacements`): at rest to a
+# new place, in motion to and fro. A fixed section may be rotated through any angle (`prescribed_rotations`): moving the
+# components of its director along straight lines would stretch it.
 
 # %% tags=["remove-input"]
 page.source(RodProblem.loads)

@@ -12,7 +12,7 @@
 # # A rod that converges
 #
 # The published rod is right where it was tuned: at 20 vertices, for beams like the thesis's. This page is about a rod of the
-# same unknowns, a place and a director at each vertex, whose coefficients follow from $E$, $\nu$ and the section, and whose
+# same degrees of freedom, a place and a director at each vertex, whose coefficients follow from $E$, $\nu$ and the section, and whose
 # answers approach exact ones as the mesh is refined. It is the one to take for a rod of your own: `rod.energy =
 # "consistent"`.
 #
