@@ -302,6 +302,36 @@ print(sorted(set({spared}) & set(sys.modules)))
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+def test_a_rod_of_ones_own_needs_nothing_of_the_book_or_the_workflow(tmp_path):
+    """The packages of the extra `thesis` are blocked in a process that solves, shows and draws a case."""
+    extra = (
+        "snakemake",
+        "jupytext",
+        "IPython",
+        "ipykernel",
+        "nbclient",
+        "nbformat",
+        "sphinx",
+        "myst_nb",
+    )
+    code = (
+        f"import sys; sys.modules.update(dict.fromkeys({extra!r}))\n"
+        "from cosserat.cli import main\n"
+        "sys.exit(main(['run', 'clamped_free']) or main(['show', 'clamped_free.nc'])"
+        " or main(['plot', 'clamped_free.nc']))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "clamped_free.svg").is_file()
+
+
 def test_every_case_has_a_summary(solved):
     from cosserat.data.dataset import effort
 
