@@ -7,13 +7,11 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 if TYPE_CHECKING:
     import xarray as xr
 
     from cosserat.solution import Solution
+    from cosserat.solvers.equilibrium import Equilibrium
 
 
 class CosseratError(Exception):
@@ -47,14 +45,12 @@ class NotConvergedError(CosseratError):
     ----------
     iterations : iterations done before giving up.
     residual, tolerance : the largest unbalanced force and the one that was allowed [N].
-    state, factor : the last equilibrium that was found, or None, as displacements from the reference, and the share of
-        the load it stands under.
+    state : the last equilibrium that was found, or None; its `factor` is the fraction of the load it stands under.
     reached : the last equilibrium or the points of the path up to there, or None, as the problem would have given them.
     dataset : the same as a Dataset, where the case was run by `cosserat.run`.
     """
 
-    state: NDArray[np.float64] | None = None
-    factor: float = 0.0
+    state: Equilibrium | None = None
     reached: Solution | None = None
     dataset: xr.Dataset | None = None
 

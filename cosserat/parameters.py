@@ -88,6 +88,25 @@ class Count:
         return core_schema.no_info_plain_validator_function(self.check)
 
 
+@dataclass(frozen=True)
+class OneOf:
+    """Annotation of a word that names an entry of a registry."""
+
+    registry: Mapping[str, object]
+
+    def check(self, value: object) -> str:
+        """Read one word."""
+        if not isinstance(value, str) or value not in self.registry:
+            known = " or ".join(map(repr, self.registry))
+            raise PydanticCustomError("word", f"is {value!r}; it must be {known}")
+        return value
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.check)
+
+
 class Parameters(BaseModel):
     """Base of every parameter object: frozen, and no key passes unread."""
 

@@ -14,7 +14,8 @@ from cosserat.problems.static import RodStatics
 from cosserat.rods.energies.compliance import stiffnesses
 from cosserat.rods.energies.reissner import ConsistentRod
 from cosserat.rods.energies.reissner_reference import coefficients
-from cosserat.rods.kinematics import Geometry, rigid_motions
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.reference import Geometry
 from cosserat.studies.calibration import beam_of
 from cosserat.studies.convergence import MEASURES
 from cosserat.thesis.table.readouts import period

@@ -11,7 +11,7 @@ from scipy.integrate import quad
 
 import cosserat
 from cosserat.exact.beams import Beam, first_beam_mode, first_frequency
-from cosserat.rods.kinematics import Geometry, lengths, strains, to_vertices, vertex_tangents
+from cosserat.rods.reference import Geometry, lengths, strains, to_vertices, vertex_tangents
 from cosserat.solvers.banded import to_dense
 
 SEEDS = st.integers(0, 10_000)

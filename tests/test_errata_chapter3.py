@@ -13,7 +13,8 @@ from cosserat.errors import UnsupportedRodError
 from cosserat.exact import beams
 from cosserat.rods.energies.hemingway import PublishedRod
 from cosserat.rods.energies.hemingway_kernel import stretching
-from cosserat.rods.kinematics import Geometry, rigid_motions, signed_angle, strains, vertex_tangents
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.reference import Geometry, signed_angle, strains, vertex_tangents
 from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table import printed, readouts
 

@@ -11,7 +11,8 @@ from scipy.integrate import quad
 import cosserat
 from cosserat.errors import InputError
 from cosserat.rods import kinematics
-from cosserat.rods.kinematics import rigid_motions, strains
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.reference import strains
 from cosserat.solvers import banded
 
 BAR, BEAM = cosserat.case("hanging_bar"), cosserat.case("clamped_free")

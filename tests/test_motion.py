@@ -9,7 +9,7 @@ from cosserat.exact import beams
 from cosserat.problems import checkpoints
 from cosserat.problems.checkpoints import CheckpointedRun
 from cosserat.rods import kinematics
-from cosserat.rods.kinematics import rigid_motions
+from cosserat.rods.kinematics import PLANAR
 from cosserat.solvers import banded, integrate
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.modes import modes

@@ -99,7 +99,7 @@ def test_symmetric_problems_have_symmetric_answers(solved, name):
 @pytest.mark.parametrize("name", ["clamped_free", "necking"])
 def test_director_length_changes_no_displacement(name):
     """Stretches and angles do not know how long a director was drawn; only its plotted displacement does (E3.11)."""
-    from cosserat.rods.kinematics import Geometry
+    from cosserat.rods.reference import Geometry
     from cosserat.rods.loaded_rod import LoadedRod
     from cosserat.solvers.equilibrium import EquilibriumSolver
     from cosserat.solvers.incremental import solve_full_load

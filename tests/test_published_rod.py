@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cosserat.rods.energies.hemingway import PublishedRod
-from cosserat.rods.kinematics import rigid_motions, strains
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.reference import strains
 
 SEEDS = st.integers(0, 2**32 - 1)
 SIZES = st.sampled_from([3, 4, 5, 9])

@@ -8,7 +8,8 @@ import cosserat
 from cosserat.data.dataset import warnings_of
 from cosserat.errors import CrossingError
 from cosserat.rods.energies import hemingway_kernel, reissner
-from cosserat.rods.kinematics import Geometry, reference, rigid_motions
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, surface_stretch, unresolved_energy
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.modes import modes
@@ -62,7 +63,7 @@ def test_forces_of_a_step_have_no_resultant_and_work_as_the_energy_changes(like)
     geometry = problem.rod.geometry()
     body = problem.rod.body(geometry)
     rng = np.random.default_rng(3)
-    start, change = reference(geometry), rng.uniform(-1, 1, 24) * 0.02
+    start, change = geometry.q, rng.uniform(-1, 1, 24) * 0.02
     start = start + rng.uniform(-1, 1, 24) * 0.005
     turned = 0.7 * rigid_motions(start.reshape(-1, 4))[2].ravel()
     parameters, none, terms = body.parameters, np.empty((0, body.half_bandwidth + 1)), np.empty(16)
@@ -112,7 +113,7 @@ def test_what_drag_takes_and_supports_give_closes_the_balance(method):
 def test_the_filter_agrees_with_the_modes():
     problem = cosserat.case("vibration_c4_20").problem
     geometry = problem.rod.geometry()
-    system, q = problem.system(geometry), reference(geometry)
+    system, q = problem.system(geometry), geometry.q
     found = modes(system, q, 80, "x", anchored=True)
     rng = np.random.default_rng(0)
     v = np.where(system.constrained, 0.0, rng.uniform(-1, 1, q.size))

@@ -79,6 +79,9 @@ VARIABLES: dict[str, Variable] = {
         "3.3.41",
         1e-9,
     ),
+    "internal_variables": Variable(
+        ("time", "internal"), "1", "internal variables of the loads, each in its own unit", "", "", 1e-9
+    ),
     "kinetic_energy": Variable(("time",), "J", "kinetic energy", "T", "3.3.33", 1e-9),
     "strain_energy": Variable(
         ("time",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9

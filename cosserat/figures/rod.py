@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
-from cosserat.rods.problem import RodProblem, unit_vector
+from cosserat.rods.naming import unit_vector
+from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
 
@@ -80,7 +81,7 @@ def draw_outline(ax: Axes, x: Array, d: Array, problem: RodProblem, **colours: A
 def draw_supports(ax: Axes, problem: RodProblem, x: Array, D: Array) -> None:
     """A bar across each held section, thick where the section cannot stretch either."""
     for support in problem.supports:
-        index = problem.index(support.at)
+        index = problem.rod.index(support.at)
         section = np.column_stack([x[index] - 1.7 * D[index], x[index] + 1.7 * D[index]])
         whole = {"d3", "d2"} <= set(support.fixed)
         ax.plot(*section, color=INK, linewidth=3.0 if whole else 1.2, solid_capstyle="butt", zorder=4)
@@ -97,14 +98,14 @@ def draw_loads(ax: Axes, problem: RodProblem, x: Array, d: Array) -> None:
     for force in problem.forces:
         if force.force:
             along = np.sign(force.force) * unit_vector(force.along)
-            _draw_arrow(ax, _foot(x, problem.index(force.at), along, size), along * size, "$n$")
+            _draw_arrow(ax, _foot(x, problem.rod.index(force.at), along, size), along * size, "$n$")
     for line in problem.line_loads:
         end = problem.rod.length if line.end is None else line.end
         along = np.sign(line.density) * unit_vector(line.along)
         _draw_row(ax, x, d, np.linspace(line.start, end, 9) / problem.rod.length, along * size / 2)
     for couple in problem.couples:
         if couple.moment:
-            _draw_turn(ax, x[problem.index(couple.at)], size / 2, couple.moment > 0)
+            _draw_turn(ax, x[problem.rod.index(couple.at)], size / 2, couple.moment > 0)
 
 
 def _foot(x: Array, index: int, along: Array, size: float) -> Array:

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, NotConvergedError
-from cosserat.rods.kinematics import AXES, DOFS, Geometry, reference, rigid_fields
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.loads.couples import TERMS
+from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import (
     FAST,
     UNBALANCED,
@@ -20,14 +22,11 @@ from cosserat.rods.resolution import (
     coarse,
     unresolved_energy,
 )
-from cosserat.rods.rod import RodBody
 from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import band_product
 from cosserat.solvers.integrate import (
     DAMPED,
     State,
-    System,
-    body_at,
     check_stable_step,
     highest_frequency,
     integrate,
@@ -35,6 +34,7 @@ from cosserat.solvers.integrate import (
     stable_step,
     step_count,
 )
+from cosserat.solvers.system import MechanicalSystem, Tangent
 
 if TYPE_CHECKING:
     from cosserat.problems.motion import RodMotion
@@ -62,7 +62,7 @@ class CheckpointedRun:
     problem: RodMotion
     name: str
     geometry: Geometry
-    system: System
+    system: MechanicalSystem
     substeps_per_frame: int
     stops_per_part: int
 
@@ -100,11 +100,11 @@ class CheckpointedRun:
         for stop in range(first + 1, last + 1):
             try:
                 state, done = integrate(self.system, state, substep, self.problem.integrator, self.name)
-                q = state.q.reshape(-1, len(DOFS))
+                vectors = PLANAR.split(state.q)
                 check_crossing(
                     self.geometry,
-                    q[:, :2],
-                    q[:, 2:],
+                    vectors[:, 0],
+                    vectors[:, 1],
                     self.problem.rod.below,
                     f"{self.name}, {state.time:.4g} s",
                 )
@@ -115,10 +115,9 @@ class CheckpointedRun:
             state = replace(state, time=stop / self.substeps_per_frame * self.problem.between_frames)
             states.append(state)
             steps += done
-        rod = self.problem.rod.body(self.geometry)
-        fields = _fields(self.geometry, self.system, rod, states) if states else {}
+        fields = _fields(self.geometry, self.system, states) if states else {}
         statistics = {"steps": steps, **self._judged(states)}
-        return Solution(fields, statistics, {"axis": AXES}), state, stopped
+        return Solution(fields, statistics, {"axis": PLANAR.axes}), state, stopped
 
     @property
     def step(self) -> float:
@@ -132,15 +131,16 @@ class CheckpointedRun:
         """Kinetic energy of some states, and what of it is in modes that the step does not follow [J]."""
         system, kinetic, unresolved = self.system, 0.0, 0.0
         apart = -(-self.problem.frames * self.substeps_per_frame // JUDGED)
-        n = system.constrained.size
-        gradient, band = np.empty(n), np.empty((n, system.body.half_bandwidth + 1))
+        tangent = Tangent(system)
         for state in states:
             stop = round(state.time / self.problem.between_frames * self.substeps_per_frame)
             if not self.step or stop % apart:
                 continue
-            body_at(system, state).assemble(state.q, gradient, band)
+            system.assemble(state.q, state.history, 1.0, tangent)
             kinetic += kinetic_energy(system, state)
-            unresolved += unresolved_energy(band, system.mass, system.constrained, state.v, self.step)
+            unresolved += unresolved_energy(
+                tangent.band, system.inertia, system.constrained, state.v, self.step
+            )
         return {"judged_kinetic_J": kinetic, "unresolved_kinetic_J": unresolved}
 
     def warnings(self, whole: Solution) -> tuple[str, ...]:
@@ -199,7 +199,7 @@ class CheckpointedRun:
         c, h = self.system.damping_rate, self.step
         if self.problem.integrator.method != "implicit" or not c:
             return
-        highest = highest_frequency(self.system, reference(self.geometry))
+        highest = highest_frequency(self.system, self.geometry.q)
         if c * highest * h**2 > DAMPED:
             yield (
                 f"damping: modes faster than {DAMPED / (c * h**2):.3g} rad/s (the fastest has {highest:.3g}) lose "
@@ -207,16 +207,28 @@ class CheckpointedRun:
             )
 
 
-def resumed(part: Solution) -> State:
+def resumed(part: Solution, system: MechanicalSystem) -> State:
     """The state in which a stored part ended."""
+    history, used = list(system.history), 0
+    for number, own in enumerate(history):
+        if number == _winding(system):
+            history[number] = part["first_angle"][-1:]
+        elif own.size:
+            history[number] = part["internal_variables"][-1, used : used + own.size]
+            used += own.size
     return State(
         np.hstack([part["x"][-1], part["d"][-1]]).ravel(),
         np.hstack([part["x_rate"][-1], part["d_rate"][-1]]).ravel(),
+        tuple(history),
         float(part["time"][-1]),
-        float(part["first_angle"][-1]),
         float(part["dissipated_energy"][-1]),
         float(part["support_work"][-1]),
     )
+
+
+def _winding(system: MechanicalSystem) -> int:
+    """Which potential has the winding angle of the first director as its internal variable."""
+    return next(k for k, potential in enumerate(system.potentials) if potential.terms == TERMS)
 
 
 def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
@@ -235,42 +247,50 @@ def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
     return Solution(fields, statistics, first.labels)
 
 
-def _work_of_a_frame(problem: RodMotion, system: System, geometry: Geometry) -> float:
+def _work_of_a_frame(problem: RodMotion, system: MechanicalSystem, geometry: Geometry) -> float:
     """Vertices times implicit steps that cost as much as going from one frame to the next."""
     settings = problem.integrator
     if settings.method == "rk45":
-        stable = stable_step(system, reference(geometry))
+        stable = stable_step(system, geometry.q)
         settings = settings.replace(step=min(settings.step, stable))
     alone, each = _COST[settings.method]
     return step_count(problem.between_frames, settings) * (alone + each * problem.rod.vertices)
 
 
-def _fields(geometry: Geometry, system: System, rod: RodBody, states: list[State]) -> dict[str, Field]:
-    q = np.array([state.q for state in states]).reshape(len(states), -1, len(DOFS))
-    v = np.array([state.v for state in states]).reshape(q.shape)
-    start = reference(geometry)
-    strain = np.array([rod.energy(state.q) for state in states])
-    loaded = [body_at(system, s).energy(s.q) - system.load @ (s.q - start) for s in states]
-    momenta = np.array([rigid_fields(s.q) @ band_product(system.mass, s.v) for s in states])
-    moving, vector = ("time", "vertex", "axis"), ("vertex", "axis")
+def _fields(geometry: Geometry, system: MechanicalSystem, states: list[State]) -> dict[str, Field]:
+    vectors = PLANAR.split(np.array([state.q for state in states]))
+    rates = PLANAR.split(np.array([state.v for state in states]))
+    loads = [
+        system.nonlinear_load_energy(s.q, s.history) - system.dead_load @ (s.q - system.space.reference)
+        for s in states
+    ]
+    momenta = np.array(
+        [system.space.rigid_motions(s.q) @ band_product(system.inertia, s.v) for s in states]
+    )
+    moving, vector, winding = ("time", "vertex", "axis"), ("vertex", "axis"), _winding(system)
     at_times = {
         "time": np.array([state.time for state in states]),
-        "first_angle": np.array([state.angle for state in states]),
+        "first_angle": np.array([state.history[winding][0] for state in states]),
         "kinetic_energy": np.array([kinetic_energy(system, state) for state in states]),
-        "strain_energy": strain,
-        "load_potential": np.array(loaded) - strain,
+        "strain_energy": np.array([system.internal.energy(state.q) for state in states]),
+        "load_potential": np.array(loads),
         "dissipated_energy": np.array([state.dissipated for state in states]),
         "support_work": np.array([state.driven for state in states]),
         "angular_momentum": momenta[:, 2],
     }
     fields: dict[str, Field] = {name: (("time",), values) for name, values in at_times.items()}
+    internal = np.array(
+        [np.concatenate([*s.history[:winding], *s.history[winding + 1 :]]) for s in states]
+    )
+    if internal.size:
+        fields["internal_variables"] = (("time", "internal"), internal)
     return fields | {
         "xi": (("vertex",), geometry.arc_length),
         "x_ref": (vector, geometry.X),
         "d_ref": (vector, geometry.D),
-        "x": (moving, q[..., :2]),
-        "d": (moving, q[..., 2:]),
-        "x_rate": (moving, v[..., :2]),
-        "d_rate": (moving, v[..., 2:]),
+        "x": (moving, vectors[:, :, 0]),
+        "d": (moving, vectors[:, :, 1]),
+        "x_rate": (moving, rates[:, :, 0]),
+        "d_rate": (moving, rates[:, :, 1]),
         "momentum": (("time", "axis"), momenta[:, :2]),
     }

@@ -15,21 +15,14 @@ from cosserat.exact import beams
 from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.checkpoints import CheckpointedRun, joined, resumed
-from cosserat.rods.energies.reissner_reference import keeping_volume
-from cosserat.rods.kinematics import (
-    AXES,
-    Geometry,
-    free_motions,
-    reference,
-    rigid_fields,
-    rigid_motions,
-    unwrapped_angles,
-)
-from cosserat.rods.problem import Direction, RodProblem, unit_vector
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.naming import Direction, unit_vector
+from cosserat.rods.problem import RodProblem
+from cosserat.rods.reference import Geometry
 from cosserat.solution import Solution
-from cosserat.solvers.energy_momentum import unwrap
-from cosserat.solvers.integrate import IntegratorSettings, State, System
+from cosserat.solvers.integrate import IntegratorSettings, State
 from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
+from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
 
@@ -51,6 +44,8 @@ class RodMotion(RodProblem):
     """A rod moving from a start, perhaps damped, under dead loads."""
 
     kind: Literal["rod motion"] = "rod motion"
+    in_increments: ClassVar[bool] = False
+    always: ClassVar[tuple[str, ...]] = ("couples",)
     thinned: ClassVar[Mapping[str, int]] = {"time": 40}
     start: Start = Start()
     duration: Annotated[float, Quantity("s", above=0)]
@@ -83,29 +78,15 @@ class RodMotion(RodProblem):
         """Time from one frame to the next [s]."""
         return self.duration / self.frames
 
-    def system(self, geometry: Geometry) -> System:
-        """What moves: body, mass, loads, supports and drag."""
-        constrained = self.constrained().ravel()
-        at_rest = System(
-            self.body(geometry),
-            self.mass(geometry),
-            self.loads(geometry).ravel(),
-            constrained,
-            damping_rate=0.0,
-            translations=np.empty((0, constrained.size))
-            if constrained.any()
-            else rigid_fields(reference(geometry))[:2],
-            drive=self.drive(geometry)
-            if self.prescribed_displacements or self.prescribed_rotations
-            else None,
-        )
+    def system(self, geometry: Geometry, *, displacements: bool = False) -> MechanicalSystem:
+        """The rod with its loads, constraints, mass and damping."""
+        system = super().system(geometry, displacements=displacements)
         if not self.damping:
-            return at_rest
-        unloaded = replace(at_rest, body=self.rod.body(geometry))
+            return system
         lowest = first_elastic_frequency(
-            unloaded, reference(geometry), anchored=self._anchored(geometry)
+            system.unloaded(), system.space.reference, anchored=self._anchored(geometry)
         )
-        return replace(at_rest, damping_rate=2 * self.damping * lowest)
+        return replace(system, damping_rate=2 * self.damping * lowest)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
         """The lowest natural frequencies and shapes of the unloaded rod about its reference configuration.
@@ -115,13 +96,13 @@ class RodMotion(RodProblem):
         UnstableError : small motions about it grow.
         """
         geometry = self.rod.geometry()
-        unloaded = replace(self.system(geometry), body=self.rod.body(geometry))
-        return modes(unloaded, reference(geometry), count, name, anchored=self._anchored(geometry))
+        system = self.system(geometry)
+        rest = system.space.reference
+        return modes(system.unloaded(), rest, count, name, anchored=self._anchored(geometry))
 
     def _anchored(self, geometry: Geometry) -> bool:
         """Whether no rigid motion is left free."""
-        start = np.hstack([geometry.X, geometry.D])
-        return bool((free_motions(start, self.constrained()) == 0).all())
+        return not PLANAR.free_motions(geometry.q, self.constrained().ravel()).any()
 
     def begin(self) -> State:
         """The state at time zero."""
@@ -132,17 +113,18 @@ class RodMotion(RodProblem):
             turn = np.arctan(self.start.amplitude * slope)
             X[:, 1] += self.start.amplitude * shape
             D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
-            if self.body(geometry).stiff_volume:
-                D = keeping_volume(geometry, X, D, self.rod.lateral_constraint)
-        q = np.where(self.constrained(), np.hstack([geometry.X, geometry.D]), np.hstack([X, D]))
-        v = np.zeros_like(q)
-        v[:, : len(AXES)] = self.start.speed * unit_vector(self.start.along)
-        v += self.start.spin * rigid_motions(q - np.hstack([q[0, :2], 0.0, 0.0]))[2]
-        v[self.constrained()] = 0.0
-        place, rate, _ = self.drive(geometry)(0.0)
-        start = q.ravel() + place
-        upright = unwrapped_angles(geometry.D)[0]
-        return State(start, v.ravel() + rate, angle=unwrap(start[3], start[2], upright))
+            D = self.rod.strain_energy.shaped(self.rod, geometry, X, D)
+        system, constrained = super().system(geometry, displacements=False), self.constrained().ravel()
+        q = np.where(constrained, geometry.q, np.hstack([X, D]).ravel())
+        v = np.zeros((self.rod.vertices, PLANAR.per_vertex))
+        v[:, : PLANAR.dimension] = self.start.speed * unit_vector(self.start.along)
+        pivot = np.zeros_like(v)
+        pivot[:, : PLANAR.dimension] = q[: PLANAR.dimension]
+        v = v.ravel() + self.start.spin * PLANAR.rigid_motions(q - pivot.ravel())[2]
+        v[constrained] = 0.0
+        place, rate, _ = system.constraints.at_time(0.0)
+        start = q + place
+        return State(start, v + rate, system.committed(start, system.history))
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """The motion at its frames; with a store of parts it resumes where an earlier run was interrupted.
@@ -157,7 +139,7 @@ class RodMotion(RodProblem):
         for number in range(course.parts):
             part = run.checkpoints.load(number) if run.checkpoints else None
             if part is not None:
-                state = resumed(part)
+                state = resumed(part, course.system)
             else:
                 part, state, stopped = course.part(number, state)
                 if run.checkpoints and part.fields:

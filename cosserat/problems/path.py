@@ -14,8 +14,9 @@ from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.static import check_supports
-from cosserat.rods.kinematics import AXES, Geometry
+from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.problem import RodProblem
+from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.solution import Field, Solution
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
@@ -47,11 +48,11 @@ class RodPath(RodProblem):
 
     @model_validator(mode="after")
     def _is_consistent(self) -> Self:
-        if self.rod.calibration is not None:
+        if not self.rod.strain_energy.far:
             raise PydanticCustomError(
                 "energy", "needs rod.energy = 'consistent'; the published rod has no paths"
             )
-        if self.swings:
+        if self.oscillates:
             raise PydanticCustomError(
                 "static",
                 "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but a path "
@@ -68,9 +69,9 @@ class RodPath(RodProblem):
         NotConvergedError : the path could not be followed; the error says how far, and holds the last state.
         """
         geometry = self.rod.geometry()
-        start = np.hstack([geometry.X, geometry.D])
-        check_supports(start, self.constrained(), name)
-        solver = EquilibriumSolver(self.loaded(geometry), self.newton, name)
+        system = self.system(geometry)
+        check_supports(geometry.q, system.constrained, name)
+        solver = EquilibriumSolver(system, self.newton, name)
         solver.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
         arc = ArcLengthSettings(
             self.arc.first,
@@ -82,16 +83,16 @@ class RodPath(RodProblem):
         )
         points: list[Equilibrium] = []
         try:
-            for point in trace_path(solver, unloaded(solver, np.zeros(start.size)), arc):
-                q = start + point.q.reshape(start.shape)
+            for point in trace_path(solver, unloaded(solver), arc):
+                x, d = _placed(geometry, point)
                 where = f"{name}, {point.factor:.4g} of the load"
-                check_crossing(geometry, q[:, :2], q[:, 2:], self.rod.below, where)
+                check_crossing(geometry, x, d, self.rod.below, where)
                 points.append(point)
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _solution(geometry, start, points, solver, self.rod.warnings())
+                error.reached = _solution(geometry, points, solver, self.rod.warnings())
             raise
-        return _solution(geometry, start, points, solver, self.rod.warnings())
+        return _solution(geometry, points, solver, self.rod.warnings())
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -104,14 +105,24 @@ class RodPath(RodProblem):
         )
 
 
+def _placed(geometry: Geometry, point: Equilibrium) -> tuple[Array, Array]:
+    """Vertices and directors, (N, 2) each."""
+    vectors = PLANAR.split(geometry.q + point.q)
+    return vectors[:, 0], vectors[:, 1]
+
+
+def _energy(solver: EquilibriumSolver, point: Equilibrium) -> float:
+    """Strain energy and, at the load factor, that of the loads that are not dead [J]."""
+    loads = solver.system.nonlinear_load_energy(point.q, point.history)
+    return solver.system.internal.energy(point.q) + point.factor * loads
+
+
 def _solution(
-    geometry: Geometry,
-    start: Array,
-    points: list[Equilibrium],
-    solver: EquilibriumSolver,
-    warnings: list[str],
+    geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver, warnings: list[str]
 ) -> Solution:
-    q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
+    x, d = (
+        np.array(parts) for parts in zip(*(_placed(geometry, point) for point in points), strict=True)
+    )
     along, vector = ("point",), ("vertex", "axis")
     fields: dict[str, Field] = {
         "load_factor": (along, np.array([point.factor for point in points])),
@@ -119,9 +130,9 @@ def _solution(
         "xi": (("vertex",), geometry.arc_length),
         "x_ref": (vector, geometry.X),
         "d_ref": (vector, geometry.D),
-        "x": ((*along, *vector), q[..., :2]),
-        "d": ((*along, *vector), q[..., 2:]),
-        "potential": (along, np.array([point.energy for point in points])),
+        "x": ((*along, *vector), x),
+        "d": ((*along, *vector), d),
+        "potential": (along, np.array([_energy(solver, point) for point in points])),
     }
     statistics = {
         "points": len(points),
@@ -129,9 +140,9 @@ def _solution(
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*solver.warnings(), *warnings, *coarse(q[..., 2:])]
+    warnings = [*solver.warnings(), *warnings, *coarse(d)]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"
         )
-    return Solution(fields, statistics, {"axis": AXES}, tuple(warnings))
+    return Solution(fields, statistics, {"axis": PLANAR.axes}, tuple(warnings))

@@ -13,18 +13,16 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.problem import ALONE, Run
-from cosserat.rods.energies.hemingway_kernel import TERMS
-from cosserat.rods.energies.reissner import TERMS as PARTS
-from cosserat.rods.energies.reissner import ConsistentRod
-from cosserat.rods.kinematics import AXES, DOFS, Geometry, edge_shear, free_motions, strains
-from cosserat.rods.loaded_rod import LoadedRod
+from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.problem import RodProblem
+from cosserat.rods.reference import Geometry, strains
 from cosserat.rods.resolution import check_crossing, coarse
+from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.incremental import solve_full_load
-from cosserat.solvers.integrate import System
 from cosserat.solvers.modes import Modes, modes
+from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
 _MOTIONS = ("translation along E3", "translation along E2", "rotation")
@@ -37,8 +35,8 @@ class RodStatics(RodProblem):
     newton: NewtonSettings = NewtonSettings()
 
     @model_validator(mode="after")
-    def _nothing_swings(self) -> Self:
-        if self.swings:
+    def _nothing_oscillates(self) -> Self:
+        if self.oscillates:
             raise PydanticCustomError(
                 "static",
                 "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but a "
@@ -56,9 +54,9 @@ class RodStatics(RodProblem):
         CrossingError : neighbouring sections of the equilibrium cross.
         """
         geometry = self.rod.geometry()
-        loaded = self.loaded(geometry)
-        point, solver = self.led_to(geometry, loaded, name)
-        found = _solution(geometry, loaded, point, solver)
+        system = self.system(geometry)
+        point, solver = self.equilibrium(geometry, system, name)
+        found = _solution(self.rod, geometry, point, solver)
         check_crossing(geometry, found["x"], found["d"], self.rod.below, name)
         return replace(found, warnings=(*solver.warnings(), *self.rod.warnings(), *coarse(found["d"])))
 
@@ -79,47 +77,33 @@ class RodStatics(RodProblem):
         UnstableError : there is one, but small motions about it grow.
         """
         geometry = self.rod.geometry()
-        loaded = self.loaded(geometry)
-        point, _ = self.led_to(geometry, loaded, name)
-        at_rest = point.q + loaded.reference.ravel()
-        return modes(self.system(geometry), at_rest, count, name, anchored=True)
+        system = self.system(geometry)
+        point, _ = self.equilibrium(geometry, system, name)
+        return modes(system, point.q, count, name, anchored=True, history=point.history)
 
-    def system(self, geometry: Geometry) -> System:
-        """The rod under its loads as something that may move."""
-        load, constrained = self.loads(geometry).ravel(), self.constrained().ravel()
-        return System(
-            self.body(geometry),
-            self.mass(geometry),
-            load,
-            constrained,
-            0.0,
-            np.empty((0, constrained.size)),
-        )
-
-    def led_to(
-        self, geometry: Geometry, loaded: LoadedRod, name: str
+    def equilibrium(
+        self, geometry: Geometry, system: MechanicalSystem, name: str
     ) -> tuple[Equilibrium, EquilibriumSolver]:
         """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""
-        check_supports(loaded.reference, self.constrained(), name)
-        solver = EquilibriumSolver(loaded, self.newton, name)
+        check_supports(geometry.q, system.constrained, name)
+        solver = EquilibriumSolver(system, self.newton, name)
         try:
-            return solve_full_load(solver, np.zeros_like(loaded.dead)), solver
+            return solve_full_load(solver), solver
         except NotConvergedError as error:
-            if error.state is not None:
-                last = solver.correct(error.state, error.factor)
-                assert last is not None  # it was one
-                found = _solution(geometry, loaded, last, solver)
+            last = error.state
+            if last is not None:
+                found = _solution(self.rod, geometry, last, solver)
                 reached = {"load_factor_reached": last.factor}
                 error.reached = replace(found, statistics=dict(found.statistics) | reached)
             raise
 
 
 def check_supports(q: Array, constrained: NDArray[np.bool_], name: str) -> None:
-    """Raise UnsupportedRodError if a rigid motion moves no held number; q, held : (N, 4)."""
+    """Raise UnsupportedRodError if a rigid motion at q moves no constrained DOF; both (4 N,)."""
     left = [
         motion
-        for motion, share in zip(_MOTIONS, free_motions(q, constrained), strict=True)
-        if share > 0.1
+        for motion, fraction in zip(_MOTIONS, PLANAR.free_motions(q, constrained), strict=True)
+        if fraction > 0.1
     ]
     if left:
         raise UnsupportedRodError(
@@ -128,27 +112,17 @@ def check_supports(q: Array, constrained: NDArray[np.bool_], name: str) -> None:
         )
 
 
-def _solution(
-    geometry: Geometry, loaded: LoadedRod, point: Equilibrium, solver: EquilibriumSolver
-) -> Solution:
-    load = point.factor * loaded.dead.reshape(loaded.reference.shape)
-    u = point.q.reshape(load.shape)
-    x, d = np.split(u + loaded.reference, [len(AXES)], axis=1)
+def _solution(rod: Rod, geometry: Geometry, point: Equilibrium, solver: EquilibriumSolver) -> Solution:
+    system, shape = solver.system, (rod.vertices, PLANAR.per_vertex)
+    load = point.factor * system.dead_load.reshape(shape)
+    u = point.q.reshape(shape)
+    x, d = np.split(u + geometry.q.reshape(shape), [PLANAR.dimension], axis=1)
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
-    body = loaded.coupled(point.factor)
-    terms = body.energy_terms(point.q + loaded.base)
-    labels = {"axis": AXES, "dof": DOFS}
-    own: dict[str, Field]
-    if isinstance(body, ConsistentRod):
-        labels["part"] = PARTS
-        own = {
-            "shear": (("edge",), edge_shear(x + body.offset * d, d)),
-            "energy_parts": (("part",), terms),
-        }
-    else:
-        labels["term"] = TERMS
-        own = {"theta": (("vertex",), measured.theta), "energy": (("term",), terms)}
+    terms = system.internal.energy_terms(point.q)
+    coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
+    more, own = rod.strain_energy.fields(rod, geometry, x, d, terms, coupled)
+    labels = {"axis": PLANAR.axes, "dof": PLANAR.dofs} | more
     vector, force = ("vertex", "axis"), ("vertex", "dof")
     fields: dict[str, Field] = own | {
         "xi": (("vertex",), arc),
@@ -157,15 +131,15 @@ def _solution(
         "d_ref": (vector, geometry.D),
         "x": (vector, x),
         "d": (vector, d),
-        "u": (vector, u[:, : len(AXES)]),
-        "delta": (vector, u[:, len(AXES) :]),
+        "u": (vector, u[:, : PLANAR.dimension]),
+        "delta": (vector, u[:, PLANAR.dimension :]),
         "mu_edge": (("edge",), measured.mu_edge),
         "mu": (("vertex",), measured.mu),
         "lam": (("vertex",), measured.lam),
         "phi": (("vertex",), measured.phi),
         "kappa": (("vertex",), measured.kappa),
         "applied_force": (force, load),
-        "support_force": (force, point.reaction.reshape(load.shape)),
+        "support_force": (force, point.reaction.reshape(shape)),
     }
     statistics: dict[str, int | float] = {
         "iterations": solver.iterations,

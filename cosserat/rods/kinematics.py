@@ -1,219 +1,130 @@
-"""The discrete planar directed rod: its reference geometry and lumped properties, sections 3.3 and 3.4.
+"""The layout of a rod: N vertices, each a position and its directors, all vectors of one space.
 
-Components are taken in the plane of motion in the order (E3, E2): along the straight rod, then up.  A positive angle
-turns E3 towards E2, which is the sign that eqs. (3.3.18) and (3.3.26) give.
+Names of degrees of freedom (DOFs), rigid motions and the band of the mass follow from it, in the plane as in space.
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-
-AXES = ("E3", "E2")
-"""Components of every planar vector, in the order of eq. (3.3.42)."""
-DOFS = ("x3", "x2", "d3", "d2")
-"""The four numbers of a vertex, eq. (3.3.42)."""
+Mask = NDArray[np.bool_]
+T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True)
-class Lumped:
-    """Section and material averaged over the parts round the vertices or over the edges, Table 3.1.
+class Kinematics:
+    """DOFs of shape (N, m, d), flat (N m d,): N vertices, m vectors each, d components of each.
 
-    area [m^2], second_moment [m^4], young [Pa], shear [Pa], poisson [1]: arrays of shape (N,) for vertices, (N - 1,)
-    for edges.
+    axes : names of the d components.  vectors : names of the m vectors: the position, then the directors.
     """
 
-    area: Array
-    second_moment: Array
-    young: Array
-    shear: Array
-    poisson: Array
+    axes: tuple[str, ...]
+    vectors: tuple[str, ...]
 
-    @classmethod
-    def uniform(
-        cls, count: int, *, area: float, second_moment: float, young: float, poisson: float
-    ) -> Lumped:
-        """The same isotropic section at every one of `count` vertices or edges."""
-        shear = young / (2 * (1 + poisson))
-        return cls(*(np.full(count, value) for value in (area, second_moment, young, shear, poisson)))
+    @property
+    def dimension(self) -> int:
+        """d."""
+        return len(self.axes)
 
+    @property
+    def per_vertex(self) -> int:
+        """m d, the number of DOFs of a vertex."""
+        return len(self.vectors) * len(self.axes)
 
-@dataclass(frozen=True)
-class Geometry:
-    """A reference configuration.
+    @property
+    def dofs(self) -> tuple[str, ...]:
+        """Names of the DOFs of a vertex: a vector and the digit of an axis."""
+        return tuple(f"{vector}{axis[-1]}" for vector in self.vectors for axis in self.axes)
 
-    X : (N, 2) centreline vertices [m].  D : (N, 2) directors, from the centreline to the lateral surface [m].
-    """
+    def split(self, q: NDArray[T]) -> NDArray[T]:
+        """Flat DOFs (..., N m d), or a mask of them, as vectors, (..., N, m, d)."""
+        return q.reshape(*q.shape[:-1], -1, len(self.vectors), len(self.axes))
 
-    X: Array
-    D: Array
+    def parts(self, q: Array) -> tuple[Array, Array]:
+        """Edges (N - 1, d) and directors (N (m - 1), d) at flat DOFs."""
+        vectors = self.split(q)
+        return np.diff(vectors[:, 0], axis=0), vectors[:, 1:].reshape(-1, self.dimension)
 
-    @classmethod
-    def straight(cls, vertices: int, length: float, director_length: float) -> Geometry:
-        """A straight rod along E3 from the origin with equal edges, eq. (3.3.1), its directors along E2."""
-        X = np.zeros((vertices, 2))
-        X[:, 0] = np.linspace(0.0, length, vertices)
-        D = np.zeros((vertices, 2))
-        D[:, 1] = director_length
-        return cls(X, D)
+    def rigid_motions(self, q: Array) -> Array:
+        """Velocities that deform nothing, at flat DOFs: shape (d + d (d - 1) / 2, N m d).
 
-    @classmethod
-    def arc(cls, vertices: int, length: float, director_length: Array, curvature: float) -> Geometry:
-        """A rod bent from the origin into an arc that turns from E3 towards E2, its directors along b, eq. (3.3.25).
-
-        length is that of the polygon, whose vertices lie on a circle.  The directors are orthogonal to the vertex
-        tangents, so that no shear is intrinsic.
+        Translations along the axes, then rotations about the origin, from the first axis of a pair towards the second.
         """
-        edge = length / (vertices - 1)
-        turn = 2 * np.arcsin(curvature * edge / 2)
-        angles = turn * (np.arange(vertices - 1) + 0.5)
-        steps = edge * np.column_stack([np.cos(angles), np.sin(angles)])
-        X = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
-        tangents = vertex_tangents(X)
-        return cls(X, director_length[:, None] * np.column_stack([-tangents[:, 1], tangents[:, 0]]))
+        vectors = self.split(q)
+        pairs = list(itertools.combinations(range(self.dimension), 2))
+        fields = np.zeros((self.dimension + len(pairs), *vectors.shape))
+        for axis in range(self.dimension):
+            fields[axis, :, 0, axis] = 1.0
+        for field, (a, b) in zip(fields[self.dimension :], pairs, strict=True):
+            field[..., a], field[..., b] = -vectors[..., b], vectors[..., a]
+        return fields.reshape(fields.shape[0], -1)
 
-    @property
-    def edge_length(self) -> Array:
-        """||E||, shape (N - 1,) [m], eq. (3.3.4)."""
-        return lengths(np.diff(self.X, axis=0))
+    def free_motions(self, q: Array, constrained: Mask) -> Array:
+        """How far each rigid motion at flat DOFs moves no constrained DOF, from 0 to 1; constrained (N m d,)."""
+        motions = self.rigid_motions(q)
+        at_supports = motions[:, constrained] / np.abs(motions).max(axis=1)[:, None]
+        _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
+        missing = motions.shape[0] - stretch.size
+        free = directions[np.append(stretch, np.zeros(missing)) < 1e-10]
+        left: Array = np.abs(free).max(axis=0, initial=0.0)
+        return left
 
-    @property
-    def director_length(self) -> Array:
-        """||D||, shape (N,) [m]."""
-        return lengths(self.D)
+    def mass_band(self, own: Array, shared: Array, inertia: Array) -> Array:
+        """The mass matrix as a symmetric band, (N m d, (2 m - 1) d + 1).
 
-    @property
-    def voronoi_length(self) -> Array:
-        """Reference length of the part round each vertex, shape (N,) [m], eqs. (3.3.10)-(3.3.11)."""
-        return to_vertices(self.edge_length)
-
-    @property
-    def arc_length(self) -> Array:
-        """Reference arc length of each vertex, shape (N,) [m]."""
-        return np.concatenate([[0.0], np.cumsum(self.edge_length)])
-
-
-def to_vertices(edge_lengths: Array) -> Array:
-    """Voronoi lengths of a polygon from its edge lengths: (N - 1,) -> (N,), eqs. (3.3.10)-(3.3.14).
-
-    They add up to the length of the polygon, eq. (3.3.12).
-    """
-    vertex = np.zeros(edge_lengths.size + 1)
-    vertex[:-1] += edge_lengths / 2
-    vertex[1:] += edge_lengths / 2
-    return vertex
+        own : (N,) masses of the vertices [kg].  shared : (N - 1,) masses that couple neighbours [kg].
+        inertia : (m, m) what they count between two vectors of a vertex, or of neighbours [1].
+        """
+        m, d = len(self.vectors), self.dimension
+        band = np.zeros((own.size, m, d, (2 * m - 1) * d + 1))
+        for a, b in itertools.product(range(m), repeat=2):
+            if b >= a:
+                band[:, a, :, (b - a) * d] = inertia[a, b] * own[:, None]
+        for a, b in itertools.product(range(m), repeat=2):
+            band[:-1, a, :, (m + b - a) * d] = inertia[a, b] * shared[:, None]
+        return band.reshape(own.size * m * d, -1)
 
 
-@dataclass(frozen=True)
-class Strains:
-    """The strain measures of section 3.3 in one configuration.
-
-    mu_edge : (N - 1,) stretch of the edges, eq. (3.3.19).  mu : (N,) of the vertices, eq. (3.3.20).
-    lam : (N,) stretch of the sections, eq. (3.3.21).
-    phi : (N,) turning angle [rad], eqs. (3.3.15)-(3.3.18).
-    kappa : (N,) curvature [1/m], eq. (3.3.23), one over the radius of eq. (3.3.22).
-    theta : (N,) shear angle [rad], eqs. (3.3.24)-(3.3.26).
-    """
-
-    mu_edge: Array
-    mu: Array
-    lam: Array
-    phi: Array
-    kappa: Array
-    theta: Array
+PLANAR = Kinematics(("E3", "E2"), ("x", "d"))
+"""A rod in the plane of E3 and E2, eq. (3.3.42)."""
+SPATIAL = Kinematics(("E1", "E2", "E3"), ("x", "d1_", "d2_"))
+"""A rod in space with two directors, as in Chapter 1; no energy of it is here yet."""
 
 
-def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
-    """Measure a configuration x, d, each of shape (N, 2) [m]."""
-    e = np.diff(x, axis=0)
-    length = lengths(e)
-    tangent = vertex_tangents(x)
-    bishop = np.column_stack([-tangent[:, 1], tangent[:, 0]])  # b = t x E1, eq. (3.3.25)
-    voronoi = to_vertices(length)
-    # between edges, whose angle is that of their unit tangents (3.3.5); at the ends between the tangents of the
-    # vertices, eqs. (3.3.16)-(3.3.17)
-    before = np.vstack([tangent[:1], e])
-    after = np.vstack([e, tangent[-1:]])
-    before[0], after[0] = tangent[0], tangent[1]
-    before[-1], after[-1] = tangent[-2], tangent[-1]
-    phi = signed_angle(before, after)
-    return Strains(
-        mu_edge=length / geometry.edge_length,
-        mu=voronoi / geometry.voronoi_length,
-        lam=lengths(d) / geometry.director_length,
-        phi=phi,
-        kappa=2 / voronoi * np.tan(phi / 2),
-        theta=signed_angle(bishop, d),
+def rotation_rates(vectors: Array, rates: Array) -> Array:
+    """How fast vectors (k, d) rotate as they change at rates (k, d): (k, d (d - 1) / 2) [rad]."""
+    square = (vectors**2).sum(axis=1)
+    pairs = itertools.combinations(range(vectors.shape[1]), 2)
+    turning = [(vectors[:, a] * rates[:, b] - vectors[:, b] * rates[:, a]) / square for a, b in pairs]
+    return np.column_stack(turning)
+
+
+def stretch_rates(vectors: Array, rates: Array) -> Array:
+    """How fast vectors (k, d) stretch as they change at rates (k, d), as fractions of their lengths: (k,)."""
+    rate: Array = (vectors * rates).sum(axis=1) / (vectors**2).sum(axis=1)
+    return rate
+
+
+def rotated(vectors: Array, angles: Array) -> Array:
+    """Vectors (k, d) rotated by what `rotation_rates` gives, (k, d (d - 1) / 2) [rad]."""
+    if vectors.shape[1] == 2:
+        c, s = np.cos(angles[:, 0]), np.sin(angles[:, 0])
+        return np.column_stack(
+            [c * vectors[:, 0] - s * vectors[:, 1], s * vectors[:, 0] + c * vectors[:, 1]]
+        )
+    axes = np.column_stack(
+        [angles[:, 2], -angles[:, 1], angles[:, 0]]
+    )  # pairs 12, 13, 23 -> axes 3, -2, 1
+    angle = np.linalg.norm(axes, axis=1)[:, None]
+    unit = axes / np.maximum(angle, np.finfo(float).tiny)
+    along = (unit * vectors).sum(axis=1)[:, None] * unit
+    turned: Array = (
+        np.cos(angle) * vectors + np.sin(angle) * np.cross(unit, vectors) + (1 - np.cos(angle)) * along
     )
-
-
-def vertex_tangents(x: Array) -> Array:
-    """Unit tangents at the vertices, shape (N, 2), eqs. (3.3.7)-(3.3.9)."""
-    chord = np.empty_like(x)
-    chord[1:-1] = x[2:] - x[:-2]
-    chord[0] = x[1] - x[0]
-    chord[-1] = x[-1] - x[-2]
-    return chord / lengths(chord)[:, None]
-
-
-def signed_angle(a: Array, b: Array) -> Array:
-    """Angle from a to b, positive from E3 towards E2: rows of (n, 2) arrays -> (n,) [rad]."""
-    angle: Array = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1))
-    return angle
-
-
-def unwrapped_angles(d: Array) -> Array:
-    """Polar angles of directors (N, 2), each within half a turn of the vertex before: (N,) [rad]."""
-    turns = np.concatenate([[np.arctan2(d[0, 1], d[0, 0])], signed_angle(d[:-1], d[1:])])
-    angles: Array = np.cumsum(turns)
-    return angles
-
-
-def edge_shear(x: Array, d: Array) -> Array:
-    """Angle of each edge against the normal of the mean of its two unit directors (3.3.6), shape (N - 1,) [rad]."""
-    unit = d / np.linalg.norm(d, axis=1)[:, None]
-    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
-    angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
-    return angle
-
-
-def lengths(vectors: Array) -> Array:
-    """Norms of the rows of an (n, 2) array: (n,)."""
-    norm: Array = np.hypot(vectors[:, 0], vectors[:, 1])
-    return norm
-
-
-def rigid_motions(q: Array) -> Array:
-    """The three velocity fields that do not deform, at q of shape (N, 4): shape (3, N, 4).
-
-    Translations along E3 and E2, and the rotation in the plane about the origin.
-    """
-    fields = np.zeros((3, *q.shape))
-    fields[0, :, 0] = 1.0
-    fields[1, :, 1] = 1.0
-    fields[2] = np.column_stack([-q[:, 1], q[:, 0], -q[:, 3], q[:, 2]])
-    return fields
-
-
-def reference(geometry: Geometry) -> Array:
-    """The DOFs of the reference configuration, shape (4 N,)."""
-    return np.hstack([geometry.X, geometry.D]).ravel()
-
-
-def rigid_fields(q: Array) -> Array:
-    """The rigid motions at q, shape (4 N,): two translations and the rotation about the origin, shape (3, 4 N)."""
-    return rigid_motions(q.reshape(-1, len(DOFS))).reshape(3, -1)
-
-
-def free_motions(q: Array, constrained: NDArray[np.bool_]) -> Array:
-    """How much of the three rigid motions moves no held number, each from 0 to 1: q, held of shape (N, 4) -> (3,)."""
-    motions = rigid_motions(q)
-    at_supports = motions[:, constrained] / np.abs(motions).max(axis=(1, 2))[:, None]
-    _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
-    free = directions[np.append(stretch, np.zeros(3 - stretch.size)) < 1e-10]
-    left: Array = np.abs(free).max(axis=0, initial=0.0)
-    return left
+    return turned

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
 from cosserat.errors import CrossingError
-from cosserat.rods.kinematics import Geometry
+from cosserat.rods.reference import Geometry
 from cosserat.solvers.banded import Band, Mask, Vector, band_product
 
 Array = NDArray[np.float64]

@@ -3,39 +3,36 @@
 from __future__ import annotations
 
 import itertools
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.rods.energies import compliance
+from cosserat.parameters import Count, OneOf, Parameters, Quantity
+from cosserat.rods.energies import ENERGIES, energy
 from cosserat.rods.energies.compliance import LateralConstraint
-from cosserat.rods.energies.hemingway import PublishedRod
+from cosserat.rods.energies.energy import Energy
 from cosserat.rods.energies.hemingway_stiffness import (
     Calibration,
     EndSections,
     IntrinsicCurvature,
     PoissonCoupling,
-    stiffnesses,
 )
-from cosserat.rods.energies.reissner import ConsistentRod
-from cosserat.rods.energies.reissner_reference import coefficients
-from cosserat.rods.kinematics import DOFS, Geometry
-from cosserat.rods.variation import Station, edge_masses, lump, mass_share, mean, vertex_cuts
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.naming import Vertex
+from cosserat.rods.reference import Geometry
+from cosserat.rods.variation import Station, mass_share, mean, vertex_cuts
 from cosserat.rods.variation import share as share_of
 
 Array = NDArray[np.float64]
-_INCOMPRESSIBLE = 0.49  # least Poisson's ratio that may be called so
-RodBody = PublishedRod | ConsistentRod
 
 
 class Rod(Parameters):
     """A rod of rectangular sections, section 3.5: straight and homogeneous unless it is said to be otherwise."""
 
-    energy: Literal["published", "consistent"] = "published"
+    energy: Annotated[str, OneOf(ENERGIES)] = "published"
     """The thesis's energy (3.4.11) with its calibration, or the one that converges, of `rods.energies.reissner`."""
     vertices: Annotated[int, Count("N", "3.3.1", at_least=3)]
     length: Annotated[float, Quantity("m", r"\ell_0", "3.3.1", above=0)]
@@ -69,30 +66,25 @@ class Rod(Parameters):
 
     @model_validator(mode="after")
     def _sound(self) -> Self:
-        if (self.calibration is None) == (self.energy == "published"):
-            fault = "needs a calibration" if self.calibration is None else "takes no calibration"
-            raise PydanticCustomError(
-                "calibration",
-                f"has energy = '{self.energy}', which {fault}; give the one, or calibration = 'none'",
-            )
-        if self.energy == "published" and (self.lateral_constraint != "free" or self.barrier):
-            raise PydanticCustomError(
-                "section",
-                "has 'lateral_constraint' or 'barrier', which only energy = 'consistent' knows; leave them out",
-            )
-        ratios = [self.poisson * station.poisson for station in self.stations] or [self.poisson]
+        for other in ENERGIES:
+            options = energy(other).options
+            given = [
+                option for option in options if getattr(self, option) != Rod.model_fields[option].default
+            ]
+            if other != self.energy and given:
+                raise PydanticCustomError(
+                    "energy",
+                    f"has {' and '.join(map(repr, given))}, which only energy = '{other}' knows; "
+                    "leave it out (calibration = 'none' takes away one that 'like' brought in)",
+                )
+        ratios = self.poisson_ratios
         if not -1 < min(ratios) <= max(ratios) < 0.5:
             raise PydanticCustomError(
                 "range",
                 f"'stations' take Poisson's ratio from {min(ratios):g} to {max(ratios):g}; "
                 "keep it above -1 and below 0.5",
             )
-        if self.lateral_constraint == "incompressible" and min(ratios) < _INCOMPRESSIBLE:
-            raise PydanticCustomError(
-                "section",
-                f"has lateral_constraint = 'incompressible' and 'poisson' = {min(ratios):g}; it must be "
-                f"{_INCOMPRESSIBLE} or more",
-            )
+        self.strain_energy.check(self)
         places = [station.at for station in self.stations]
         if places != sorted(places):
             raise PydanticCustomError(
@@ -109,6 +101,16 @@ class Rod(Parameters):
                 "'curvature' turns each edge by more than a radian; use more 'vertices' or a smaller curvature",
             )
         return self
+
+    @property
+    def strain_energy(self) -> Energy:
+        """The energy that it names."""
+        return energy(self.energy)
+
+    @property
+    def poisson_ratios(self) -> list[float]:
+        """Poisson's ratio at its stations; at least one."""
+        return [self.poisson * station.poisson for station in self.stations] or [self.poisson]
 
     @property
     def area(self) -> float:
@@ -168,69 +170,14 @@ class Rod(Parameters):
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
 
-        That of the consistent rod is the mean of such a one and of the mass that straight edges have, shape (4 N, 7).
+        That of an energy with masses that couple neighbours has the shape (4 N, 7).
         """
-        if self.calibration is not None:
-            return self._mass_band(self.part_masses(geometry), np.zeros(self.vertices - 1))[:, :3]
-        edges = edge_masses(self.stations, self.line_density, geometry.arc_length)
-        own = np.append(edges.before, 0.0) + np.insert(edges.after, 0, 0.0)
-        return self._mass_band(own, edges.shared)
+        own, shared = self.strain_energy.masses(self, geometry)
+        inertia = np.array([[1.0, self.Y02], [self.Y02, self.Y22]])
+        coupled = shared if shared.size else np.zeros(own.size - 1)
+        band = PLANAR.mass_band(own, coupled, inertia)
+        return band if shared.size else band[:, : PLANAR.dimension + 1]
 
-    def _mass_band(self, own: Array, shared: Array) -> Array:
-        """Masses of vertices (N,) and between neighbours (N - 1,), times 1, Y02 and Y22, shape (4 N, 7)."""
-        first, second = self.Y02, self.Y22
-        band = np.zeros((own.size, len(DOFS), 7))
-        band[:, :2, 0], band[:, :2, 2], band[:, 2:, 0] = (
-            factor * own[:, None] for factor in (1.0, first, second)
-        )
-        band[:-1, :2, 4], band[:-1, :2, 6] = shared[:, None], first * shared[:, None]
-        band[:-1, 2:, 2], band[:-1, 2:, 4] = first * shared[:, None], second * shared[:, None]
-        return band.reshape(-1, 7)
-
-    def body(self, geometry: Geometry, couples: Array | None = None) -> RodBody:
-        """The elastic body and its couples, shape (N,) [N m].
-
-        The published energy takes the averages of Table 3.1 and I about the centreline, the consistent one the
-        compliances of its edges and I about the area centres.
-        """
-        arc = geometry.arc_length
-        if self.calibration is None:
-            stiffness = compliance.stiffnesses(
-                self.stations,
-                arc,
-                area=self.area,
-                second_moment=self.area * self.height**2 / 12,
-                young=self.young,
-                poisson=self.poisson,
-                shear_correction=self.shear_correction,
-                lateral_constraint=self.lateral_constraint,
-            )
-            return ConsistentRod(
-                coefficients(
-                    geometry,
-                    stiffness,
-                    np.zeros(self.vertices) if couples is None else couples,
-                    barrier=self.barrier,
-                    product=self.lateral_constraint == "incompressible",
-                    offset=self.Y02,
-                )
-            )
-        vertex, edge = lump(
-            self.stations,
-            arc,
-            area=self.area,
-            second_moment=self.second_moment,
-            young=self.young,
-            poisson=self.poisson,
-        )
-        stiff = stiffnesses(
-            geometry,
-            vertex,
-            edge,
-            self.shear_correction,
-            self.calibration,
-            self.end_sections,
-            self.poisson_coupling,
-            self.intrinsic_curvature,
-        )
-        return PublishedRod.of(stiff, geometry, couples)
+    def index(self, at: Vertex) -> int:
+        """The index of a vertex that a load or a constraint names."""
+        return {"first": 0, "last": self.vertices - 1}[at] if isinstance(at, str) else at

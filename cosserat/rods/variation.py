@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.parameters import Parameters, Quantity
-from cosserat.rods.kinematics import Lumped
+from cosserat.rods.reference import Lumped
 
 Array = NDArray[np.float64]
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)

@@ -15,17 +15,27 @@ Vector = NDArray[np.float64]
 Band = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+NO_BAND = np.empty((0, 1))
+"""A band without rows, where none is asked for."""
+
 
 @njit(cache=True)
-def constrain(band: Band, constrained: Mask) -> None:
-    """Uncouple the constrained DOFs in place: their rows and columns become zero, their diagonal positive."""
+def uncouple(band: Band, constrained: Mask) -> None:
+    """Make what couples the constrained DOFs zero in place, of a symmetric or skew-symmetric matrix."""
     n, width = band.shape
     for j in range(n):
-        if constrained[j]:
-            band[j, 0] = abs(band[j, 0]) or 1.0
         for k in range(1, min(width, n - j)):
             if constrained[j] or constrained[j + k]:
                 band[j, k] = 0.0
+
+
+@njit(cache=True)
+def constrain(band: Band, constrained: Mask) -> None:
+    """Uncouple the constrained DOFs in place, and make their diagonal positive."""
+    for j in range(band.shape[0]):
+        if constrained[j]:
+            band[j, 0] = abs(band[j, 0]) or 1.0
+    uncouple(band, constrained)
 
 
 @njit(cache=True)
@@ -43,15 +53,34 @@ def absolute_product(band: Band, x: Vector) -> Vector:
 
 
 @njit(cache=True)
-def band_product(band: Band, x: Vector) -> Vector:
-    """H x, shape (n,)."""
+def multiply(band: Band, x: Vector, y: Vector) -> None:
+    """Overwrite y with H x."""
     n, width = band.shape
-    y = np.zeros(n)
+    y[:] = 0.0
     for j in range(n):
         y[j] += band[j, 0] * x[j]
         for k in range(1, min(width, n - j)):
             y[j + k] += band[j, k] * x[j]
             y[j] += band[j, k] * x[j + k]
+
+
+@njit(cache=True)
+def band_product(band: Band, x: Vector) -> Vector:
+    """H x, shape (n,)."""
+    y = np.empty(x.size)
+    multiply(band, x, y)
+    return y
+
+
+@njit(cache=True)
+def skew_product(skew: Band, x: Vector) -> Vector:
+    """A x, shape (n,), of a skew-symmetric matrix whose entries below the diagonal are stored as those of a band."""
+    n, width = skew.shape
+    y = np.zeros(n)
+    for j in range(n):
+        for k in range(1, min(width, n - j)):
+            y[j + k] += skew[j, k] * x[j]
+            y[j] -= skew[j, k] * x[j + k]
     return y
 
 
@@ -73,6 +102,40 @@ def negative_eigenvalues(band: Band) -> int:
             for m in range(k, last):
                 work[j + k, m - k] -= factor * work[j, m]
     return count
+
+
+@njit(cache=True)
+def cholesky(band: Band) -> bool:
+    """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive."""
+    n, width = band.shape
+    for j in range(n):
+        if not band[j, 0] > 0.0:
+            return False
+        inverse = 1 / np.sqrt(band[j, 0])
+        band[j, 0] = inverse
+        last = min(width, n - j)
+        for k in range(1, last):
+            band[j, k] *= inverse
+        for k in range(1, last):
+            factor = band[j, k]
+            for m in range(k, last):
+                band[j + k, m - k] -= factor * band[j, m]
+    return True
+
+
+@njit(cache=True)
+def substitute(factor: Band, x: Vector) -> None:
+    """Overwrite a right-hand side with the solution."""
+    n, width = factor.shape
+    for j in range(n):
+        x[j] *= factor[j, 0]
+        for k in range(1, min(width, n - j)):
+            x[j + k] -= factor[j, k] * x[j]
+    for j in range(n - 1, -1, -1):
+        total = x[j]
+        for k in range(1, min(width, n - j)):
+            total -= factor[j, k] * x[j + k]
+        x[j] = total * factor[j, 0]
 
 
 def solve_positive(band: Band, right: Vector) -> Vector | None:

@@ -13,15 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosserat.errors import NotConvergedError
-from cosserat.solvers.banded import Vector, constrain, negative_eigenvalues, solve_positive
-from cosserat.solvers.equilibrium import (
-    SMALLEST,
-    Equilibrium,
-    EquilibriumSolver,
-    Loaded,
-    stalled,
-)
-from cosserat.solvers.indefinite import solve_any
+from cosserat.solvers.banded import Vector
+from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver, stalled
+from cosserat.solvers.system import ConfigurationSpace
 
 _BISECTION_TOLERANCE = 0.02  # share of the first arc to which a crossing of paths is closed in on
 _FACTOR_TOLERANCE = 0.005  # share of the factor to which a crossing is closed in on
@@ -69,7 +63,7 @@ def trace_path(
         the last point is its `state`.
     """
     yield point
-    body, origin, went_away, left = solver.body, None, False, 0
+    space, origin, went_away, left = solver.system.space, None, False, 0
     direction = _tangent(solver, point, None)
     ds = arc.first
     for _ in range(arc.count):
@@ -103,7 +97,7 @@ def trace_path(
             return
         _check_limit(solver, point, found, arc)
         if origin is not None:
-            distance = _distance(body, origin, found)
+            distance = _distance(space, origin, found)
             went_away = went_away or distance > _RETURN_DISTANCE * arc.first
             if went_away and distance < ds:
                 raise _returned(solver, origin, point)
@@ -163,8 +157,8 @@ def _at_end(
     solver: EquilibriumSolver, point: Equilibrium, found: Equilibrium, until: float
 ) -> Equilibrium:
     """The equilibrium at the end of the path, between two points of it; the second of them where there is none."""
-    share = (until - point.factor) / (found.factor - point.factor)
-    last = solver.correct(point.q + share * (found.q - point.q), until)
+    fraction = (until - point.factor) / (found.factor - point.factor)
+    last = solver.correct(point.q + fraction * (found.q - point.q), until, point.history)
     return found if last is None else last
 
 
@@ -193,9 +187,8 @@ def _sharp_turn(
     arc: ArcLengthSettings,
 ) -> tuple[Equilibrium, Equilibrium] | None:
     """A stable point where the body turns aside too sharply for arcs to follow, and an unstable one straight on."""
-    found = solver.correct(
-        point.q, point.factor + _BISECTION_TOLERANCE * arc.first * np.sign(direction[1])
-    )
+    beyond = point.factor + _BISECTION_TOLERANCE * arc.first * np.sign(direction[1])
+    found = solver.correct(point.q, beyond, point.history)
     return (point, found) if point.stable and found is not None and not found.stable else None
 
 
@@ -264,40 +257,40 @@ def _goes_on(solver: EquilibriumSolver, before: Equilibrium, found: Equilibrium)
     return _cosine(_tangent(solver, before, chord), chord) > _LEAST_COSINE
 
 
-def _norm(body: Loaded, q: Vector, step: Vector) -> float:
-    """Length of a step in reaches of the body."""
-    max_step_fraction = body.max_step_fraction(q, step)
-    return 1 / max_step_fraction if np.isfinite(max_step_fraction) else 0.0
+def _norm(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
+    """Length of a step, in steps as long as are safe."""
+    fraction = space.max_step_fraction(q, step)
+    return 1 / fraction if np.isfinite(fraction) else 0.0
 
 
-def _distance(body: Loaded, one: Equilibrium, other: Equilibrium) -> float:
-    """Distance of two points in reaches of the body and factors of the load."""
-    return float(np.hypot(_norm(body, one.q, other.q - one.q), other.factor - one.factor))
+def _distance(space: ConfigurationSpace, one: Equilibrium, other: Equilibrium) -> float:
+    """Distance of two points in steps as long as are safe and factors of the load."""
+    return float(np.hypot(_norm(space, one.q, other.q - one.q), other.factor - one.factor))
 
 
 def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | None:
     """Change of the DOFs with the factor at a point; None where the Hessian is singular."""
-    body = solver.body
-    body.assemble(point.q, point.factor, solver.gradient, solver.band)
-    rate = body.rate(point.q, point.factor, solver.band)
-    constrain(solver.band, body.constrained)
-    right = np.where(body.constrained, 0.0, -rate)
-    change = solve_positive(solver.band, right) if point.stable else solve_any(solver.band, right)
-    return (
-        None
-        if change is None
-        else np.where(body.constrained, body.prescribed_rate(point.factor), change)
-    )
+    system, tangent = solver.system, solver.tangent
+    system.assemble(point.q, point.history, point.factor, tangent)
+    rate = system.rate(point.factor, tangent)
+    tangent.constrain(system.constrained)
+    right = np.where(system.constrained, 0.0, -rate)
+    change = tangent.solve(right, positive=point.stable)
+    if change is None:
+        return None
+    return np.where(system.constrained, system.prescribed_rate(point.factor), change)
 
 
 def _tangent(
     solver: EquilibriumSolver, point: Equilibrium, before: tuple[Vector, float] | None
 ) -> tuple[Vector, float]:
     """Direction of the path at a point: change of DOFs and factor, of unit length, going on from before."""
-    body, change = solver.body, rate_with_load(solver, point)
+    system, change = solver.system, rate_with_load(solver, point)
     if change is None:
-        change = np.where(body.constrained, body.prescribed_rate(point.factor), np.zeros_like(point.q))
-    size = np.hypot(_norm(body, point.q, change), 1.0)
+        change = np.where(
+            system.constrained, system.prescribed_rate(point.factor), np.zeros_like(point.q)
+        )
+    size = np.hypot(_norm(system.space, point.q, change), 1.0)
     change, slope = change / size, 1.0 / size
     if before is not None and float(change @ before[0]) + slope * before[1] * _weight(before[0]) < 0:
         change, slope = -change, -slope
@@ -310,48 +303,48 @@ def _weight(tangent: Vector) -> float:
 
 
 def _corrected(
-    solver: EquilibriumSolver, point: Equilibrium, tangent: Vector, slope: float, ds: float, stray: float
+    solver: EquilibriumSolver,
+    point: Equilibrium,
+    direction: Vector,
+    slope: float,
+    ds: float,
+    stray: float,
 ) -> Equilibrium | None:
-    """The equilibrium with its factor on the plane across the tangent at an arc of ds; None beyond `stray` of there."""
-    body, constrained = solver.body, solver.body.constrained
-    q, factor = point.q + ds * tangent, point.factor + ds * slope
-    weight, last = _weight(tangent), np.inf
+    """The equilibrium on the plane across a direction at an arc of ds; None where it is beyond `stray` of there."""
+    system, space, tangent = solver.system, solver.system.space, solver.tangent
+    constrained = system.constrained
+    q, factor = point.q + ds * direction, point.factor + ds * slope
+    weight, last = _weight(direction), np.inf
     for _ in range(2 * _MAX_TARGET_ITERATIONS):
-        q = body.prescribe(q, factor)
-        energy = body.assemble(q, factor, solver.gradient, solver.band)
-        if not np.isfinite(energy):
+        q = system.prescribe(q, factor)
+        if not system.assemble(q, point.history, factor, tangent):
             return None
-        unbalanced = np.where(constrained, 0.0, -solver.gradient)
-        residual = float(np.abs(unbalanced).max())
+        unbalanced, residual = solver.unbalanced()
         rounding = solver.rounding(q)
-        load = float(np.abs(body.load(factor)).max())
-        scale = max(load, float(np.abs(solver.gradient[constrained]).max(initial=0.0)))
+        scale = max(abs(factor) * float(system.load_scale.max()), solver.reaction())
         tolerance = max(solver.settings.tolerance * scale, rounding)
-        rate = body.rate(q, factor, solver.band)
-        constrain(solver.band, constrained)
+        rate = system.rate(factor, tangent)
+        tangent.constrain(constrained)
         if residual <= tolerance or stalled(residual, last, rounding):
             strayed = np.hypot(
-                _norm(body, q, q - point.q - ds * tangent), factor - point.factor - ds * slope
+                _norm(space, q, q - point.q - ds * direction), factor - point.factor - ds * slope
             )
             if strayed > stray:
                 return None  # an equilibrium, but one of another path
-            negative = negative_eigenvalues(solver.band)
-            reaction = np.where(constrained, solver.gradient, 0.0)
-            return Equilibrium(
-                q, factor, energy, reaction, solver.iterations, residual, tolerance, rounding, negative
-            )
+            solver.residual, solver.tolerance = residual, tolerance
+            return solver.accepted(q, factor, point.history, rounding)
         last = residual
-        both = solve_any(solver.band, np.column_stack([unbalanced, np.where(constrained, 0.0, -rate)]))
+        both = tangent.solve(np.column_stack([unbalanced, np.where(constrained, 0.0, -rate)]))
         if both is None:
             return None
         a, b = both.T
-        across = float(tangent @ (q - point.q - ds * tangent)) + weight * slope * (
+        across = float(direction @ (q - point.q - ds * direction)) + weight * slope * (
             factor - point.factor - ds * slope
         )
-        change = -(across + float(tangent @ a)) / (float(tangent @ b) + weight * slope)
+        change = -(across + float(direction @ a)) / (float(direction @ b) + weight * slope)
         step = a + change * b
-        share = min(1.0, body.max_step_fraction(q, step))
-        q, factor = q + share * step, factor + share * change
+        fraction = min(1.0, space.max_step_fraction(q, step))
+        q, factor = q + fraction * step, factor + fraction * change
         solver.iterations += 1
     return None
 
@@ -365,11 +358,11 @@ def _switch_branch(
     ------
     NotConvergedError : there is none.
     """
-    body, ds = solver.body, arc.first
+    space, ds = solver.system.space, arc.first
     while ds > SMALLEST * arc.first:
         found = _corrected(solver, point, motion, 0.0, ds, arc.first)
-        if found is not None and _norm(body, point.q, found.q - point.q) > ds / 4:
-            size = _distance(body, found, point)
+        if found is not None and _norm(space, point.q, found.q - point.q) > ds / 4:
+            size = _distance(space, found, point)
             away = (found.q - point.q) / size, (found.factor - point.factor) / size
             return found, away, ds
         ds /= 2

@@ -1,34 +1,23 @@
 """Equilibria of a slender elastic body at given loads.
 
-Slender bodies turn far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
-creeps.  Full Newton steps cross it, if none of them turns the body by more than a given angle; the body says how
-much of a step that is.  Nothing here knows what the DOFs mean.
+Slender bodies rotate far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
+creeps.  Full Newton steps cross it, if none of them rotates the body by more than a given angle; the configuration
+space says what fraction of a step that is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Annotated, Protocol
+from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.solvers.banded import (
-    Band,
-    Mask,
-    Vector,
-    absolute_product,
-    band_product,
-    constrain,
-    negative_eigenvalues,
-    solve_positive,
-)
-from cosserat.solvers.indefinite import lowest_eigenvector, solve_any
-
-Fields = NDArray[np.float64]
+from cosserat.solvers.banded import Vector, absolute_product, negative_eigenvalues
+from cosserat.solvers.indefinite import lowest_eigenvector
+from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 _EPS = float(np.finfo(float).eps)
 SMALLEST = 2.0**-24  # share of the first arc below which halving gives up
@@ -48,65 +37,20 @@ class NewtonSettings(Parameters):
     """Equal steps in which the load is brought up."""
 
 
-class Loaded(Protocol):
-    """A body under a load that grows with a factor."""
-
-    @property
-    def half_bandwidth(self) -> int:
-        """Largest distance of two coupled DOFs."""
-
-    @property
-    def constrained(self) -> Mask:
-        """Which DOFs keep their value, or the one that the factor gives them, shape (n,)."""
-
-    @property
-    def dof_scale(self) -> Vector:
-        """Sizes (n,) that are rounded where the energy is computed, however small the DOFs are."""
-
-    def prescribe(self, q: Vector, factor: float) -> Vector:
-        """q with its constrained DOFs where the factor puts them."""
-
-    @property
-    def max_increment(self) -> float:
-        """Largest change of the factor by which supports may move at once."""
-
-    def prescribed_rate(self, factor: float) -> Vector:
-        """Change of the constrained DOFs with the factor, zero elsewhere, shape (n,)."""
-
-    def assemble(self, q: Vector, factor: float, gradient: Vector, band: Band) -> float:
-        """Elastic energy at q; overwrites the gradient of the potential, loads included, and the Hessian."""
-
-    def load(self, factor: float, *, signed: bool = False) -> Vector:
-        """Dead load, shape (n,), and unsigned also what couples amount to: the scale of what counts as balanced."""
-
-    def rate(self, q: Vector, factor: float, band: Band) -> Vector:
-        """Change of that gradient with the factor, shape (n,); `band` is the Hessian at q."""
-
-    def max_step_fraction(self, q: Vector, step: Vector) -> float:
-        """Largest share of a step that turns no part by more than is safe."""
-
-    def rates(self, q: Vector, change: Vector) -> Fields:
-        """How fast the parts of the body turn [rad] and stretch as the DOFs change, (parts, 2)."""
-
-    def predicted(self, q: Vector, moved: Fields, factor: float) -> Vector:
-        """The DOFs at a factor after the parts have turned and stretched by so much."""
-
-    def carried(self, change: Vector) -> Vector:
-        """What of a change of the DOFs only follows supports that move or slide, and strains nothing."""
-
-
 @dataclass(frozen=True)
 class Equilibrium:
     """One equilibrium.
 
-    factor : of the load.  reaction : (n,) force that holds each held unknown [N].  residual, tolerance : largest
-    unbalanced force and the one that was allowed [N].  rounding : largest force that rounding can cause; no
-    residual can be asked to be below it [N].  negative : how many eigenvalues of the Hessian are negative.
+    factor : of the load.  history : the internal variables there.
+    reaction : (n,) force that holds each constrained DOF [N].
+    residual, tolerance : largest unbalanced force and the one that was allowed [N].
+    rounding : largest force that rounding can cause; no residual can be asked to be below it [N].
+    negative : how many eigenvalues of the Hessian, or of its symmetric part, are negative.
     """
 
     q: Vector
     factor: float
-    energy: float
+    history: History
     reaction: Vector
     iterations: int
     residual: float
@@ -127,10 +71,9 @@ class EquilibriumSolver:
     symmetric that nothing decides the side to which it goes.  turned_back : the load had to fall before it could grow.
     """
 
-    def __init__(self, body: Loaded, settings: NewtonSettings, name: str) -> None:
-        n = body.constrained.size
-        self.body, self.settings, self.name = body, settings, name
-        self.gradient, self.band = np.empty(n), np.empty((n, body.half_bandwidth + 1))
+    def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
+        self.system, self.settings, self.name = system, settings, name
+        self.tangent = Tangent(system)
         self.iterations = self.cutbacks = self.branch_switches = 0
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
@@ -153,62 +96,96 @@ class EquilibriumSolver:
                 "arrives beyond its unstable part: see it with kind = 'rod path'"
             )
 
-    def correct(self, q: Vector, factor: float, *, share: float | None = None) -> Equilibrium | None:
+    def correct(
+        self, q: Vector, factor: float, history: History, *, fraction: float | None = None
+    ) -> Equilibrium | None:
         """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.
 
-        share : of the loads that may be left unbalanced, in place of the tolerance of the settings.
+        history : the internal variables of the last accepted state.
+        fraction : of the loads that may be left unbalanced, in place of the tolerance of the settings.
         """
-        allowed = self.settings.tolerance if share is None else share
-        body, constrained = self.body, self.body.constrained
-        q = body.prescribe(q, factor)
-        load = float(np.abs(body.load(factor)).max())
+        allowed = self.settings.tolerance if fraction is None else fraction
+        system, tangent = self.system, self.tangent
+        q = system.prescribe(q, factor)
+        load = abs(factor) * float(system.load_scale.max())
         largest, last = 0.0, np.inf
         for iteration in range(self.settings.max_iterations + 1):
-            energy = body.assemble(q, factor, self.gradient, self.band)
-            if not np.isfinite(energy):
+            if not system.assemble(q, history, factor, tangent):
                 return None
-            unbalanced = np.where(constrained, 0.0, -self.gradient)
-            residual = float(np.abs(unbalanced).max())
+            unbalanced, residual = self.unbalanced()
             largest = max(largest, residual)
             rounding = self.rounding(q)
-            scale = max(
-                load, float(np.abs(self.gradient[constrained]).max(initial=0.0)), largest * (load == 0)
-            )
+            scale = max(load, self.reaction(), largest * (load == 0))
             tolerance = max(allowed * scale, rounding)
             self.residual, self.tolerance = residual, tolerance
-            if load > 0 and rounding > _BLUR * max(scale, float(np.abs(body.load(factor)).sum())):
+            if load > 0 and rounding > _BLUR * max(scale, abs(factor) * float(system.load_scale.sum())):
                 if iteration > 0:
                     return None  # a step went astray, to where everything is stiff
                 raise self._drowned_in_round_off(rounding)
-            constrain(self.band, constrained)
-            step = solve_positive(self.band, unbalanced)
+            tangent.constrain(system.constrained)
+            step = tangent.solve(unbalanced, positive=True)
             if residual <= tolerance or stalled(residual, last, rounding):
-                negative = 0 if step is not None else negative_eigenvalues(self.band)
-                reaction = np.where(constrained, self.gradient, 0.0)
-                if step is not None and share is None:  # the last correction costs one more energy
-                    ahead = body.assemble(q + step, factor, self.gradient, self.band)
-                    nearer = float(np.abs(np.where(constrained, 0.0, self.gradient)).max())
-                    if nearer <= max(
-                        residual, rounding
-                    ):  # where forces drown in rounding, soft motions do not
-                        q, energy, residual = q + step, ahead, nearer
-                        reaction = np.where(constrained, self.gradient, 0.0)
-                return Equilibrium(
-                    q, factor, energy, reaction, self.iterations, residual, tolerance, rounding, negative
-                )
+                if step is not None and fraction is None:
+                    return self._polished_once(q, step, factor, history, rounding)
+                return self.accepted(q, factor, history, rounding, positive=step is not None)
             last = residual
             if step is None:
-                step = solve_any(self.band, unbalanced)
+                step = tangent.solve(unbalanced)
             if step is None or not np.isfinite(step).all():
                 return None
-            q = q + min(1.0, body.max_step_fraction(q, step)) * step
+            q = q + min(1.0, system.space.max_step_fraction(q, step)) * step
             self.iterations += 1
         return None
 
+    def unbalanced(self) -> tuple[Vector, float]:
+        """Unbalanced forces (n,) by the tangent assembled last, and the largest [N]."""
+        forces = np.where(self.system.constrained, 0.0, -self.tangent.gradient)
+        return forces, float(np.abs(forces).max())
+
+    def reaction(self) -> float:
+        """Largest force on a constrained DOF by the tangent assembled last [N]."""
+        return float(np.abs(self.tangent.gradient[self.system.constrained]).max(initial=0.0))
+
+    def accepted(
+        self, q: Vector, factor: float, history: History, rounding: float, *, positive: bool = False
+    ) -> Equilibrium:
+        """The equilibrium at q, where the tangent was assembled last and is constrained, perhaps known as positive."""
+        return Equilibrium(
+            q,
+            factor,
+            self.system.committed(q, history),
+            np.where(self.system.constrained, self.tangent.gradient, 0.0),
+            self.iterations,
+            self.residual,
+            self.tolerance,
+            rounding,
+            0 if positive else negative_eigenvalues(self.tangent.band),
+        )
+
+    def _polished_once(
+        self, q: Vector, step: Vector, factor: float, history: History, rounding: float
+    ) -> Equilibrium:
+        """The stable equilibrium one correction further, if that is nearer or all that is left is rounding.
+
+        Where forces drown in rounding, soft motions do not.
+        """
+        point = self.accepted(q, factor, history, rounding, positive=True)
+        self.system.assemble(q + step, history, factor, self.tangent)
+        _, nearer = self.unbalanced()
+        if not nearer <= max(point.residual, rounding):
+            return point
+        return replace(
+            point,
+            q=q + step,
+            history=self.system.committed(q + step, history),
+            reaction=np.where(self.system.constrained, self.tangent.gradient, 0.0),
+            residual=nearer,
+        )
+
     def check_round_off(self, point: Equilibrium) -> None:
         """Raise NotConvergedError if no support moves and rounding makes forces that drown the full load."""
-        load = self.body.load(1.0)
-        if point.rounding > _BLUR * float(load.sum()) > 0 and not self.body.prescribed_rate(1.0).any():
+        load = float(self.system.load_scale.sum())
+        if point.rounding > _BLUR * load > 0 and not self.system.prescribed_rate(1.0).any():
             raise self._drowned_in_round_off(point.rounding)
 
     def _drowned_in_round_off(self, rounding: float) -> NotConvergedError:
@@ -222,11 +199,13 @@ class EquilibriumSolver:
 
     def rounding(self, q: Vector) -> float:
         """Largest force that rounding can cause, by the Hessian assembled last [N]."""
-        size = np.maximum(np.abs(q), self.body.dof_scale)
-        return _EPS * float(absolute_product(self.band, size).max())
+        size = np.maximum(np.abs(q), self.system.space.scale)
+        return _EPS * float(absolute_product(self.tangent.band, size).max())
 
     def buckling_direction(self, before: Equilibrium, after: Equilibrium) -> tuple[Vector, bool]:
-        """The softest motion of a stable body that is about to buckle, one reach long, and whether its side is decided.
+        """The softest motion of a stable body that is about to buckle, and whether its side is decided.
+
+        The motion is as long as one step may be.
 
         before, after : on both sides of the load at which it loses its stability.
 
@@ -234,42 +213,42 @@ class EquilibriumSolver:
         being pulled.  What is left of the pull without that and the softening is an imperfection; where it drowns in
         rounding the body is symmetric and both sides are alike: the one of the positive largest entry is taken.
         """
-        body = self.body
+        system, tangent, space = self.system, self.tangent, self.system.space
         q = self._polished(before)
-        body.assemble(q, before.factor, self.gradient, self.band)
-        rate = body.rate(q, before.factor, self.band)
-        constrain(self.band, body.constrained)
-        motion = lowest_eigenvector(self.band, body.constrained)
+        system.assemble(q, before.history, before.factor, tangent)
+        rate = system.rate(before.factor, tangent)
+        tangent.constrain(system.constrained)
+        motion = lowest_eigenvector(tangent.band, system.constrained)
         motion *= np.sign(motion[np.abs(motion).argmax()])
-        stiff = float(motion @ band_product(self.band, motion))
-        change = solve_positive(self.band, np.where(body.constrained, 0.0, -rate))
+        stiff = float(motion @ tangent.product(motion))
+        change = tangent.solve(np.where(system.constrained, 0.0, -rate), positive=True)
         carried = 0.0
         if change is not None:
-            moved = np.where(body.constrained, body.prescribed_rate(before.factor), change)
-            carried = float(motion @ body.carried(moved)) / float(motion @ motion)
+            moved = np.where(system.constrained, system.prescribed_rate(before.factor), change)
+            along = float(motion @ space.carried(moved, system.constrained))
+            carried = along / float(motion @ motion)
         pull = -float(motion @ rate) - stiff * carried
-        size = np.maximum(np.abs(q), body.dof_scale)
-        noise = _EPS * float(np.linalg.norm(motion * absolute_product(self.band, size)))
-        body.assemble(after.q, after.factor, self.gradient, self.band)
-        constrain(self.band, body.constrained)
-        softening = (stiff - float(motion @ band_product(self.band, motion))) / max(
+        size = np.maximum(np.abs(q), space.scale)
+        noise = _EPS * float(np.linalg.norm(motion * absolute_product(tangent.band, size)))
+        system.assemble(after.q, after.history, after.factor, tangent)
+        tangent.constrain(system.constrained)
+        softening = (stiff - float(motion @ tangent.product(motion))) / max(
             abs(after.factor - before.factor), _EPS
         )
         magnified = 1 + abs(before.factor * softening / max(stiff, _EPS * abs(softening)))
         decided = abs(pull * before.factor) > _SURE * magnified * noise
         if decided and pull < 0:
             motion = -motion
-        return body.max_step_fraction(q, motion) * motion, decided
+        return space.max_step_fraction(q, motion) * motion, decided
 
     def _polished(self, point: Equilibrium) -> Vector:
         """The DOFs of a stable point after Newton steps beyond the tolerance, down to rounding."""
-        body, q, last = self.body, point.q, np.inf
+        q, last = point.q, np.inf
         for _ in range(_POLISH):
-            body.assemble(q, point.factor, self.gradient, self.band)
-            unbalanced = np.where(body.constrained, 0.0, -self.gradient)
-            residual = float(np.abs(unbalanced).max())
-            constrain(self.band, body.constrained)
-            step = solve_positive(self.band, unbalanced)
+            self.system.assemble(q, point.history, point.factor, self.tangent)
+            unbalanced, residual = self.unbalanced()
+            self.tangent.constrain(self.system.constrained)
+            step = self.tangent.solve(unbalanced, positive=True)
             if step is None or residual >= last:
                 break
             q, last = q + step, residual
@@ -284,15 +263,14 @@ class EquilibriumSolver:
         )
 
     def stopped(self, reason: str, last: Equilibrium | None) -> NotConvergedError:
-        """An error that holds the last equilibrium, its DOFs as the body counts them."""
+        """An error that holds the last equilibrium."""
         error = NotConvergedError(
             f"{self.name}: {reason}",
             iterations=self.iterations,
             residual=self.residual,
             tolerance=self.tolerance,
         )
-        error.state = None if last is None else last.q
-        error.factor = 0.0 if last is None else last.factor
+        error.state = last
         return error
 
 

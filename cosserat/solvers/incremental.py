@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosserat.solvers.banded import Vector
 from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, trace_path
-from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, Fields
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
+from cosserat.solvers.system import Fields
 
 _PREDICTION_TOLERANCE = 0.3  # share of an increment by which its end may lie off what is foretold
 _NEGLIGIBLE_ROTATION = 1e-5  # turning below which an increment needs no foretelling [rad]
@@ -20,7 +20,7 @@ _MAX_ARCS = 10_000  # arcs on the way to one equilibrium
 _MAX_CUTBACKS = 4  # increments refused short of the same factor before the path is followed
 
 
-def solve_full_load(solver: EquilibriumSolver, start: Vector) -> Equilibrium:
+def solve_full_load(solver: EquilibriumSolver) -> Equilibrium:
     """The equilibrium at the factor one that the load leads to as it grows from nothing.
 
     Raises
@@ -28,12 +28,12 @@ def solve_full_load(solver: EquilibriumSolver, start: Vector) -> Equilibrium:
     NotConvergedError : no path leads there, or to no stable equilibrium; the last point is its `state`.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused, not warned of
-        point = unloaded(solver, start)
+        point = unloaded(solver)
         solver.check_round_off(point)
         point = _by_increments(solver, point)
         if point.factor == 1.0:
             return point
-        point = solver.correct(point.q, point.factor) or point
+        point = solver.correct(point.q, point.factor, point.history) or point
         arc = ArcLengthSettings(
             first=0.05, longest=0.3, count=_MAX_ARCS, until=1.0, limit=3.0, branches=_MAX_ARCS
         )
@@ -45,9 +45,9 @@ def solve_full_load(solver: EquilibriumSolver, start: Vector) -> Equilibrium:
     return last
 
 
-def unloaded(solver: EquilibriumSolver, start: Vector) -> Equilibrium:
+def unloaded(solver: EquilibriumSolver) -> Equilibrium:
     """The equilibrium without any load."""
-    point = solver.correct(start, 0.0)
+    point = solver.correct(solver.system.space.reference, 0.0, solver.system.history)
     if point is None:
         raise solver.failure(0.0, 0.0, None)
     return point
@@ -55,8 +55,8 @@ def unloaded(solver: EquilibriumSolver, start: Vector) -> Equilibrium:
 
 def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium:
     """The last equilibrium that increments reach which the path before them foretells."""
-    body, refused, wall = solver.body, 0, 0.0
-    longest = min(1.0 / solver.settings.load_increments, body.max_increment)
+    system, space, refused, wall = solver.system, solver.system.space, 0, 0.0
+    longest = min(1.0 / solver.settings.load_increments, system.constraints.max_increment)
     increment = longest
     before: tuple[float, Fields] | None = None
     bend: Fields = np.zeros(())
@@ -64,7 +64,7 @@ def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium
         velocity = rate_with_load(solver, point)
         if velocity is None:
             break
-        rates = body.rates(point.q, velocity)
+        rates = space.rates(point.q, velocity)
         if before is not None:
             bend = (rates - before[1]) / (point.factor - before[0])
         fastest = float(np.abs(rates).max())
@@ -73,13 +73,14 @@ def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium
         step = goal - point.factor
         moved = step * (rates + step / 2 * bend)
         found = solver.correct(
-            body.predicted(point.q, moved, goal),
+            system.predicted(point.q, moved, goal),
             goal,
-            share=None if goal == 1.0 else _INTERMEDIATE_TOLERANCE,
+            point.history,
+            fraction=None if goal == 1.0 else _INTERMEDIATE_TOLERANCE,
         )
         off = np.inf
         if found is not None and found.stable:
-            turned = body.rates((point.q + found.q) / 2, found.q - point.q)
+            turned = space.rates((point.q + found.q) / 2, found.q - point.q)
             off = float(np.abs(turned - moved).max()) / max(
                 float(np.abs(turned).max()), _NEGLIGIBLE_ROTATION
             )

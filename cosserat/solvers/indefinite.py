@@ -5,21 +5,25 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
-from cosserat.solvers.banded import Band, Mask, Vector, solve_positive
+from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector, solve_positive
 
 _SHIFTS = tuple(2.0**k for k in range(-40, 12))  # shares of the largest diagonal entry, tried in turn
 
 
-def solve_any(band: Band, right: Vector) -> Vector | None:
+def solve_any(band: Band, right: Vector, skew: Band = NO_BAND) -> Vector | None:
     """Solve with a symmetric band that need not be positive, for one or, as columns, several right-hand sides.
 
-    None where it is singular.
+    skew : the part below the diagonal of a skew-symmetric matrix to be added; without rows there is none.
+    None where the matrix is singular.
     """
     n, width = band.shape[0], band.shape[1] - 1
     general = np.zeros((3 * width + 1, n), order="F")
     for k in range(min(width, n - 1) + 1):
         general[2 * width + k, : n - k] = band[: n - k, k]
         general[2 * width - k, k:] = band[: n - k, k]
+        if skew.size and k > 0:
+            general[2 * width + k, : n - k] += skew[: n - k, k]
+            general[2 * width - k, k:] -= skew[: n - k, k]
     factors, pivots, info = dgbtrf(general, width, width, overwrite_ab=1)
     if info != 0:
         return None

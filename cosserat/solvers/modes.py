@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from cosserat.errors import UnstableError
-from cosserat.solvers.banded import Band, Vector, band_product, constrain, negative_eigenvalues
-from cosserat.solvers.integrate import System, free_matrices
+from cosserat.solvers.banded import Band, Vector, band_product, negative_eigenvalues
+from cosserat.solvers.integrate import free_matrices
+from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 Dense = NDArray[np.float64]
 _ROUNDING = 16 * float(np.finfo(float).eps)  # of a squared frequency, as a share of the largest one
@@ -33,18 +34,27 @@ class Modes:
         return shares
 
 
-def modes(system: System, q: Vector, count: int, name: str, *, anchored: bool) -> Modes:
+def modes(
+    system: MechanicalSystem,
+    q: Vector,
+    count: int,
+    name: str,
+    *,
+    anchored: bool,
+    history: History | None = None,
+) -> Modes:
     """The lowest `count` modes about q, with the constrained DOFs at rest.
 
+    history : the internal variables there; None: those of the start.
     anchored : no motion without deformation is left free, so that a stable body has no frequency zero.
 
     Raises
     ------
     UnstableError : some small motions about q grow.
     """
-    stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q))
+    stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q, history))
     if anchored:
-        rounding, growing = 0.0, _count_unstable(system, q)
+        rounding, growing = 0.0, _count_unstable(system, q, history)
     else:
         every = eigh(stiffness, mass, eigvals_only=True)
         rounding = _ROUNDING * every[-1]
@@ -63,13 +73,13 @@ def modes(system: System, q: Vector, count: int, name: str, *, anchored: bool) -
     return Modes(frequencies, shapes * np.sign(largest))
 
 
-def _count_unstable(system: System, q: Vector) -> int:
+def _count_unstable(system: MechanicalSystem, q: Vector, history: History | None) -> int:
     """How many directions of the free DOFs the Hessian at q bends down in."""
-    gradient, band = np.empty(q.size), np.empty((q.size, system.body.half_bandwidth + 1))
-    system.body.assemble(q, gradient, band)
-    constrain(band, system.constrained)
-    band[system.constrained, 0] = 1.0
-    return negative_eigenvalues(band)
+    tangent = Tangent(system)
+    system.assemble(q, system.history if history is None else history, 1.0, tangent)
+    tangent.constrain(system.constrained)
+    tangent.band[system.constrained, 0] = 1.0
+    return negative_eigenvalues(tangent.band)
 
 
 def _lowest(stiffness: Dense, mass: Dense, count: int, anchored: bool) -> tuple[Vector, Dense]:
@@ -85,7 +95,7 @@ def _lowest(stiffness: Dense, mass: Dense, count: int, anchored: bool) -> tuple[
     return 1 / inverse[::-1], vectors[:, ::-1] / np.sqrt(inverse[::-1])
 
 
-def first_elastic_frequency(system: System, q: Vector, *, anchored: bool) -> float:
+def first_elastic_frequency(system: MechanicalSystem, q: Vector, *, anchored: bool) -> float:
     """The lowest angular frequency about q of a motion that deforms: not zero to rounding [rad/s]."""
     stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q))
     if anchored:

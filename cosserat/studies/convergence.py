@@ -14,7 +14,7 @@ from cosserat.exact import beams, elastica
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.static import RodStatics
-from cosserat.rods.problem import PointForce
+from cosserat.rods.loads.dead import PointForce
 from cosserat.solution import Field, Solution
 from cosserat.studies.calibration import beam_of
 

@@ -1,3 +1,27 @@
-"""Strain energies of the discrete rod."""
+"""The strain energies of a rod, one a file with its compiled kernel beside it."""
 
-import cosserat.solvers  # noqa: F401 - chooses where compiled kernels are kept, before any energy imports Numba
+from __future__ import annotations
+
+import functools
+import pkgutil
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from cosserat.rods.energies.energy import Energy
+
+ENERGIES = {
+    "published": "cosserat.rods.energies.hemingway:Hemingway",
+    "consistent": "cosserat.rods.energies.reissner_reference:Reissner",
+}
+"""Energies by the word that a case names in `rod.energy`."""
+
+
+def energy(name: str) -> Energy:
+    """The energy of that name."""
+    return _made(ENERGIES[name])
+
+
+@functools.cache
+def _made(place: str) -> Energy:
+    made: Energy = pkgutil.resolve_name(place)()
+    return made

@@ -27,6 +27,8 @@ LateralConstraint = Literal["free", "plane strain", "incompressible"]
 
 PENALTY = 1e5
 """Lambda over 2 mu of an incompressible section."""
+INCOMPRESSIBLE = 0.49
+"""Least Poisson's ratio of a section that may be called incompressible."""
 
 
 class EdgeStiffnesses(NamedTuple):

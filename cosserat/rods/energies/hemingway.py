@@ -1,88 +1,91 @@
-"""The published rod with its couples, as solvers see it; its kernel stands in `rods.energies.hemingway_kernel`."""
+"""The energy of the thesis, eq. (3.4.11), with its calibration; its kernel stands in `hemingway_kernel`."""
 
 from __future__ import annotations
 
-import functools
-from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError
 
 from cosserat.rods.energies import hemingway_kernel
-from cosserat.rods.energies.compiled_rod import CompiledRod
-from cosserat.rods.energies.hemingway_kernel import K6, START, VORONOI
-from cosserat.rods.energies.hemingway_stiffness import Stiffness
-from cosserat.rods.kinematics import Geometry, unwrapped_angles
-from cosserat.solvers.banded import Band, Vector
+from cosserat.rods.energies.energy import Energy
+from cosserat.rods.energies.hemingway_kernel import TERMS, VERTEX
+from cosserat.rods.energies.hemingway_stiffness import Stiffness, stiffnesses
+from cosserat.rods.reference import Geometry, strains
+from cosserat.rods.variation import lump
+from cosserat.solution import Field
+from cosserat.solvers.potential import Potential
+
+if TYPE_CHECKING:
+    from cosserat.rods.rod import Rod
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class PublishedRod(CompiledRod):
-    """The published rod with its couples as a solver sees it: an energy with its gradient and banded Hessian.
+class Hemingway(Energy):
+    """The published energy: it takes the averages of Table 3.1 and I about the centreline."""
 
-    A couple M on a director that has turned by alpha has the potential -M alpha.  Minus its gradient is the director
-    force M n / |d|, n across the director: eq. (3.3.41) with |d| in place of lambda H, which for a director that
-    reaches the surface at half the height is twice the printed force (E3.10).
+    options = ("calibration", "end_sections", "poisson_coupling", "intrinsic_curvature")
 
-    couples : (N,) moments that turn with their sections, positive from E3 towards E2 [N m].
-    angles : (N,) angles of the directors in the reference, counted on from vertex to vertex [rad].
-    start : angle within half a turn of which that of the first director is counted; None: that of the reference.
-    """
-
-    stiffness: Stiffness
-    couples: Array
-    angles: Array
-    start: float | None = None
-
-    @classmethod
-    def of(cls, stiffness: Stiffness, geometry: Geometry, couples: Array | None = None) -> PublishedRod:
-        """The rod of a reference configuration, without couples if none are given."""
-        moments = np.zeros(geometry.X.shape[0]) if couples is None else couples
-        return cls(stiffness, moments, unwrapped_angles(geometry.D))
-
-    @property
-    def half_bandwidth(self) -> int:
-        """x_(K-1) meets x_(K+2) in the shearing gradients: three vertices of four numbers, and one component."""
-        return 13
-
-    @property
-    def kernel(self) -> object:
-        """The compiled energy, for compiled solvers."""
-        return hemingway_kernel.compiled_energy()
-
-    @functools.cached_property
-    def parameters(self) -> Array:
-        """What the kernel takes besides the DOFs, shape (N, 14)."""
-        k = self.stiffness
-        rod = np.zeros((k.voronoi.size, START + 1))
-        rod[:-1, : K6 + 1] = np.column_stack([k.edge, k.k1, k.k5, k.k6])
-        rod[:, VORONOI:START] = np.column_stack(
-            [k.voronoi, k.director, k.k2, k.k3, k.k4, k.k7, k.intrinsic, self.couples, self.angles]
-        )
-        rod[0, START] = self.angles[0] if self.start is None else self.start
-        return rod
-
-    @property
-    def stiff_volume(self) -> bool:
-        """It has no volume."""
-        return False
-
-    def unwrapped_near(self, angle: float) -> PublishedRod:
-        """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
-        return replace(self, start=angle)
-
-    def with_couples(self, couples: Array) -> PublishedRod:
-        """The same rod with other couples, (N,) [N m]."""
-        return replace(self, couples=couples)
-
-    def evaluate(
-        self, q: Vector, order: int, measures: Array, gradient: Vector, band: Band, terms: Array
-    ) -> float:
-        """The kernel at q; infinite where a section or an edge has vanished or a shear angle has reached pi/2."""
-        return float(
-            hemingway_kernel.assemble(
-                q, np.empty(0), self.parameters, order, measures, gradient, band, terms
+    def check(self, rod: Rod) -> None:
+        """It cannot do without a calibration."""
+        if rod.calibration is None:
+            raise PydanticCustomError(
+                "calibration",
+                "has energy = 'published', which needs a calibration; give the one, or take energy = 'consistent'",
             )
+
+    def stiffness(self, rod: Rod, geometry: Geometry) -> Stiffness:
+        """Stiffnesses of eq. (3.4.13)."""
+        assert rod.calibration is not None  # checked
+        vertex, edge = lump(
+            rod.stations,
+            geometry.arc_length,
+            area=rod.area,
+            second_moment=rod.second_moment,
+            young=rod.young,
+            poisson=rod.poisson,
         )
+        return stiffnesses(
+            geometry,
+            vertex,
+            edge,
+            rod.shear_correction,
+            rod.calibration,
+            rod.end_sections,
+            rod.poisson_coupling,
+            rod.intrinsic_curvature,
+        )
+
+    def potential(self, rod: Rod, geometry: Geometry, *, displacements: bool = False) -> Potential:
+        """Eq. (3.4.11); it computes with positions, also where its DOFs are displacements."""
+        return potential(self.stiffness(rod, geometry), geometry.q if displacements else None)
+
+    def masses(self, rod: Rod, geometry: Geometry) -> tuple[Array, Array]:
+        """Eq. (3.3.43): the mass of the part round each vertex."""
+        return rod.part_masses(geometry), np.empty(0)
+
+    def fields(
+        self, rod: Rod, geometry: Geometry, x: Array, d: Array, terms: Array, couples: float
+    ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
+        """Shear angles and the seven terms."""
+        theta = strains(geometry, x, d).theta
+        return {"term": TERMS}, {"theta": (("vertex",), theta), "energy": (("term",), terms)}
+
+
+def potential(stiffness: Stiffness, origin: Array | None = None) -> Potential:
+    """The energy of given stiffnesses; origin (4 N,) is added to its DOFs."""
+    constants = np.zeros(stiffness.voronoi.size, VERTEX)
+    for name in VERTEX.names or ():
+        values = getattr(stiffness, name)
+        constants[name][: values.size] = values
+    return Potential(
+        evaluate=hemingway_kernel.assemble,
+        compiled=hemingway_kernel.compiled_energy,
+        constants=constants,
+        terms=TERMS,
+        half_bandwidth=13,  # x_(K-1) meets x_(K+2) in the shearing gradients
+        strains=(constants.size, 4),
+        origin=origin,
+    )

@@ -21,7 +21,7 @@ from numba import cfunc, njit
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Band, Vector
-from cosserat.solvers.energy_momentum import KERNEL
+from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, STRAINS
 
 Array = NDArray[np.float64]
 
@@ -37,8 +37,25 @@ TERMS = (
 """The seven terms, in the order of eq. (3.4.11)."""
 
 
-EDGE, K1, K5, K6, VORONOI, DIRECTOR, K2, K3, K4, K7, INTRINSIC, COUPLE, ANGLE, START = range(14)
-"""Columns of what the kernel reads: row K has edge K (the last row none), vertex K and its couple; row 0 the start."""
+VERTEX = np.dtype(
+    [
+        (
+            "edge",
+            "f8",
+        ),  # ||E^K|| of the edge after the vertex [m]; zero at the last one, as are k1, k5 and k6
+        ("k1", "f8"),
+        ("k5", "f8"),
+        ("k6", "f8"),
+        ("voronoi", "f8"),  # L_K [m]
+        ("director", "f8"),  # ||D_K|| [m]
+        ("k2", "f8"),
+        ("k3", "f8"),
+        ("k4", "f8"),
+        ("k7", "f8"),
+        ("intrinsic", "f8"),  # tan(phi / 2) of the reference
+    ]
+)
+"""What the kernel reads of each vertex and of the edge after it; stiffnesses as in eq. (3.4.11)."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -140,77 +157,63 @@ def _measure(q: Vector, strains: Array, units: Array) -> bool:
     return sound
 
 
-@njit(cache=True)
-def _work_of_couples(rod: Array, units: Array) -> float:
-    """What the couples have done, by the angles of the directors, counted on from the first."""
-    angle, done = np.arctan2(units[0, 6], units[0, 5]), 0.0
-    angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))
-    for K in range(rod.shape[0]):
-        if K > 0:
-            a0, a1, b0, b1 = units[K - 1, 5], units[K - 1, 6], units[K, 5], units[K, 6]
-            angle += np.arctan2(a0 * b1 - a1 * b0, a0 * b0 + a1 * b1)
-        done += rod[K, COUPLE] * (angle - rod[K, ANGLE])
-    return done
-
-
 @njit(cache=True, error_model="numpy")
-def _energies(rod: Array, strains: Array, terms: Array) -> None:
+def _energies(rod: NDArray[np.void], strains: Array, terms: Array) -> None:
     """The seven terms of eq. (3.4.11) by the strains."""
     n = rod.shape[0]
     for K in range(n):
-        E, L, m, r, theta = rod[K, EDGE], rod[K, VORONOI], strains[K, 0], strains[K, 1], strains[K, 2]
-        terms[1] += rod[K, K2] / 2 * stretching(r / rod[K, DIRECTOR])[0] * L
-        terms[3] += rod[K, K4] / 2 * squared_tangent(theta, 0.0)[0] * L
+        E, L, m, r, theta = rod[K].edge, rod[K].voronoi, strains[K, 0], strains[K, 1], strains[K, 2]
+        terms[1] += rod[K].k2 / 2 * stretching(r / rod[K].director)[0] * L
+        terms[3] += rod[K].k4 / 2 * squared_tangent(theta, 0.0)[0] * L
         if n - 1 > K:
-            terms[0] += rod[K, K1] / 2 * stretching(m / E)[0] * E  # eq. (3.3.19)
+            terms[0] += rod[K].k1 / 2 * stretching(m / E)[0] * E  # eq. (3.3.19)
             jump = strains[K + 1, 2] - theta
-            terms[4] += rod[K, K5] / 2 * jump * jump / E
-            jump = strains[K + 1, 1] / rod[K + 1, DIRECTOR] - r / rod[K, DIRECTOR]
-            terms[5] += rod[K, K6] / 2 * jump * jump / E
+            terms[4] += rod[K].k5 / 2 * jump * jump / E
+            jump = strains[K + 1, 1] / rod[K + 1].director - r / rod[K].director
+            terms[5] += rod[K].k6 / 2 * jump * jump / E
         if 0 < K < n - 1:  # bending and the Poisson effect: interior vertices only
             # mu kappa = 2/L tan(phi/2), eqs. (3.3.20), (3.3.23), less the intrinsic K of the reference
-            terms[2] += 2 * rod[K, K3] / L * squared_tangent(strains[K, 3] / 2, rod[K, INTRINSIC])[0]
+            terms[2] += 2 * rod[K].k3 / L * squared_tangent(strains[K, 3] / 2, rod[K].intrinsic)[0]
             # excess = (mu - 1) L, eqs. (3.3.13), (3.3.20)
-            excess = ((strains[K - 1, 0] - rod[K - 1, EDGE]) + (m - E)) / 2
-            terms[6] += rod[K, K7] * (r - rod[K, DIRECTOR]) / rod[K, DIRECTOR] * excess
+            excess = ((strains[K - 1, 0] - rod[K - 1].edge) + (m - E)) / 2
+            terms[6] += rod[K].k7 * (r - rod[K].director) / rod[K].director * excess
 
 
 @njit(cache=True, error_model="numpy")
 def assemble(
     q: Vector,
     after: Vector,
-    rod: Array,
-    order: int,
-    measures: Array,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains_before: Array,
+    task: int,
     gradient: Vector,
     band: Band,
+    skew: Band,
     terms: Array,
 ) -> float:
-    """The energy and its terms, the couples' last, as `stepping.KERNEL` says."""
+    """The energy and its terms, as `solvers.potential.KERNEL` says."""
+    rod = data.view(VERTEX)
     n = rod.shape[0]
-    gradient[:] = 0.0
-    band[:, :] = 0.0
     terms[:] = 0.0
 
     # First pass: strains.  Edge K: length m, tangent t.  Chord K and director K: length and unit vector.
     strains, units = np.zeros((n, 4)), np.empty((n, 7))
     if not _measure(q, strains, units):
         return np.inf
-    if order == 3:
-        measures[:, :] = strains
-    ends, end_units = strains, units
+    if task == STRAINS:
+        strains_before[:, :] = strains
+    ends = strains
     if after.size > 0:  # stresses are those of the mean of both ends
-        ends, end_units = np.zeros((n, 4)), np.empty((n, 7))
-        if not _measure(after, ends, end_units):
+        ends = np.zeros((n, 4))
+        if not _measure(after, ends, np.empty((n, 7))):
             return np.inf
         for K in range(n):
             for k in range(4):
-                strains[K, k] = (measures[K, k] + ends[K, k]) / 2
+                strains[K, k] = (strains_before[K, k] + ends[K, k]) / 2
     _energies(rod, ends, terms)
-    if rod[:, COUPLE].any():
-        terms[7] = -_work_of_couples(rod, end_units)
     total: float = terms.sum()
-    if order in (0, 3):
+    if task not in (GRADIENT, HESSIAN):
         return total
     t0, t1, c, c0, c1, d0, d1 = (
         units[:, 0],
@@ -233,49 +236,48 @@ def assemble(
     W_phi, W_phiphi = np.zeros(n), np.zeros(n)
     W_theta, W_thetatheta, W_theta_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
     W_lam, W_lamlam, W_lam_next = np.zeros(n), np.zeros(n), np.zeros(n - 1)
-    lam = strains[:, 1] / rod[:, DIRECTOR]  # eq. (3.3.21)
+    lam = strains[:, 1] / rod["director"]  # eq. (3.3.21)
     for K in range(n - 1):
-        E = rod[K, EDGE]
+        E = rod[K].edge
         _, first, second = stretching(strains[K, 0] / E)
-        if order == 2 and after.size > 0:
-            first = max(first, stretching(measures[K, 0] / E)[1])
-        W_m[K] += rod[K, K1] / 2 * first
-        W_mm[K] += rod[K, K1] / 2 * second / E
+        if task == HESSIAN and after.size > 0:
+            first = max(first, stretching(strains_before[K, 0] / E)[1])
+        W_m[K] += rod[K].k1 / 2 * first
+        W_mm[K] += rod[K].k1 / 2 * second / E
 
         jump = theta[K + 1] - theta[K]
-        W_theta[K] -= rod[K, K5] * jump / E
-        W_theta[K + 1] += rod[K, K5] * jump / E
-        W_thetatheta[K] += rod[K, K5] / E
-        W_thetatheta[K + 1] += rod[K, K5] / E
-        W_theta_next[K] -= rod[K, K5] / E
+        W_theta[K] -= rod[K].k5 * jump / E
+        W_theta[K + 1] += rod[K].k5 * jump / E
+        W_thetatheta[K] += rod[K].k5 / E
+        W_thetatheta[K + 1] += rod[K].k5 / E
+        W_theta_next[K] -= rod[K].k5 / E
 
         jump = lam[K + 1] - lam[K]
-        W_lam[K] -= rod[K, K6] * jump / E
-        W_lam[K + 1] += rod[K, K6] * jump / E
-        W_lamlam[K] += rod[K, K6] / E
-        W_lamlam[K + 1] += rod[K, K6] / E
-        W_lam_next[K] -= rod[K, K6] / E
+        W_lam[K] -= rod[K].k6 * jump / E
+        W_lam[K + 1] += rod[K].k6 * jump / E
+        W_lamlam[K] += rod[K].k6 / E
+        W_lamlam[K + 1] += rod[K].k6 / E
+        W_lam_next[K] -= rod[K].k6 / E
     for K in range(n):
-        L = rod[K, VORONOI]
+        L = rod[K].voronoi
         _, first, second = stretching(lam[K])
-        W_lam[K] += rod[K, K2] / 2 * first * L
-        W_lamlam[K] += rod[K, K2] / 2 * second * L
+        W_lam[K] += rod[K].k2 / 2 * first * L
+        W_lamlam[K] += rod[K].k2 / 2 * second * L
 
         _, first, second = squared_tangent(theta[K], 0.0)
-        W_theta[K] += rod[K, K4] / 2 * first * L
-        W_thetatheta[K] += rod[K, K4] / 2 * second * L
+        W_theta[K] += rod[K].k4 / 2 * first * L
+        W_thetatheta[K] += rod[K].k4 / 2 * second * L
     for K in range(1, n - 1):  # bending and the Poisson effect: interior vertices only
-        L = rod[K, VORONOI]
-        _, first, second = squared_tangent(strains[K, 3] / 2, rod[K, INTRINSIC])
-        W_phi[K] = rod[K, K3] / L * first
-        W_phiphi[K] = rod[K, K3] / (2 * L) * second
+        L = rod[K].voronoi
+        _, first, second = squared_tangent(strains[K, 3] / 2, rod[K].intrinsic)
+        W_phi[K] = rod[K].k3 / L * first
+        W_phiphi[K] = rod[K].k3 / (2 * L) * second
 
-        stretch = (strains[K, 1] - rod[K, DIRECTOR]) / rod[K, DIRECTOR]
-        excess = ((strains[K - 1, 0] - rod[K - 1, EDGE]) + (strains[K, 0] - rod[K, EDGE])) / 2
-        W_lam[K] += rod[K, K7] * excess
-        W_m[K - 1] += rod[K, K7] / 2 * stretch
-        W_m[K] += rod[K, K7] / 2 * stretch
-    W_turn = W_theta - rod[:, COUPLE]  # of the directors alone: a couple does the work of a couple
+        stretch = (strains[K, 1] - rod[K].director) / rod[K].director
+        excess = ((strains[K - 1, 0] - rod[K - 1].edge) + (strains[K, 0] - rod[K].edge)) / 2
+        W_lam[K] += rod[K].k7 * excess
+        W_m[K - 1] += rod[K].k7 / 2 * stretch
+        W_m[K] += rod[K].k7 / 2 * stretch
 
     # Third pass: the chain rule.  First what each edge, chord and director feels by itself ...
     for K in range(n - 1):
@@ -287,7 +289,7 @@ def assemble(
         gradient[p + 1] -= f1
         gradient[s] += f0
         gradient[s + 1] += f1
-        if order == 1:
+        if task == GRADIENT:
             continue
         _edge_block(band, p, s, t0[K], t1[K], W_mm[K], W_m[K] / m[K], -turning / (m[K] * m[K]))
     for K in range(n):
@@ -298,19 +300,19 @@ def assemble(
         gradient[p + 1] -= W_theta[K] * g1
         gradient[s] += W_theta[K] * g0
         gradient[s + 1] += W_theta[K] * g1
-        gradient[u] += W_turn[K] * h0 + W_lam[K] * d0[K] / rod[K, DIRECTOR]
-        gradient[u + 1] += W_turn[K] * h1 + W_lam[K] * d1[K] / rod[K, DIRECTOR]
-        if order == 1:
+        gradient[u] += W_theta[K] * h0 + W_lam[K] * d0[K] / rod[K].director
+        gradient[u + 1] += W_theta[K] * h1 + W_lam[K] * d1[K] / rod[K].director
+        if task == GRADIENT:
             continue
         stiff = W_thetatheta[K]
         _edge_block(band, p, s, c0[K], c1[K], 0.0, stiff / (c[K] * c[K]), W_theta[K] / (c[K] * c[K]))
         _cross(band, s, g0, g1, u, h0, h1, stiff)
         _cross(band, p, -g0, -g1, u, h0, h1, stiff)
-        _square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod[K, DIRECTOR])
-        _twist(band, u, d0[K], d1[K], -W_turn[K] / (r[K] * r[K]))
-        _square(band, u, d0[K] / rod[K, DIRECTOR], d1[K] / rod[K, DIRECTOR], W_lamlam[K])
+        _square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod[K].director)
+        _twist(band, u, d0[K], d1[K], -W_theta[K] / (r[K] * r[K]))
+        _square(band, u, d0[K] / rod[K].director, d1[K] / rod[K].director, W_lamlam[K])
 
-    if order == 1:
+    if task == GRADIENT:
         return total
 
     # ... then what couples neighbours.
@@ -330,7 +332,7 @@ def assemble(
         _cross(band, s + 4, b0, b1, p, a0, a1, stiff)
         _cross(band, s + 4, b0, b1, s, z0, z1, stiff)
 
-        w = rod[K, K7] / (2 * rod[K, DIRECTOR])
+        w = rod[K].k7 / (2 * rod[K].director)
         _cross(band, s + 2, d0[K], d1[K], p, -t0[K - 1], -t1[K - 1], w)
         _cross(band, s + 2, d0[K], d1[K], s, t0[K - 1] - t0[K], t1[K - 1] - t1[K], w)
         _cross(band, s + 2, d0[K], d1[K], s + 4, t0[K], t1[K], w)
@@ -344,7 +346,7 @@ def assemble(
             _cross(band, high_next, j0, j1, at, v0, v1, w)
             _cross(band, low_next, -j0, -j1, at, v0, v1, w)
             _cross(band, 4 * J + 2, i0, i1, at, v0, v1, w)
-        w = W_lam_next[K] / (rod[K, DIRECTOR] * rod[J, DIRECTOR])
+        w = W_lam_next[K] / (rod[K].director * rod[J].director)
         _cross(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
     return total
 
@@ -352,15 +354,17 @@ def assemble(
 def _energy(
     q: Vector,
     after: Vector,
-    rod: Array,
-    order: int,
-    measures: Array,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains_before: Array,
+    task: int,
     gradient: Vector,
     band: Band,
+    skew: Band,
     terms: Array,
 ) -> float:
     """The same, as a function that compiled solvers can be handed."""
-    return assemble(q, after, rod, order, measures, gradient, band, terms)
+    return assemble(q, after, data, history, strains_before, task, gradient, band, skew, terms)
 
 
 @functools.cache

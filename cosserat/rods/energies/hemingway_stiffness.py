@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.parameters import Parameters, Quantity
-from cosserat.rods.kinematics import Geometry, Lumped, signed_angle
+from cosserat.rods.reference import Geometry, Lumped, signed_angle
 
 Array = NDArray[np.float64]
 

@@ -23,16 +23,13 @@ Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, a
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
 
 import numpy as np
 from numba import cfunc, njit
 from numpy.typing import NDArray
 
-from cosserat.rods.energies.compiled_rod import CompiledRod
-from cosserat.rods.kinematics import Geometry
 from cosserat.solvers.banded import Band, Vector
-from cosserat.solvers.energy_momentum import KERNEL
+from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, STRAINS
 
 Array = NDArray[np.float64]
 
@@ -43,82 +40,40 @@ TERMS = (
     "shearing",
     "volume",
     "cross-section stretch gradients",
-    "couples",
 )
 """The parts of the energy, in the order of `energy_terms`."""
 
-_STIFF = 5.0
-"""Lambda over 2 mu from which on a volume is stiff: Poisson's ratio 0.45 in plane strain."""
-
-(EDGE, AXIAL, SLIDE, TURN, K_AXIAL, K_VOLUME, K_SHEAR, K_BENDING, K_STRETCH_GRADIENT) = range(9)
-(DIRECTOR, VORONOI, K_SECTION, COUPLE, BARRIER, ANGLE) = range(9, 15)
-(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, OFFSET, START) = range(15, 22)
-"""Columns of what the kernel reads; `consistent_reference.coefficients` says what they hold."""
+VERTEX = np.dtype(
+    [
+        # of the edge after the vertex, zero at the last one
+        ("edge", "f8"),  # length between the area centres [m]
+        ("axial", "f8"),  # h a of the reference [m]
+        ("slide", "f8"),  # h g of the reference [m]
+        ("turn", "f8"),  # T of the reference [rad]
+        ("k_axial", "f8"),  # 2 mu A [N]
+        ("k_volume", "f8"),  # Lambda A [N]
+        ("k_shear", "f8"),  # k mu A [N]
+        ("k_bending", "f8"),  # EI [N m^2]
+        ("k_stretch_gradient", "f8"),  # mu I [N m^2]
+        # of the vertex
+        ("director", "f8"),  # |D| [m]
+        ("voronoi", "f8"),  # L [m]
+        ("k_section", "f8"),  # 2 mu A [N]
+        # what is added to the DOFs: zero, or the reference where these are displacements [m]
+        ("edge_3", "f8"),
+        ("edge_2", "f8"),
+        ("director_3", "f8"),
+        ("director_2", "f8"),
+        ("offset", "f8"),  # of the area centres from the centreline, in directors [1]
+        # choices; those of the first vertex count
+        ("barrier", "f8"),  # one with the barriers of Fig. 3.7
+        ("product", "?"),  # whether the volume is the product of the stretches, not their sum
+    ],
+    align=True,
+)
+"""What the kernel reads of each vertex and of the edge after it."""
 STRAIN, SLIDING, TURNING, STRETCH = range(4)
 """Columns of the measures: of edge K the axial strain, the shear and the turning; of vertex K the section stretch."""
-
-
-@dataclass(frozen=True)
-class ConsistentRod(CompiledRod):
-    """The convergent rod as a solver sees it: an energy with its gradient and banded Hessian."""
-
-    rod: Array
-
-    @property
-    def half_bandwidth(self) -> int:
-        """Two neighbouring vertices of four numbers."""
-        return 7
-
-    @property
-    def kernel(self) -> object:
-        """The compiled energy, for compiled solvers."""
-        return _compiled_energy()
-
-    @property
-    def parameters(self) -> Array:
-        """What that kernel takes besides the DOFs."""
-        return self.rod
-
-    @property
-    def stiff_volume(self) -> bool:
-        """Whether a change of volume costs so much more than one of shape that motions have to begin without."""
-        return bool((self.rod[:, K_VOLUME] > _STIFF * self.rod[:, K_AXIAL]).any())
-
-    @property
-    def offset(self) -> float:
-        """Of the area centres from the centreline, in directors."""
-        return float(self.rod[0, OFFSET])
-
-    def unwrapped_near(self, angle: float) -> ConsistentRod:
-        """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
-        rod = self.rod.copy()
-        rod[0, START] = angle
-        return ConsistentRod(rod)
-
-    def displaced(self, geometry: Geometry) -> ConsistentRod:
-        """The same rod, its DOFs counted from the reference.
-
-        Forces then feel the rounding of displacements instead of positions, which on fine meshes is far less.
-        """
-        rod = self.rod.copy()
-        rod[:-1, EDGE_3 : EDGE_2 + 1] = np.diff(geometry.X + self.offset * geometry.D, axis=0)
-        rod[:, DIRECTOR_3 : DIRECTOR_2 + 1] = geometry.D
-        return ConsistentRod(rod)
-
-    def with_couples(self, couples: Array) -> ConsistentRod:
-        """The same rod with other couples, (N,) [N m]."""
-        rod = self.rod.copy()
-        rod[:, COUPLE] = couples
-        return ConsistentRod(rod)
-
-    def evaluate(
-        self, q: Vector, order: int, measures: Array, gradient: Vector, band: Band, terms: Array
-    ) -> float:
-        """The kernel at q; infinite where a section or an edge has shrunk to nothing or two directors oppose."""
-        return float(_assemble(q, _NOTHING, self.rod, order, measures, gradient, band, terms))
-
-
-_NOTHING = np.empty(0)
 
 
 @njit(cache=True)
@@ -185,28 +140,30 @@ def _volume(strain: float, wide: float, product: bool) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def _assemble(
+def assemble(
     q: Vector,
     after: Vector,
-    rod: Array,
-    order: int,
-    measures: Array,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains: Array,
+    task: int,
     gradient: Vector,
     band: Band,
+    skew: Band,
     terms: Array,
 ) -> float:
-    """The energy and its parts, as `stepping.KERNEL` says."""
-    gradient[:] = 0.0
-    band[:, :] = 0.0
+    """The energy and its parts, as `solvers.potential.KERNEL` says."""
+    rod = data.view(VERTEX)
     terms[:] = 0.0
-    moving, measuring, deriving, curving = after.size > 0, order == 3, 0 < order < 3, order == 2
-    barrier, product, offset = rod[0, BARRIER], rod[0, PRODUCT] != 0.0, rod[0, OFFSET]
+    moving, measuring, curving = after.size > 0, task == STRAINS, task == HESSIAN
+    deriving = curving or task == GRADIENT
+    barrier, product, offset = rod[0].barrier, rod[0].product, rod[0].offset
     # of the vertex before: direction, length and stretch; at the end of a step; and the stretch that stresses go by
-    n0 = n1 = r_a = a0 = a1 = end_a = used_a = angle = 0.0
+    n0 = n1 = r_a = a0 = a1 = end_a = used_a = 0.0
     v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
     for K in range(rod.shape[0]):
-        p, J, D = 4 * K, K - 1, rod[K, DIRECTOR]
-        p0, p1 = q[p + 2] + rod[K, DIRECTOR_3], q[p + 3] + rod[K, DIRECTOR_2]
+        p, J, D = 4 * K, K - 1, rod[K].director
+        p0, p1 = q[p + 2] + rod[K].director_3, q[p + 3] + rod[K].director_2
         r_b = np.sqrt(p0 * p0 + p1 * p1)
         if not r_b > 0.0:
             return np.inf
@@ -214,37 +171,34 @@ def _assemble(
         b0, b1, used_b = p0, p1, r_b / D
         end_b = used_b
         if moving:
-            b0, b1 = after[p + 2] + rod[K, DIRECTOR_3], after[p + 3] + rod[K, DIRECTOR_2]
+            b0, b1 = after[p + 2] + rod[K].director_3, after[p + 3] + rod[K].director_2
             size = np.sqrt(b0 * b0 + b1 * b1)
             if not size > 0.0:
                 return np.inf
             b0, b1, end_b = b0 / size, b1 / size, size / D
-            used_b = (measures[K, STRETCH] + end_b) / 2
+            used_b = (strains[K, STRETCH] + end_b) / 2
         if measuring:
-            measures[K, STRETCH] = end_b
-        terms[1] += rod[K, K_SECTION] / 2 * rod[K, VORONOI] * _stretch_energy(end_b, barrier)[0]
+            strains[K, STRETCH] = end_b
+        terms[1] += rod[K].k_section / 2 * rod[K].voronoi * _stretch_energy(end_b, barrier)[0]
         W_rb = W_rr = 0.0
-        W_turn = -rod[K, COUPLE]
+        W_turn = 0.0
         if deriving:
             _, first, second = _stretch_energy(used_b, barrier)
-            W_rb = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * first / D
-            W_rr = rod[K, K_SECTION] / 2 * rod[K, VORONOI] * second / D**2
-        if K == 0:
-            angle = np.arctan2(b1, b0)
-            angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))
-        else:
-            E, D_a = rod[J, EDGE], rod[J, DIRECTOR]
-            e0, e1 = q[p] - q[p - 4] + rod[J, EDGE_3], q[p + 1] - q[p - 3] + rod[J, EDGE_2]
+            W_rb = rod[K].k_section / 2 * rod[K].voronoi * first / D
+            W_rr = rod[K].k_section / 2 * rod[K].voronoi * second / D**2
+        if K > 0:
+            E, D_a = rod[J].edge, rod[J].director
+            e0, e1 = q[p] - q[p - 4] + rod[J].edge_3, q[p + 1] - q[p - 3] + rod[J].edge_2
             if offset != 0.0:
                 e0, e1 = e0 + offset * (q[p + 2] - q[p - 2]), e1 + offset * (q[p + 3] - q[p - 1])
             A, G, T, m0, m1 = _measured(e0, e1, n0, n1, p0, p1)
             if not A > 0.0:
                 return np.inf
-            strain, slide, turn = (A - rod[J, AXIAL]) / E, (G - rod[J, SLIDE]) / E, T
+            strain, slide, turn = (A - rod[J].axial) / E, (G - rod[J].slide) / E, T
             if moving:
                 e0, e1 = (
-                    after[p] - after[p - 4] + rod[J, EDGE_3],
-                    after[p + 1] - after[p - 3] + rod[J, EDGE_2],
+                    after[p] - after[p - 4] + rod[J].edge_3,
+                    after[p + 1] - after[p - 3] + rod[J].edge_2,
                 )
                 if offset != 0.0:
                     e0 += offset * (after[p + 2] - after[p - 2])
@@ -252,40 +206,39 @@ def _assemble(
                 A_end, G_end, turn, _, _ = _measured(e0, e1, a0, a1, b0, b1)
                 if not A_end > 0.0:
                     return np.inf
-                strain, slide = (A_end - rod[J, AXIAL]) / E, (G_end - rod[J, SLIDE]) / E
-            angle += turn
+                strain, slide = (A_end - rod[J].axial) / E, (G_end - rod[J].slide) / E
             wide = (end_a + end_b) / 2
             volume, jump = _volume(strain, wide, product), end_b - end_a
-            terms[0] += rod[J, K_AXIAL] / 2 * E * _stretch_energy(1 + strain, barrier)[0]
-            terms[4] += rod[J, K_VOLUME] / 2 * E * volume * volume
-            terms[3] += rod[J, K_SHEAR] / 2 * E * slide * slide
-            terms[2] += rod[J, K_BENDING] / (2 * E) * _bending_energy(turn - rod[J, TURN], barrier)[0]
-            terms[5] += rod[J, K_STRETCH_GRADIENT] / (2 * E) * jump * jump
+            terms[0] += rod[J].k_axial / 2 * E * _stretch_energy(1 + strain, barrier)[0]
+            terms[4] += rod[J].k_volume / 2 * E * volume * volume
+            terms[3] += rod[J].k_shear / 2 * E * slide * slide
+            terms[2] += rod[J].k_bending / (2 * E) * _bending_energy(turn - rod[J].turn, barrier)[0]
+            terms[5] += rod[J].k_stretch_gradient / (2 * E) * jump * jump
             if measuring:
-                measures[J, STRAIN], measures[J, SLIDING], measures[J, TURNING] = strain, slide, turn
+                strains[J, STRAIN], strains[J, SLIDING], strains[J, TURNING] = strain, slide, turn
             if deriving:
                 least = -np.inf
                 if moving:  # stresses are those of the mean of both ends
                     old, old_wide = (
-                        measures[J, STRAIN],
-                        (measures[J, STRETCH] + measures[K, STRETCH]) / 2,
+                        strains[J, STRAIN],
+                        (strains[J, STRETCH] + strains[K, STRETCH]) / 2,
                     )
                     old_volume = _volume(old, old_wide, product)
                     if curving:  # but pressure and least tension are those of the start
                         least, volume = _stretch_energy(1 + old, barrier)[1], old_volume
                     volume, strain = (old_volume + volume) / 2, (old + strain) / 2
-                    slide, turn = (measures[J, SLIDING] + slide) / 2, (measures[J, TURNING] + turn) / 2
+                    slide, turn = (strains[J, SLIDING] + slide) / 2, (strains[J, TURNING] + turn) / 2
                     wide, jump = (used_a + used_b) / 2, used_b - used_a
                 by_axial, by_wide = (wide, 1 + strain) if product else (1.0, 1.0)
                 _, first, w_axial = _stretch_energy(1 + strain, barrier)
-                _, bent_first, bent_second = _bending_energy(turn - rod[J, TURN], barrier)
-                pressure = rod[J, K_VOLUME] * volume
-                W_A = rod[J, K_AXIAL] / 2 * max(first, least) + pressure * by_axial
-                W_G = rod[J, K_SHEAR] * slide
-                W_T = rod[J, K_BENDING] / (2 * E) * bent_first
+                _, bent_first, bent_second = _bending_energy(turn - rod[J].turn, barrier)
+                pressure = rod[J].k_volume * volume
+                W_A = rod[J].k_axial / 2 * max(first, least) + pressure * by_axial
+                W_G = rod[J].k_shear * slide
+                W_T = rod[J].k_bending / (2 * E) * bent_first
                 W_wide = pressure * E / 2 * by_wide
-                W_ra = (W_wide - rod[J, K_STRETCH_GRADIENT] / E * jump) / D_a
-                W_rb += (W_wide + rod[J, K_STRETCH_GRADIENT] / E * jump) / D
+                W_ra = (W_wide - rod[J].k_stretch_gradient / E * jump) / D_a
+                W_rb += (W_wide + rod[J].k_stretch_gradient / E * jump) / D
                 W_b = W_A * G - W_G * A
                 f0, f1 = W_A * m1 + W_G * m0, -W_A * m0 + W_G * m1
                 turn_a = (W_b / 2 - W_T) / r_a
@@ -315,13 +268,13 @@ def _assemble(
                         widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
                     v[3, i] = by_axial * v[0, i] + by_wide * E * widening[i]
                 w[0], w[1], w[2] = (
-                    rod[J, K_AXIAL] / 2 * w_axial / E,
-                    rod[J, K_SHEAR] / E,
-                    rod[J, K_BENDING] / (2 * E) * bent_second,
+                    rod[J].k_axial / 2 * w_axial / E,
+                    rod[J].k_shear / E,
+                    rod[J].k_bending / (2 * E) * bent_second,
                 )
                 w[3], w[4], w[5] = (
-                    rod[J, K_VOLUME] / E,
-                    rod[J, K_STRETCH_GRADIENT] / E,
+                    rod[J].k_volume / E,
+                    rod[J].k_stretch_gradient / E,
                     -W_A * A - W_G * G,
                 )
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
@@ -331,8 +284,6 @@ def _assemble(
                 if product:
                     _pair(band, p - 4, v[0], widening, pressure)
                 _turn(band, p - 2, n0, n1, W_ra / r_a, turn_a / r_a)
-        if rod[K, COUPLE] != 0.0:
-            terms[6] -= rod[K, COUPLE] * (angle - rod[K, ANGLE])
         if deriving:
             gradient[p + 2] += W_rb * p0 - W_turn / r_b * p1
             gradient[p + 3] += W_rb * p1 + W_turn / r_b * p0
@@ -349,18 +300,20 @@ def _assemble(
 def _energy(
     q: Vector,
     after: Vector,
-    rod: Array,
-    order: int,
-    measures: Array,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains: Array,
+    task: int,
     gradient: Vector,
     band: Band,
+    skew: Band,
     terms: Array,
 ) -> float:
     """The same, as a function that compiled solvers can be handed."""
-    return _assemble(q, after, rod, order, measures, gradient, band, terms)
+    return assemble(q, after, data, history, strains, task, gradient, band, skew, terms)
 
 
 @functools.cache
-def _compiled_energy() -> object:
+def compiled_energy() -> object:
     """Loaded only where a motion needs it: 0.2 s."""
     return cfunc(KERNEL, cache=True)(_energy)

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, PAPER, VARIANT, canvas
 from cosserat.rods.energies.hemingway_kernel import squared_tangent, stretching
-from cosserat.rods.kinematics import Geometry, strains, vertex_tangents
 from cosserat.rods.problem import RodProblem
+from cosserat.rods.reference import Geometry, strains, vertex_tangents
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]

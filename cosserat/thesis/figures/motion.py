@@ -14,7 +14,7 @@ from cosserat.exact import beams, elastica
 from cosserat.figures.rod import draw_outline, draw_supports, outline
 from cosserat.figures.style import BODY, COMPUTED, CONSISTENT, EXACT, INK, VARIANT, canvas
 from cosserat.problems.motion import RodMotion
-from cosserat.rods.kinematics import DOFS
+from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.problem import RodProblem
 from cosserat.studies.calibration import beam_of
 
@@ -75,7 +75,7 @@ def fig_modes(data: Data) -> Figure:
         axes, found.angular_frequency, found.shape, "abcd", strict=True
     ):
         field = _SHOWN_MODE * problem.rod.length * shape / np.abs(shape).max()
-        x, d = np.split(field.reshape(-1, len(DOFS)), 2, axis=1)
+        x, d = np.split(field.reshape(-1, len(PLANAR.dofs)), 2, axis=1)
         for sign, colours in (
             (-1, {"facecolor": "none", "edgecolor": EXACT, "linestyle": ":"}),
             (1, {"facecolor": BODY, "edgecolor": COMPUTED}),

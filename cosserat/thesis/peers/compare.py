@@ -31,7 +31,7 @@ from cosserat.errors import CosseratError, InputError
 from cosserat.exact import beams, elastica
 from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
-from cosserat.rods.problem import PointForce
+from cosserat.rods.loads.dead import PointForce
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.integrate import IntegratorSettings, integrate
@@ -264,11 +264,9 @@ class _Peer:
 
 def _solve(problem: Problem, posed: RodStatics | RodMotion) -> dict[str, Any]:
     if isinstance(posed, RodStatics):  # as for the others, the model is built before
-        loaded = posed.loaded(posed.rod.geometry())
+        system = posed.system(posed.rod.geometry())
         start = time.perf_counter()
-        found = solve_full_load(
-            EquilibriumSolver(loaded, posed.newton, problem.name), np.zeros(loaded.constrained.size)
-        )
+        found = solve_full_load(EquilibriumSolver(system, posed.newton, problem.name))
         taken = time.perf_counter() - start
         u = found.q.reshape(-1, 4)[:, 1]
         return {"seconds": taken, "profile": u.tolist(), "tip": float(u[-1])}

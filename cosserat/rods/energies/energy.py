@@ -1,0 +1,61 @@
+"""What every strain energy of a rod offers; `cosserat.rods.energies.ENERGIES` lists them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.rods.reference import Geometry
+from cosserat.solution import Field
+from cosserat.solvers.potential import Potential
+
+if TYPE_CHECKING:
+    from cosserat.rods.rod import Rod
+
+Array = NDArray[np.float64]
+
+
+class Energy(ABC):
+    """One strain energy: its options, its potential, its mass and its own output.
+
+    options : fields of `Rod` that only this energy reads.
+    far : whether sections may rotate by more than a quarter turn, and a path be followed past limit points.
+    """
+
+    options: ClassVar[tuple[str, ...]] = ()
+    far: ClassVar[bool] = False
+
+    @abstractmethod
+    def check(self, rod: Rod) -> None:
+        """Raise PydanticCustomError where the options of a rod do not fit together."""
+
+    @abstractmethod
+    def potential(self, rod: Rod, geometry: Geometry, *, displacements: bool = False) -> Potential:
+        """The energy in a reference configuration, zero there.
+
+        displacements : its DOFs are displacements from the reference; if not, they are positions and directors.
+        """
+
+    @abstractmethod
+    def masses(self, rod: Rod, geometry: Geometry) -> tuple[Array, Array]:
+        """Masses of the vertices (N,), and those that couple neighbours (N - 1,) [kg]; no size if none do."""
+
+    @abstractmethod
+    def fields(
+        self, rod: Rod, geometry: Geometry, x: Array, d: Array, terms: Array, couples: float
+    ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
+        """Labels and fields of a state x, d (N, 2) [m] that only this energy has.
+
+        terms : the parts of the energy there [J].  couples : energy of the couples [J].
+        """
+
+    def shaped(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
+        """Directors (N, 2) [m] with which a motion from x, d can begin: these, unless they set off vibrations."""
+        return d
+
+    def warnings(self, rod: Rod) -> list[str]:
+        """What of the rod its edges follow less well than the rest."""
+        return []

@@ -1,0 +1,1 @@
+"""Loads on a rod, one kind a file; `LOADS` of `rods.problem` lists them."""

@@ -1,0 +1,138 @@
+"""Couples: moments that turn with their sections, with a potential.
+
+derived: a couple M on a director at the angle alpha has the potential -M alpha.  Minus its gradient is the director
+force M n / |d|, n across the director: eq. (3.3.41) with |d| in place of lambda H, which for a director that reaches
+the surface at half the height is twice the printed force (E3.10).  With t = d / |d|, grad grad alpha is
+-(t n + n t) / |d|^2.  Angles are counted on from vertex to vertex; the winding angle of the first director is an
+internal variable, so that they may count whole turns.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from typing import Annotated, Self
+
+import numpy as np
+from numba import cfunc, njit
+from numpy.typing import NDArray
+
+from cosserat.parameters import Quantity
+from cosserat.rods.loads.load import Load, LoadedRod
+from cosserat.rods.naming import Vertex
+from cosserat.rods.reference import unwrapped_angles
+from cosserat.solvers.banded import Band, Vector
+from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, KERNEL, Potential
+
+Array = NDArray[np.float64]
+TERMS = ("couples",)
+"""Names of the parts of the potential."""
+_VERTEX = np.dtype([("moment", "f8"), ("angle", "f8")])  # [N m]; of the director in the reference [rad]
+
+
+class Couple(Load):
+    """A moment on one section, positive from E3 towards E2, that turns with it: it does the work of a couple."""
+
+    at: Vertex
+    moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
+
+    @property
+    def vertices(self) -> tuple[Vertex, ...]:
+        """Where it acts."""
+        return (self.at,)
+
+    @classmethod
+    def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
+        """Minus the work of the couples; its internal variable is the winding angle of the first director [rad]."""
+        moments = np.zeros(body.rod.vertices)
+        for load in loads:
+            moments[body.rod.index(load.at)] += load.moment
+        return couples(moments, unwrapped_angles(body.geometry.D), body.origin)
+
+
+def couples(moments: Array, angles: Array, origin: Vector | None = None) -> Potential:
+    """The potential of couples (N,) [N m] on directors whose reference angles are (N,) [rad]."""
+    constants = np.empty(moments.size, _VERTEX)
+    constants["moment"], constants["angle"] = moments, angles
+    reach = 1 if moments.any() else -1
+    return Potential(
+        _work,
+        _compiled,
+        constants,
+        TERMS,
+        half_bandwidth=reach,
+        history=angles[:1].copy(),
+        origin=origin,
+    )
+
+
+@njit(cache=True)
+def unwrap(y: float, x: float, near: float) -> float:
+    """Polar angle of (x, y), within half a turn of another angle."""
+    angle = np.arctan2(y, x)
+    return float(angle - 2 * np.pi * np.round((angle - near) / (2 * np.pi)))
+
+
+@njit(cache=True, error_model="numpy")
+def _work(
+    q: Vector,
+    after: Vector,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains: Array,
+    task: int,
+    gradient: Vector,
+    band: Band,
+    skew: Band,
+    terms: Array,
+) -> float:
+    """Minus the work of the couples, as `solvers.potential.KERNEL` says."""
+    vertices = data.view(_VERTEX)
+    ends = after if after.size > 0 else q
+    if task == COMMIT:
+        history[0] = unwrap(ends[3], ends[2], history[0])
+        return 0.0
+    terms[0] = 0.0
+    angle = unwrap(ends[3], ends[2], history[0])
+    for K in range(vertices.size):
+        p, M = 4 * K + 2, vertices[K].moment
+        if K > 0:
+            a0, a1, b0, b1 = ends[p - 4], ends[p - 3], ends[p], ends[p + 1]
+            angle += np.arctan2(a0 * b1 - a1 * b0, a0 * b0 + a1 * b1)
+        if M == 0.0:
+            continue
+        terms[0] -= M * (angle - vertices[K].angle)
+        if task in (GRADIENT, HESSIAN):
+            d0, d1 = q[p], q[p + 1]
+            square = d0 * d0 + d1 * d1
+            gradient[p] += M * d1 / square
+            gradient[p + 1] -= M * d0 / square
+            if task == HESSIAN:
+                turn = M / (square * square)
+                band[p, 0] -= 2 * turn * d0 * d1
+                band[p, 1] += turn * (d0 * d0 - d1 * d1)
+                band[p + 1, 0] += 2 * turn * d0 * d1
+    energy: float = terms[0]
+    return energy
+
+
+def _kernel(
+    q: Vector,
+    after: Vector,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains: Array,
+    task: int,
+    gradient: Vector,
+    band: Band,
+    skew: Band,
+    terms: Array,
+) -> float:
+    """The same, as a function that compiled solvers can be handed."""
+    return _work(q, after, data, history, strains, task, gradient, band, skew, terms)
+
+
+@functools.cache
+def _compiled() -> object:
+    """Loaded only where a motion needs it."""
+    return cfunc(KERNEL, cache=True)(_kernel)

@@ -1,0 +1,166 @@
+"""Dead loads, which neither turn nor change with the rod: weight, forces at vertices and along stretches of the rod."""
+
+from __future__ import annotations
+
+import functools
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Annotated, Self
+
+import numpy as np
+from numba import cfunc, njit
+from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError
+
+from cosserat.parameters import Quantity
+from cosserat.rods.kinematics import PLANAR
+from cosserat.rods.loads.load import Load, LoadedRod
+from cosserat.rods.naming import Direction, Vertex, unit_vector
+from cosserat.rods.reference import Geometry
+from cosserat.rods.rod import Rod
+from cosserat.solvers.banded import Band, Vector, band_product
+from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, KERNEL, Potential
+
+Array = NDArray[np.float64]
+_DOF = np.dtype([("force", "f8"), ("reference", "f8")])
+
+
+class DeadLoad(Load):
+    """A load that is a constant force on the DOFs."""
+
+    @abstractmethod
+    def on_dofs(self, body: LoadedRod) -> Array:
+        """Force on the DOFs of each vertex, shape (N, 4) [N]."""
+
+    @classmethod
+    def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
+        """Minus the work of the forces from the reference on, eq. (3.3.40)."""
+        total = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        for load in loads:
+            total += load.on_dofs(body)
+        return dead(total.ravel(), body.unmoved)
+
+
+class Gravity(DeadLoad):
+    """The weight of the rod: its mass matrix times a uniform acceleration, which lumped is rho0 g L of section 3.5."""
+
+    g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
+    along: Direction
+
+    def on_dofs(self, body: LoadedRod) -> Array:
+        """The same mass as in motion."""
+        fall = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        fall[:, :2] = self.g * unit_vector(self.along)
+        return band_product(body.mass, fall.ravel()).reshape(fall.shape)
+
+
+class PointForce(DeadLoad):
+    """A dead force on the centreline at one vertex."""
+
+    at: Vertex
+    along: Direction
+    force: Annotated[float, Quantity("N", "n", "section 3.5")]
+
+    @property
+    def vertices(self) -> tuple[Vertex, ...]:
+        """Where it acts."""
+        return (self.at,)
+
+    def on_dofs(self, body: LoadedRod) -> Array:
+        """On the position of its vertex."""
+        forces = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        forces[body.rod.index(self.at), :2] = self.force * unit_vector(self.along)
+        return forces
+
+
+class LineLoad(DeadLoad):
+    """A dead force per length on the centreline, over a stretch of it."""
+
+    along: Direction
+    density: Annotated[float, Quantity("N/m")]
+    start: Annotated[float, Quantity("m", at_least=0)] = 0.0
+    end: Annotated[float, Quantity("m", above=0)] | None = None
+    """The end of the rod, if not given."""
+
+    def check(self, rod: Rod) -> None:
+        """It begins before it ends, on the rod."""
+        end = self._end(rod)
+        if not self.start < end <= rod.length * (1 + 1e-12):
+            raise PydanticCustomError(
+                "range",
+                f"'line_loads' has one from {self.start:g} m to {end:g} m, but the rod goes from 0 to "
+                f"{rod.length:g} m; let it begin before it ends, on the rod",
+            )
+
+    def on_dofs(self, body: LoadedRod) -> Array:
+        """On the parts round the vertices, as far as it covers them."""
+        forces = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        covered = _overlap(body.geometry, self.start, self._end(body.rod))
+        forces[:, :2] = self.density * covered[:, None] * unit_vector(self.along)
+        return forces
+
+    def _end(self, rod: Rod) -> float:
+        return rod.length if self.end is None else self.end
+
+
+def _overlap(geometry: Geometry, start: float, end: float) -> Array:
+    """Length that each vertex's part shares with an interval, shape (N,) [m]."""
+    arc = geometry.arc_length
+    cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
+    shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
+    return shared
+
+
+def dead(force: Vector, reference: Vector) -> Potential:
+    """The potential of constant forces (n,) [N] on the DOFs, zero at the reference (n,)."""
+    constants = np.empty(force.size, _DOF)
+    constants["force"], constants["reference"] = force, reference
+    return Potential(_work, _compiled, constants, ("dead loads",), half_bandwidth=-1)
+
+
+@njit(cache=True)
+def _work(
+    q: Vector,
+    after: Vector,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains: Array,
+    task: int,
+    gradient: Vector,
+    band: Band,
+    skew: Band,
+    terms: Array,
+) -> float:
+    """Minus the work of the forces, as `solvers.potential.KERNEL` says."""
+    dofs = data.view(_DOF)
+    ends = after if after.size > 0 else q
+    energy = 0.0
+    for i in range(dofs.size):
+        energy -= dofs[i].force * (ends[i] - dofs[i].reference)
+        if task in (GRADIENT, HESSIAN):
+            gradient[i] -= dofs[i].force
+    if task != COMMIT:
+        terms[0] = energy
+    return energy
+
+
+def _kernel(
+    q: Vector,
+    after: Vector,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains: Array,
+    task: int,
+    gradient: Vector,
+    band: Band,
+    skew: Band,
+    terms: Array,
+) -> float:
+    """The same, as a function that compiled solvers can be handed."""
+    return _work(q, after, data, history, strains, task, gradient, band, skew, terms)
+
+
+@functools.cache
+def _compiled() -> object:
+    """Loaded only where a motion needs it."""
+    return cfunc(KERNEL, cache=True)(_kernel)

@@ -1,0 +1,59 @@
+"""What every kind of load offers."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.parameters import Parameters
+from cosserat.rods.naming import Vertex
+from cosserat.rods.reference import Geometry
+from cosserat.rods.rod import Rod
+from cosserat.solvers.potential import Potential
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LoadedRod:
+    """What a load acts on.
+
+    origin : (4 N,) what its potential adds to the DOFs to get positions and directors: nothing, or the reference.
+    """
+
+    rod: Rod
+    geometry: Geometry
+    origin: Array | None = None
+
+    @cached_property
+    def mass(self) -> Array:
+        """Mass matrix as a symmetric band."""
+        return self.rod.mass(self.geometry)
+
+    @property
+    def unmoved(self) -> Array:
+        """The DOFs (4 N,) of the reference."""
+        return self.geometry.q if self.origin is None else np.zeros_like(self.origin)
+
+
+class Load(Parameters):
+    """A load of one kind: its parameters, and the potential of all loads of that kind."""
+
+    @property
+    def vertices(self) -> tuple[Vertex, ...]:
+        """The vertices that it names."""
+        return ()
+
+    def check(self, rod: Rod) -> None:
+        """Raise PydanticCustomError where it does not fit the rod."""
+
+    @classmethod
+    @abstractmethod
+    def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
+        """The potential of all loads of this kind together; zero in the reference configuration."""

@@ -1,0 +1,189 @@
+"""The discrete planar directed rod: its reference geometry and lumped properties, sections 3.3 and 3.4.
+
+Components are taken in the plane of motion in the order (E3, E2): along the straight rod, then up.  A positive angle
+turns E3 towards E2, which is the sign that eqs. (3.3.18) and (3.3.26) give.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Lumped:
+    """Section and material averaged over the parts round the vertices or over the edges, Table 3.1.
+
+    area [m^2], second_moment [m^4], young [Pa], shear [Pa], poisson [1]: arrays of shape (N,) for vertices, (N - 1,)
+    for edges.
+    """
+
+    area: Array
+    second_moment: Array
+    young: Array
+    shear: Array
+    poisson: Array
+
+    @classmethod
+    def uniform(
+        cls, count: int, *, area: float, second_moment: float, young: float, poisson: float
+    ) -> Lumped:
+        """The same isotropic section at every one of `count` vertices or edges."""
+        shear = young / (2 * (1 + poisson))
+        return cls(*(np.full(count, value) for value in (area, second_moment, young, shear, poisson)))
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """A reference configuration.
+
+    X : (N, 2) centreline vertices [m].  D : (N, 2) directors, from the centreline to the lateral surface [m].
+    """
+
+    X: Array
+    D: Array
+
+    @classmethod
+    def straight(cls, vertices: int, length: float, director_length: float) -> Geometry:
+        """A straight rod along E3 from the origin with equal edges, eq. (3.3.1), its directors along E2."""
+        X = np.zeros((vertices, 2))
+        X[:, 0] = np.linspace(0.0, length, vertices)
+        D = np.zeros((vertices, 2))
+        D[:, 1] = director_length
+        return cls(X, D)
+
+    @classmethod
+    def arc(cls, vertices: int, length: float, director_length: Array, curvature: float) -> Geometry:
+        """A rod bent from the origin into an arc that turns from E3 towards E2, its directors along b, eq. (3.3.25).
+
+        length is that of the polygon, whose vertices lie on a circle.  The directors are orthogonal to the vertex
+        tangents, so that no shear is intrinsic.
+        """
+        edge = length / (vertices - 1)
+        turn = 2 * np.arcsin(curvature * edge / 2)
+        angles = turn * (np.arange(vertices - 1) + 0.5)
+        steps = edge * np.column_stack([np.cos(angles), np.sin(angles)])
+        X = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
+        tangents = vertex_tangents(X)
+        return cls(X, director_length[:, None] * np.column_stack([-tangents[:, 1], tangents[:, 0]]))
+
+    @cached_property
+    def q(self) -> Array:
+        """The DOFs of the reference configuration, shape (4 N,) [m]."""
+        dofs: Array = np.hstack([self.X, self.D]).ravel()
+        return dofs
+
+    @cached_property
+    def edge_length(self) -> Array:
+        """||E||, shape (N - 1,) [m], eq. (3.3.4)."""
+        return lengths(np.diff(self.X, axis=0))
+
+    @cached_property
+    def director_length(self) -> Array:
+        """||D||, shape (N,) [m]."""
+        return lengths(self.D)
+
+    @cached_property
+    def voronoi_length(self) -> Array:
+        """Reference length of the part round each vertex, shape (N,) [m], eqs. (3.3.10)-(3.3.11)."""
+        return to_vertices(self.edge_length)
+
+    @cached_property
+    def arc_length(self) -> Array:
+        """Reference arc length of each vertex, shape (N,) [m]."""
+        return np.concatenate([[0.0], np.cumsum(self.edge_length)])
+
+
+def to_vertices(edge_lengths: Array) -> Array:
+    """Voronoi lengths of a polygon from its edge lengths: (N - 1,) -> (N,), eqs. (3.3.10)-(3.3.14).
+
+    They add up to the length of the polygon, eq. (3.3.12).
+    """
+    vertex = np.zeros(edge_lengths.size + 1)
+    vertex[:-1] += edge_lengths / 2
+    vertex[1:] += edge_lengths / 2
+    return vertex
+
+
+@dataclass(frozen=True)
+class Strains:
+    """The strain measures of section 3.3 in one configuration.
+
+    mu_edge : (N - 1,) stretch of the edges, eq. (3.3.19).  mu : (N,) of the vertices, eq. (3.3.20).
+    lam : (N,) stretch of the sections, eq. (3.3.21).
+    phi : (N,) turning angle [rad], eqs. (3.3.15)-(3.3.18).
+    kappa : (N,) curvature [1/m], eq. (3.3.23), one over the radius of eq. (3.3.22).
+    theta : (N,) shear angle [rad], eqs. (3.3.24)-(3.3.26).
+    """
+
+    mu_edge: Array
+    mu: Array
+    lam: Array
+    phi: Array
+    kappa: Array
+    theta: Array
+
+
+def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
+    """Measure a configuration x, d, each of shape (N, 2) [m]."""
+    e = np.diff(x, axis=0)
+    length = lengths(e)
+    tangent = vertex_tangents(x)
+    bishop = np.column_stack([-tangent[:, 1], tangent[:, 0]])  # b = t x E1, eq. (3.3.25)
+    voronoi = to_vertices(length)
+    # between edges, whose angle is that of their unit tangents (3.3.5); at the ends between the tangents of the
+    # vertices, eqs. (3.3.16)-(3.3.17)
+    before = np.vstack([tangent[:1], e])
+    after = np.vstack([e, tangent[-1:]])
+    before[0], after[0] = tangent[0], tangent[1]
+    before[-1], after[-1] = tangent[-2], tangent[-1]
+    phi = signed_angle(before, after)
+    return Strains(
+        mu_edge=length / geometry.edge_length,
+        mu=voronoi / geometry.voronoi_length,
+        lam=lengths(d) / geometry.director_length,
+        phi=phi,
+        kappa=2 / voronoi * np.tan(phi / 2),
+        theta=signed_angle(bishop, d),
+    )
+
+
+def vertex_tangents(x: Array) -> Array:
+    """Unit tangents at the vertices, shape (N, 2), eqs. (3.3.7)-(3.3.9)."""
+    chord = np.empty_like(x)
+    chord[1:-1] = x[2:] - x[:-2]
+    chord[0] = x[1] - x[0]
+    chord[-1] = x[-1] - x[-2]
+    return chord / lengths(chord)[:, None]
+
+
+def signed_angle(a: Array, b: Array) -> Array:
+    """Angle from a to b, positive from E3 towards E2: rows of (n, 2) arrays -> (n,) [rad]."""
+    angle: Array = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1))
+    return angle
+
+
+def unwrapped_angles(d: Array) -> Array:
+    """Polar angles of directors (N, 2), each within half a turn of the vertex before: (N,) [rad]."""
+    turns = np.concatenate([[np.arctan2(d[0, 1], d[0, 0])], signed_angle(d[:-1], d[1:])])
+    angles: Array = np.cumsum(turns)
+    return angles
+
+
+def edge_shear(x: Array, d: Array) -> Array:
+    """Angle of each edge against the normal of the mean of its two unit directors (3.3.6), shape (N - 1,) [rad]."""
+    unit = d / np.linalg.norm(d, axis=1)[:, None]
+    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
+    angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
+    return angle
+
+
+def lengths(vectors: Array) -> Array:
+    """Norms of the rows of an (n, 2) array: (n,)."""
+    norm: Array = np.hypot(vectors[:, 0], vectors[:, 1])
+    return norm

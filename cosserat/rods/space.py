@@ -1,0 +1,118 @@
+"""What solvers have to know of the degrees of freedom of a rod: how its edges and directors rotate and stretch."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.rods.kinematics import Kinematics, rotated, rotation_rates, stretch_rates
+from cosserat.solvers.banded import Mask, Vector
+
+Array = NDArray[np.float64]
+_MAX_ROTATION = 1.0  # of a director in one step [rad]
+
+
+@dataclass(frozen=True)
+class RodSpace:
+    """Configurations of a rod, in the plane or in space.
+
+    at_rest : positions and directors of the reference, flat (n,) [m].
+    displacements : whether the DOFs are displacements from it; if not, they are positions and directors.
+    rounded : (n,) what the energy adds to the DOFs before it computes with them, zero if it adds nothing.
+    """
+
+    kinematics: Kinematics
+    at_rest: Vector
+    displacements: bool
+    rounded: Vector
+
+    @property
+    def dimension(self) -> int:
+        """Of the space of positions and directors."""
+        return self.kinematics.dimension
+
+    @property
+    def reference(self) -> Vector:
+        """The DOFs (n,) of the reference configuration."""
+        return np.zeros_like(self.at_rest) if self.displacements else self.at_rest
+
+    @cached_property
+    def scale(self) -> Vector:
+        """Lengths of edges and directors, and what is added to the DOFs: stretches are rounded as fractions of them."""
+        sizes = np.empty_like(self.kinematics.split(self.at_rest))
+        edges, directors = self.kinematics.parts(self.at_rest)
+        length = _lengths(edges)
+        sizes[:, 0] = np.append(length, length[-1])[:, None]
+        sizes[:, 1:] = _lengths(directors).reshape(sizes.shape[0], -1, 1)
+        scale: Vector = np.maximum(sizes.ravel(), np.abs(self.rounded))
+        return scale
+
+    def placed(self, q: Vector) -> Vector:
+        """Positions and directors (n,) at the DOFs."""
+        return self.at_rest + q if self.displacements else q
+
+    def rigid_motions(self, q: Vector) -> Array:
+        """Velocities that deform nothing, the translations first."""
+        return self.kinematics.rigid_motions(self.placed(q))
+
+    def max_step_fraction(self, q: Vector, step: Vector) -> float:
+        """Largest fraction of a step that changes no director by more than its length, one radian."""
+        d = self.kinematics.split(self.placed(q))[:, 1:]
+        change = self.kinematics.split(step)[:, 1:]
+        fastest = float((_lengths(change) / _lengths(d)).max())
+        return _MAX_ROTATION / fastest if fastest > 0 else np.inf
+
+    def rates(self, q: Vector, change: Vector) -> Array:
+        """How fast edges and directors rotate [rad] and stretch as the DOFs change, (parts, 2) in the plane."""
+        vectors = np.vstack(self.kinematics.parts(self.placed(q)))
+        rates = np.vstack(self.kinematics.parts(change))
+        return np.column_stack([rotation_rates(vectors, rates), stretch_rates(vectors, rates)])
+
+    def predicted(
+        self, q: Vector, moved: Array, prescribe: Callable[[Vector], Vector], constrained: Mask
+    ) -> Vector:
+        """The DOFs after edges and directors have rotated and stretched.
+
+        Edges that rotate do not meet the supports any more; what is missing is spread along the rod between them.
+        """
+        at = self.kinematics.split(self.placed(q))
+        vectors = np.vstack(self.kinematics.parts(self.placed(q)))
+        vectors = rotated((1 + moved[:, -1:]) * vectors, moved[:, :-1])
+        count = at.shape[0] - 1
+        x = at[0, 0] + np.vstack([np.zeros(self.dimension), np.cumsum(vectors[:count], axis=0)])
+        guess = np.concatenate(
+            [x[:, None], vectors[count:].reshape(count + 1, -1, self.dimension)], axis=1
+        )
+        guess = guess - self.kinematics.split(self.at_rest if self.displacements else np.zeros_like(q))
+        goal = self.kinematics.split(prescribe(guess.ravel()))
+        for axis, mask in enumerate(self.kinematics.split(constrained)[:, 0].T):
+            held = np.flatnonzero(mask)
+            if held.size:
+                missing = (goal - guess)[held, 0, axis]
+                guess[:, 0, axis] += np.interp(np.arange(count + 1), held, missing)
+        return prescribe(guess.ravel())
+
+    def carried(self, change: Vector, constrained: Mask) -> Vector:
+        """The mean translation of the supported vertices, in the change of every vertex.
+
+        derived: where two ends have moved against each other, what is left is as symmetric as the rod.
+        """
+        vectors = self.kinematics.split(change)
+        supported = self.kinematics.split(constrained)[:, 0].any(axis=1)
+        translation = np.zeros_like(vectors)
+        if supported.any():
+            translation[:, 0] = vectors[supported, 0].mean(axis=0)
+        return translation.ravel()
+
+
+def _lengths(vectors: Array) -> Array:
+    """Norms along the last axis."""
+    if vectors.shape[-1] == 2:
+        size: Array = np.hypot(vectors[..., 0], vectors[..., 1])
+        return size
+    norm: Array = np.linalg.norm(vectors, axis=-1)
+    return norm

@@ -1,0 +1,124 @@
+"""Motion by the implicit method of `solvers.energy_momentum`."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numba import types as numba_types
+from numpy.typing import NDArray
+
+from cosserat.errors import NotConvergedError
+from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
+from cosserat.solvers.integrate import IntegratorSettings, State, step_count
+from cosserat.solvers.potential import KERNEL, Potential
+from cosserat.solvers.step import CORRECTED, COUNTED, UNCORRECTED, Bodies, Room, Run
+from cosserat.solvers.system import MechanicalSystem
+
+Fields = NDArray[np.float64]
+types: Any = numba_types  # which says nothing of its own types
+
+
+@functools.cache
+def _compiled_steps(count: int) -> Callable[..., int]:
+    """`integrate_steps` for a number of potentials, compiled; loaded only where a motion needs it."""
+    vector, matrix, mask = types.float64[::1], types.float64[:, ::1], types.boolean[::1]
+    whole = types.int64[::1]
+    each = (types.FunctionType(KERNEL), types.uint8[::1], vector, matrix, vector)
+    bodies = types.NamedTuple(
+        (*(types.UniTuple(one, count) for one in each), whole, types.boolean), Bodies
+    )
+    given = (
+        matrix,
+        vector,
+        mask,
+        matrix,
+        types.float64,
+        types.float64,
+        types.int64[::1],
+        matrix,
+        matrix,
+    )
+    run = types.NamedTuple(given, Run)
+    room = types.NamedTuple((*(vector,) * 12, matrix, matrix, matrix), Room)
+    signature = types.int64(bodies, run, room, vector, vector, vector)
+    compiled: Callable[..., int] = njit(signature, cache=True)(integrate_steps)
+    return compiled
+
+
+def integrate_implicitly(
+    system: MechanicalSystem, state: State, duration: float, settings: IntegratorSettings, name: str
+) -> tuple[State, int]:
+    """Move on by equal steps.
+
+    Raises
+    ------
+    NotConvergedError : a step found no solution.
+    """
+    count = step_count(duration, settings)
+    h, n = duration / count, state.q.size
+    met = [k for k, p in enumerate(system.potentials) if not p.linear or p.history.size]
+    potentials = [system.potentials[k] for k in met]
+    history = list(state.history)
+    for k in met:
+        history[k] = history[k].copy()
+    bodies = Bodies(
+        tuple(p.compiled() for p in potentials),
+        tuple(p.data for p in potentials),
+        tuple(history[k] for k in met),
+        tuple(np.zeros(p.strains) for p in potentials),
+        tuple(np.empty(len(p.terms)) for p in potentials),
+        np.array([_role(p) for p in potentials]),
+        any(not load.linear for load in system.external),
+    )
+    width = 1 + max(np.flatnonzero(system.inertia.any(axis=0)), default=0)
+    mass = np.ascontiguousarray(system.inertia[:, :width])
+    free = system.space.rigid_motions(state.q)[
+        : 0 if system.constrained.any() else system.space.dimension
+    ]
+    rotations = np.zeros((free.shape[0] * (free.shape[0] - 1) // 2, n))
+    run = Run(
+        mass,
+        system.dead_load,
+        system.constrained,
+        np.ascontiguousarray(free),
+        h,
+        system.damping_rate,
+        *_prescribed(system, state.time, h, count),
+    )
+    vectors = [np.zeros(n) for _ in range(12)]
+    bands = [rotations, np.empty((n, system.half_bandwidth + 1)), mass.copy()]
+    room = Room._make([*vectors, *bands])
+    q, v, exchanged = state.q.copy(), state.v.copy(), np.array([state.dissipated, state.driven])
+    done = _compiled_steps(len(potentials))(bodies, run, room, q, v, exchanged)
+    if done < count:
+        raise NotConvergedError(
+            f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
+            iterations=MAX_ITERATIONS,
+            tolerance=TOLERANCE,
+        )
+    return State(q, v, tuple(history), state.time + count * h, *exchanged.tolist()), count
+
+
+def _role(potential: Potential) -> int:
+    """What a step makes of a potential."""
+    if potential.linear:
+        return COUNTED
+    return CORRECTED if potential.symmetric else UNCORRECTED
+
+
+def _prescribed(
+    system: MechanicalSystem, start: float, h: float, count: int
+) -> tuple[NDArray[np.int64], Fields, Fields]:
+    """Constrained DOFs that move, and where and how fast they are at the ends of all steps."""
+    if not system.constraints.moving:
+        return np.empty(0, dtype=np.int64), np.zeros((count + 1, 0)), np.zeros((count + 1, 0))
+    moved = np.flatnonzero(system.constrained)
+    path = np.zeros((2, count + 1, moved.size))
+    for number in range(count + 1):
+        place, rate, _ = system.constraints.at_time(start + number * h)
+        path[:, number] = place[moved], rate[moved]
+    return moved, path[0], path[1]

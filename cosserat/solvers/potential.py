@@ -1,0 +1,142 @@
+"""An energy, a load or anything else that has one, as every solver sees it.
+
+A potential is a compiled function of the degrees of freedom (DOFs) with a gradient and a banded Hessian.  What it is
+given besides is explicit: constants, internal variables that change only where a state is accepted, and strains that a
+time step replaces by their means over its two ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numba import types
+from numpy.typing import NDArray
+
+from cosserat.solvers.banded import NO_BAND, Band, Vector
+
+Strains = NDArray[np.float64]
+
+ENERGY, GRADIENT, HESSIAN, STRAINS, COMMIT = range(5)
+"""What a kernel is asked for."""
+
+KERNEL = types.float64(
+    types.float64[::1],
+    types.float64[::1],
+    types.uint8[::1],
+    types.float64[::1],
+    types.float64[:, ::1],
+    types.int64,
+    types.float64[::1],
+    types.float64[:, ::1],
+    types.float64[:, ::1],
+    types.float64[::1],
+)
+"""A compiled potential:
+(q, after, constants, history, strains, task, gradient, band, skew, terms) -> energy.
+
+q : (n,) the DOFs.  constants : the bytes of a structured array.  history : the internal variables.
+terms : is overwritten by the parts of the energy, except by COMMIT.
+
+ENERGY : nothing else.  GRADIENT : adds the gradient.  HESSIAN : adds the gradient and the Hessian: its symmetric part
+to `band`, and its skew part, the entries H[i, j] below the diagonal, to `skew` if that has rows.
+STRAINS : overwrites `strains` by those at q.  COMMIT : overwrites `history` by the internal variables at q, an accepted
+state.  The energy is infinite where the potential is not defined, as in a rod that has collapsed.
+
+Where `after` has entries, q is the midpoint of a time step that ends at `after`, and `strains` are those of its start.
+The energy is that of `after`.  The gradient is taken at the midpoint, with the stresses of the mean of the strains at
+both ends.  The Hessian is that of the midpoint with these stresses, but with no less tension than at the start and with
+the pressures of the start: on the way to an answer a stress that is not there must not make it indefinite.
+"""
+
+NOTHING = np.empty(0)
+_NO_STRAINS = np.empty((0, 0))
+
+
+@dataclass(frozen=True)
+class Potential:
+    """A potential of n DOFs.
+
+    evaluate : the kernel, called as `KERNEL` says.  compiled : makes the same function for compiled solvers.
+    constants : what the kernel reads, a structured array whose dtype says what it holds.
+    terms : names of the parts of the energy.
+    half_bandwidth : largest distance of two DOFs that the Hessian couples; -1 where the potential is linear.
+    history : (k,) the internal variables at the start.
+    strains : shape of the strains that a time step replaces by their means.
+    symmetric : whether there is an energy; if not, the kernel returns zero, and its gradient is minus a force.
+    origin : (n,) what is added to q; None where that is nothing.
+    """
+
+    evaluate: Callable[..., float]
+    compiled: Callable[[], object]
+    constants: NDArray[np.void]
+    terms: tuple[str, ...]
+    half_bandwidth: int
+    history: Vector = field(default_factory=lambda: NOTHING)
+    strains: tuple[int, int] = (0, 0)
+    symmetric: bool = True
+    origin: Vector | None = None
+
+    @property
+    def linear(self) -> bool:
+        """Whether its gradient is the same everywhere."""
+        return self.half_bandwidth < 0
+
+    @property
+    def data(self) -> NDArray[np.uint8]:
+        """The constants as bytes."""
+        return self.constants.view(np.uint8)
+
+    def add(
+        self, q: Vector, history: Vector, gradient: Vector, band: Band, skew: Band = NO_BAND
+    ) -> float:
+        """The energy [J] at q; adds the gradient (n,) [N] and the Hessian, its skew part if `skew` has rows."""
+        return self._called(q, history, HESSIAN, gradient, band, skew)
+
+    def add_gradient(self, q: Vector, history: Vector, gradient: Vector) -> float:
+        """The energy [J] at q; adds the gradient (n,) [N]."""
+        return self._called(q, history, GRADIENT, gradient, NO_BAND, NO_BAND)
+
+    def assemble(self, q: Vector, gradient: Vector, band: Band) -> float:
+        """The energy [J] at q with the internal variables of the start; overwrites gradient and Hessian."""
+        gradient[:], band[:, :] = 0.0, 0.0
+        return self.add(q, self.history, gradient, band)
+
+    def energy(self, q: Vector, history: Vector | None = None) -> float:
+        """The energy [J] at q; with the internal variables of the start if no others are given."""
+        history = self.history if history is None else history
+        return self._called(q, history, ENERGY, NOTHING, NO_BAND, NO_BAND)
+
+    def energy_terms(self, q: Vector) -> Vector:
+        """The parts of the energy at q [J], in the order of `terms`."""
+        terms = np.zeros(len(self.terms))
+        q = q if self.origin is None else q + self.origin
+        self.evaluate(
+            q, NOTHING, self.data, self.history, _NO_STRAINS, ENERGY, NOTHING, NO_BAND, NO_BAND, terms
+        )
+        return terms
+
+    def committed(self, q: Vector, history: Vector) -> Vector:
+        """The internal variables (k,) at q, an accepted state, by those of the state before."""
+        if not history.size:
+            return history
+        after = history.copy()
+        self._called(q, after, COMMIT, NOTHING, NO_BAND, NO_BAND)
+        return after
+
+    def with_constants(self, **columns: object) -> Potential:
+        """The same potential with other constants in the named fields."""
+        constants = self.constants.copy()
+        for name, values in columns.items():
+            constants[name] = values
+        return replace(self, constants=constants)
+
+    def _called(
+        self, q: Vector, history: Vector, task: int, gradient: Vector, band: Band, skew: Band
+    ) -> float:
+        q = q if self.origin is None else q + self.origin
+        terms = np.empty(len(self.terms))
+        return float(
+            self.evaluate(q, NOTHING, self.data, history, _NO_STRAINS, task, gradient, band, skew, terms)
+        )

@@ -1,0 +1,111 @@
+"""Explicit Runge-Kutta methods: the thesis's adaptive one, and the classical one with a fixed step."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from cosserat.errors import DivergedError
+from cosserat.solvers.banded import Vector, band_product, constrain, solve_positive
+from cosserat.solvers.integrate import REMEDY, IntegratorSettings, State, step_count
+from cosserat.solvers.system import MechanicalSystem
+
+
+def fixed(
+    system: MechanicalSystem, state: State, duration: float, settings: IntegratorSettings, name: str
+) -> tuple[State, int]:
+    """Move on by equal steps of the classical method."""
+    count = step_count(duration, settings)
+    h, rate = duration / count, _Rates(system)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for _ in range(count):
+            rate.history, y, t = state.history, _packed(state), state.time
+            k1 = rate(t, y)
+            k2 = rate(t + h / 2, y + h / 2 * k1)
+            k3 = rate(t + h / 2, y + h / 2 * k2)
+            k4 = rate(t + h, y + h * k3)
+            state = _accepted(system, state, t + h, y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
+    return state, count
+
+
+def adaptive(
+    system: MechanicalSystem, state: State, duration: float, settings: IntegratorSettings, name: str
+) -> tuple[State, int]:
+    """Move on by SciPy's RK45; returns the number of evaluations.
+
+    Raises
+    ------
+    DivergedError : it stopped.
+    """
+    from scipy.integrate import solve_ivp
+
+    size = np.concatenate([np.abs(state.q), np.full(state.v.size, float(np.abs(state.v).max()))])
+    allowed = np.full(size.size + 2, settings.tolerance * max(float(size.max()), 1e-300))
+    allowed[-2:] = np.inf  # the books follow the motion
+    rate = _Rates(system)
+    rate.history = state.history
+    done = solve_ivp(
+        rate,
+        (state.time, state.time + duration),
+        _packed(state),
+        method="RK45",
+        max_step=settings.step,
+        rtol=settings.tolerance,
+        atol=allowed,
+    )
+    if not done.success:
+        raise DivergedError(f"{name}: the explicit integrator stopped ({done.message}); {REMEDY}")
+    end = state.time + duration
+    for y in done.y.T:  # every step, so that no turn is missed
+        state = _accepted(system, state, end, y)
+    return state, int(done.nfev)
+
+
+def _packed(state: State) -> Vector:
+    """DOFs, velocities, and what damping and supports have taken and given, (2 n + 2,)."""
+    return np.concatenate([state.q, state.v, [state.dissipated, state.driven]])
+
+
+def _accepted(system: MechanicalSystem, before: State, time: float, y: Vector) -> State:
+    """The state that `_packed` holds, with its internal variables."""
+    n = y.size // 2 - 1
+    q, v = y[:n], y[n : 2 * n]
+    history = system.committed(q, before.history)
+    return replace(
+        before, q=q, v=v, history=history, time=time, dissipated=float(y[-2]), driven=float(y[-1])
+    )
+
+
+class _Rates:
+    """Rates of what `_packed` holds.
+
+    The acceleration is M^-1 (-gradient - M (a + c v) of what is moved) - c v, with the damping rate c.
+    history : internal variables of the last accepted state.
+    """
+
+    def __init__(self, system: MechanicalSystem) -> None:
+        self.system, self.history = system, system.history
+        self.mass = system.inertia.copy()
+        constrain(self.mass, system.constrained)
+
+    def __call__(self, time: float, y: Vector) -> Vector:
+        system, n = self.system, self.system.constrained.size
+        q, v = y[:n], y[n : 2 * n]
+        gradient = np.zeros(n)
+        system.add_gradient(q, self.history, gradient)
+        force, gaining = -gradient, np.zeros_like(v)
+        if system.constraints.moving:
+            _, given, gaining = system.constraints.at_time(time)
+            v = np.where(system.constrained, given, v)
+            force -= band_product(system.inertia, gaining + system.damping_rate * given)
+        force[system.constrained] = 0.0
+        acceleration = solve_positive(self.mass, force)
+        assert acceleration is not None  # a mass is positive
+        slowing = np.where(system.constrained, 0.0, acceleration - system.damping_rate * v)
+        if not system.constraints.moving and not system.damping_rate:
+            return np.concatenate([v, slowing, np.zeros(2)])
+        momentum = band_product(system.inertia, v)
+        taken = system.damping_rate * float((v * momentum)[~system.constrained].sum())
+        pushed = band_product(system.inertia, slowing + gaining) + gradient
+        return np.concatenate([v, slowing, [taken, float((v * pushed)[system.constrained].sum())]])

@@ -1,0 +1,78 @@
+"""What the compiled time steps of `solvers.energy_momentum` are given: potentials, what stays the same, work space."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.solvers.banded import Band, Mask, Vector
+
+Fields = NDArray[np.float64]
+
+
+CORRECTED, UNCORRECTED, COUNTED = range(3)
+"""Roles of a potential: the work of its forces is to meet its change of energy; it has none; or it is linear, a part of
+the dead load, and only its internal variables count."""
+
+
+class Bodies(NamedTuple):
+    """The potentials that a step evaluates, as compiled code sees them: one entry of each tuple for every one.
+
+    kernels, constants, history, strains, terms : what `solvers.potential.KERNEL` says.
+    role : (k,) one of the roles above.  loaded : whether some load is not linear.
+    """
+
+    kernels: Any
+    constants: Any
+    history: Any
+    strains: Any
+    terms: Any
+    role: NDArray[np.int64]
+    loaded: bool
+
+
+class Run(NamedTuple):
+    """What stays the same in all steps.
+
+    mass : band (n, w).  load : (n,) dead load.  constrained : (n,).  translations : (d, n), or (0, n) where a DOF is
+    constrained.  h : the time step.  damping_rate : c.
+    moved : (m,) constrained DOFs that move; places, rates : (steps + 1, m) where and how fast they are.
+    """
+
+    mass: Band
+    load: Vector
+    constrained: Mask
+    translations: Fields
+    h: float
+    damping_rate: float
+    moved: NDArray[np.int64]
+    places: Fields
+    rates: Fields
+
+
+class Room(NamedTuple):
+    """Work space; all (n,) but `factor` and `mass_factor`, which are bands, and `rotations`.
+
+    change, first : of the DOFs in the step, and its first guess.  earlier, earliest : changes of the last two steps.
+    middle, end : DOFs.  gradient : of energy and loads.  pull : what the momentum at the start and the dead load give.
+    gained : change of the DOFs with that velocity which constrained DOFs are given.  product : M gained.
+    force : what is unbalanced.  z : the direction along which the change of energy is met.
+    """
+
+    change: Vector
+    first: Vector
+    earlier: Vector
+    earliest: Vector
+    middle: Vector
+    end: Vector
+    gradient: Vector
+    pull: Vector
+    gained: Vector
+    product: Vector
+    force: Vector
+    z: Vector
+    rotations: Fields
+    factor: Band
+    mass_factor: Band

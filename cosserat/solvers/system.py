@@ -1,0 +1,310 @@
+"""A body under loads: the one object that statics, continuation, motion and modes take.
+
+Nothing here or in the solvers knows what the degrees of freedom (DOFs) mean.  What they need to know of that, a
+`ConfigurationSpace` says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.solvers.banded import (
+    Band,
+    Mask,
+    Vector,
+    band_product,
+    constrain,
+    skew_product,
+    solve_positive,
+    uncouple,
+)
+from cosserat.solvers.indefinite import solve_any
+from cosserat.solvers.potential import Potential
+
+Fields = NDArray[np.float64]
+History = tuple[Vector, ...]
+"""The internal variables of every potential of a system."""
+
+
+class Constraints(Protocol):
+    """Which DOFs are constrained, and where they are put."""
+
+    @property
+    def mask(self) -> Mask:
+        """Which DOFs are constrained, shape (n,)."""
+
+    @property
+    def moving(self) -> bool:
+        """Whether some constrained DOFs do not keep their reference value."""
+
+    @property
+    def max_increment(self) -> float:
+        """Largest change of the load factor in one increment."""
+
+    def at_load(self, factor: float) -> tuple[Vector, Vector]:
+        """Displacement of the constrained DOFs at a load factor, and its derivative, each (n,)."""
+
+    def at_time(self, time: float) -> tuple[Vector, Vector, Vector]:
+        """Displacement, velocity and acceleration of the constrained DOFs at a time [s], each (n,)."""
+
+
+class ConfigurationSpace(Protocol):
+    """What a solver has to know of the DOFs."""
+
+    @property
+    def dimension(self) -> int:
+        """The DOFs are components of vectors of a space of this dimension, one vector after the other."""
+
+    @property
+    def reference(self) -> Vector:
+        """The DOFs (n,) of the reference configuration."""
+
+    @property
+    def scale(self) -> Vector:
+        """Sizes (n,) that are rounded where the energy is computed, however small the DOFs are."""
+
+    def rigid_motions(self, q: Vector) -> Fields:
+        """Velocities that deform nothing, shape (k, n), the translations first."""
+
+    def max_step_fraction(self, q: Vector, step: Vector) -> float:
+        """Largest fraction of a step that rotates no part by more than a radian."""
+
+    def rates(self, q: Vector, change: Vector) -> Fields:
+        """How fast the parts of the body rotate [rad] and stretch as the DOFs change, (parts, k)."""
+
+    def predicted(
+        self, q: Vector, moved: Fields, prescribe: Callable[[Vector], Vector], constrained: Mask
+    ) -> Vector:
+        """The DOFs after the parts have rotated and stretched by so much, at the prescribed places."""
+
+    def carried(self, change: Vector, constrained: Mask) -> Vector:
+        """The part of a change of the DOFs that follows supports that move, and strains nothing."""
+
+
+@dataclass(frozen=True)
+class FixedDofs:
+    """Constrained DOFs that keep their reference value."""
+
+    mask: Mask
+    moving: bool = False
+    max_increment: float = np.inf
+
+    def at_load(self, factor: float) -> tuple[Vector, Vector]:
+        """Zero."""
+        return np.zeros(self.mask.size), np.zeros(self.mask.size)
+
+    def at_time(self, time: float) -> tuple[Vector, Vector, Vector]:
+        """Zero."""
+        return np.zeros(self.mask.size), np.zeros(self.mask.size), np.zeros(self.mask.size)
+
+
+@dataclass(frozen=True)
+class FlatSpace:
+    """DOFs without rotations: each has a size (n,) by which it may change in one step."""
+
+    scale: Vector
+    dimension: int = 1
+
+    @property
+    def reference(self) -> Vector:
+        """Zero."""
+        return np.zeros_like(self.scale)
+
+    def rigid_motions(self, q: Vector) -> Fields:
+        """None is known."""
+        return np.empty((0, q.size))
+
+    def max_step_fraction(self, q: Vector, step: Vector) -> float:
+        """Largest fraction of a step that changes no DOF by more than its size."""
+        fastest = float((np.abs(step) / self.scale).max())
+        return 1.0 / fastest if fastest > 0 else np.inf
+
+    def rates(self, q: Vector, change: Vector) -> Fields:
+        """The change by the sizes, (n, 1)."""
+        return (change / self.scale)[:, None]
+
+    def predicted(
+        self, q: Vector, moved: Fields, prescribe: Callable[[Vector], Vector], constrained: Mask
+    ) -> Vector:
+        """A straight line."""
+        return prescribe(q + moved[:, 0] * self.scale)
+
+    def carried(self, change: Vector, constrained: Mask) -> Vector:
+        """Nothing."""
+        return np.zeros_like(change)
+
+
+@dataclass(frozen=True)
+class MechanicalSystem:
+    """A body, its loads, its constraints and its mass.
+
+    internal : the energy of the body.  external : its loads; a load factor multiplies all of them.
+    mass : symmetric band (n, w + 1); None for a body that only rests.
+    damping_rate : c of the damping force -c M v [1/s].
+    """
+
+    internal: Potential
+    external: tuple[Potential, ...]
+    constraints: Constraints
+    space: ConfigurationSpace
+    mass: Band | None = None
+    damping_rate: float = 0.0
+
+    @property
+    def potentials(self) -> tuple[Potential, ...]:
+        """The energy of the body and its loads."""
+        return (self.internal, *self.external)
+
+    @property
+    def constrained(self) -> Mask:
+        """Which DOFs are constrained, shape (n,)."""
+        return self.constraints.mask
+
+    @property
+    def history(self) -> History:
+        """The internal variables at the start."""
+        return tuple(potential.history for potential in self.potentials)
+
+    @property
+    def half_bandwidth(self) -> int:
+        """Largest distance of two DOFs that are coupled."""
+        return max(potential.half_bandwidth for potential in self.potentials)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether all its forces have a potential."""
+        return all(potential.symmetric for potential in self.potentials)
+
+    @property
+    def inertia(self) -> Band:
+        """The mass of a body that moves."""
+        assert self.mass is not None  # problems in motion and of vibration give one
+        return self.mass
+
+    @cached_property
+    def dead_load(self) -> Vector:
+        """The force of the linear potentials, which is the same everywhere, (n,) [N]."""
+        gradient = np.zeros(self.constrained.size)
+        for load in self.external:
+            if load.linear:
+                load.add_gradient(self.space.reference, load.history, gradient)
+        return -gradient
+
+    @cached_property
+    def load_scale(self) -> Vector:
+        """Size of all loads at the reference, (n,) [N]: the scale of what counts as balanced."""
+        size = np.zeros(self.constrained.size)
+        for load in self.external:
+            gradient = np.zeros_like(size)
+            load.add_gradient(self.space.reference, load.history, gradient)
+            size += np.abs(gradient)
+        return size
+
+    def unloaded(self) -> MechanicalSystem:
+        """The same body without loads."""
+        return replace(self, external=())
+
+    def nonlinear_load_energy(self, q: Vector, history: History) -> float:
+        """The energy of the loads that are not linear [J]."""
+        loads = zip(self.external, history[1:], strict=True)
+        return float(sum(load.energy(q, own) for load, own in loads if not load.linear))
+
+    def add_gradient(self, q: Vector, history: History, gradient: Vector) -> None:
+        """Add the gradient (n,) [N] of body and loads."""
+        gradient -= self.dead_load
+        for potential, own in zip(self.potentials, history, strict=True):
+            if not potential.linear:
+                potential.add_gradient(q, own, gradient)
+
+    def assemble(self, q: Vector, history: History, factor: float, tangent: Tangent) -> bool:
+        """Overwrite the tangent at q under a factor of the loads; False where a potential is not defined there."""
+        tangent.clear()
+        energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
+        tangent.load_gradient -= self.dead_load
+        for load, own in zip(self.external, history[1:], strict=True):
+            if not load.linear:
+                energy += load.add(q, own, tangent.load_gradient, tangent.load_band, tangent.load_skew)
+        tangent.add_load(factor)
+        return bool(np.isfinite(energy))
+
+    def committed(self, q: Vector, history: History) -> History:
+        """The internal variables at q, an accepted state, by those of the state before."""
+        return tuple(p.committed(q, own) for p, own in zip(self.potentials, history, strict=True))
+
+    def prescribe(self, q: Vector, factor: float) -> Vector:
+        """q with its constrained DOFs where a load factor puts them."""
+        place = self.space.reference + self.constraints.at_load(factor)[0]
+        return np.where(self.constrained, place, q)
+
+    def predicted(self, q: Vector, moved: Fields, factor: float) -> Vector:
+        """The DOFs at a load factor after the parts have rotated and stretched by so much."""
+        return self.space.predicted(q, moved, lambda u: self.prescribe(u, factor), self.constrained)
+
+    def prescribed_rate(self, factor: float) -> Vector:
+        """Change of the constrained DOFs with the load factor, zero elsewhere, (n,)."""
+        return self.constraints.at_load(factor)[1]
+
+    def rate(self, factor: float, tangent: Tangent) -> Vector:
+        """Change of the gradient with the load factor, (n,), where the tangent was assembled last."""
+        if not self.constraints.moving:
+            return tangent.load_gradient.copy()
+        return tangent.load_gradient + tangent.product(self.prescribed_rate(factor))
+
+
+class Tangent:
+    """Room for the gradient, (n,), of a system, for its Hessian, and for what the loads have in both.
+
+    band, skew : the symmetric and the skew part of the Hessian; `skew` has no rows where there is none.
+    load_gradient, load_band, load_skew : those of the loads alone, at the load factor one.
+    """
+
+    def __init__(self, system: MechanicalSystem) -> None:
+        n, width = system.constrained.size, system.half_bandwidth + 1
+        loads = [load for load in system.external if not load.linear]
+        own = 1 + max((load.half_bandwidth for load in loads), default=-1)
+        lopsided = 0 if system.symmetric else n
+        self.gradient, self.load_gradient = np.empty(n), np.empty(n)
+        self.band, self.load_band = np.empty((n, width)), np.empty((n, own))
+        self.skew, self.load_skew = np.empty((lopsided, width)), np.empty((lopsided, own))
+
+    def clear(self) -> None:
+        """Set everything to zero."""
+        for array in (self.gradient, self.band, self.skew):
+            array.fill(0.0)
+        for array in (self.load_gradient, self.load_band, self.load_skew):
+            array.fill(0.0)
+
+    def add_load(self, factor: float) -> None:
+        """Add a factor of what the loads have."""
+        self.gradient += factor * self.load_gradient
+        own = self.load_band.shape[1]
+        if own:
+            self.band[:, :own] += factor * self.load_band
+            self.skew[:, :own] += factor * self.load_skew
+
+    def constrain(self, constrained: Mask) -> None:
+        """Uncouple the constrained DOFs."""
+        constrain(self.band, constrained)
+        if self.skew.size:
+            uncouple(self.skew, constrained)
+
+    def product(self, x: Vector) -> Vector:
+        """The Hessian times x, (n,)."""
+        y = band_product(self.band, x)
+        return y + skew_product(self.skew, x) if self.skew.size else y
+
+    def solve(self, right: Vector, *, positive: bool = False) -> Vector | None:
+        """Solve with the Hessian for one or, as columns, several right-hand sides.
+
+        None where it is singular or, with `positive`, where its symmetric part is not positive.
+        """
+        if not positive:
+            return solve_any(self.band, right, self.skew)
+        step = solve_positive(self.band, right)
+        return step if step is None or not self.skew.size else solve_any(self.band, right, self.skew)
