@@ -51,6 +51,7 @@ class RodMotion(RodProblem):
     """A rod moving from a start, perhaps damped, under dead loads."""
 
     kind: Literal["rod motion"] = "rod motion"
+    moves: ClassVar[bool] = True
     thinned: ClassVar[Mapping[str, int]] = {"time": 40}
     start: Start = Start()
     duration: Annotated[float, Quantity("s", above=0)]

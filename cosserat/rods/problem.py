@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numbers
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -118,6 +118,9 @@ class PrescribedRotation(Parameters):
 class RodProblem(Problem):
     """A rod, what holds it and what pulls it."""
 
+    moves: ClassVar[bool] = False
+    """Whether the rod is in motion, where a support that turns by an angle does so at once."""
+
     rod: Rod
     supports: tuple[Support, ...]
     gravity: Gravity | None = None
@@ -182,7 +185,7 @@ class RodProblem(Problem):
                         f"{words} of vertex {at}, which no support holds; "
                         f"add {dof} to 'fixed' of a support there",
                     )
-        at_once = self.rod.calibration is not None or getattr(self, "kind", "") == "rod motion"
+        at_once = self.rod.calibration is not None or self.moves
         for turn in self.prescribed_rotations:
             if at_once and not turn.frequency and abs(turn.by) > np.pi / 2:
                 raise PydanticCustomError(
