@@ -42,6 +42,13 @@ from cosserat.thesis.book import page
 from cosserat.thesis.table.measure import check
 from cosserat.thesis.table.tolerances import read_report
 
+page.figure(
+    "fig_opening",
+    "Above, four times of a stride; lines across the worm are equally far from each other at rest. Below, states of a "
+    "column and an arch as their loads grow, and of a free rod in flight. The last state is dark.",
+)
+
+# %% tags=["remove-input"]
 page.say(f"**The results table today:** {check(read_report(page.results() / 'report.csv'))}.")
 
 # %% [markdown]

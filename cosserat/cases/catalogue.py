@@ -9,7 +9,7 @@ import reprlib
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from pydantic import AfterValidator, SerializeAsAny
 from pydantic_core import PydanticCustomError
@@ -18,6 +18,8 @@ from cosserat.errors import InputError, path_of
 from cosserat.parameters import Parameters, nearest
 from cosserat.problem import Problem
 from cosserat.publications import kinds, published_tables, titles
+
+P = TypeVar("P")
 
 
 def _check_name(name: str) -> str:
@@ -48,6 +50,21 @@ class Case(Parameters):
         table = _merge(self.problem.model_dump(), changes)
         problem = type(self.problem).read(table, f"case '{name}'", units_required=False)
         return Case.read({"name": name, "title": name, "problem": problem}, "case")
+
+    def problem_as(self, asked: type[P]) -> P:
+        """The problem, if it is one of these.
+
+        Raises
+        ------
+        InputError : it is of another kind.
+        """
+        if not isinstance(self.problem, asked):
+            fitting = [name for name, kind in kinds().items() if issubclass(kind.problem_class(), asked)]
+            raise InputError(
+                f"the case '{self.name}' is of kind '{self.problem.kind}'; use one of kind "
+                + " or ".join(f"'{name}'" for name in fitting)
+            )
+        return self.problem
 
 
 @functools.cache

@@ -14,7 +14,7 @@ from cosserat.data.files import check_destination, uninterrupted, whole_or_absen
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import InputError, path_of
-from cosserat.publications import kinds, reference
+from cosserat.publications import reference
 from cosserat.solution import Solution
 
 P = TypeVar("P")
@@ -113,14 +113,7 @@ def problem_of(dataset: xr.Dataset, asked: type[P]) -> P:
     ------
     InputError : it is of another kind.
     """
-    problem = case_of(dataset).problem
-    if not isinstance(problem, asked):
-        fitting = [name for name, kind in kinds().items() if issubclass(kind.problem_class(), asked)]
-        raise InputError(
-            f"the case '{dataset.attrs['case']}' is of kind '{problem.kind}'; use the result of one of kind "
-            + " or ".join(f"'{name}'" for name in fitting)
-        )
-    return problem
+    return case_of(dataset).problem_as(asked)
 
 
 def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:

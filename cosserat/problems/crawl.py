@@ -28,7 +28,7 @@ _ALIKE = 1e-9  # regions whose mu_1 differs by less are equally fat
 class CrawlerProblem(Problem):
     """What an instant and a crawl have in common."""
 
-    thinned: ClassVar[Mapping[str, int]] = {"time": 40, "section": 20}
+    thinned: ClassVar[Mapping[str, int]] = {"section": 20}
     crawler: Crawler
     loads: Loads
     solver: Literal["banded", "collocation"] = "banded"
@@ -170,6 +170,7 @@ class Crawl(CrawlerProblem):
     """A gait over several strides."""
 
     kind: Literal["crawl"] = "crawl"
+    thinned: ClassVar[Mapping[str, int]] = {"time": 40, "section": 20}
     gait: Gait
     strides: Annotated[int, Count(at_least=1, at_most=10_000)] = 3
     step: Annotated[float, Quantity("s", "t_{step}", "2.5.9", above=0)]

@@ -41,8 +41,7 @@ def statics() -> Iterator[str]:
         ("elastica", 41),
         ("elastica", 2001),
     ):
-        posed = find(name).vary("speed", rod={"vertices": vertices}).problem
-        assert isinstance(posed, RodStatics)
+        posed = find(name).vary("speed", rod={"vertices": vertices}).problem_as(RodStatics)
         posed.solve("speed")  # kernels warm
         best, done = _fastest(functools.partial(posed.solve, "speed"), _STATICS_RUNS)
         yield (
@@ -62,8 +61,7 @@ def integrator() -> Iterator[str]:
         )
         settings = IntegratorSettings(step=_STEP)
         for vertices, steps in ((20, 800), (200, 200), (2000, 20)):
-            problem = find(name).vary("speed", rod={"vertices": vertices}).problem
-            assert isinstance(problem, RodMotion)
+            problem = find(name).vary("speed", rod={"vertices": vertices}).problem_as(RodMotion)
             system, state = problem.system(problem.rod.geometry()), problem.begin()
             integrate(system, state, settings.step, settings, "speed")
             work = functools.partial(integrate, system, state, steps * settings.step, settings, "speed")
@@ -82,8 +80,7 @@ def stride() -> Iterator[str]:
     )
     seconds = {}
     for solver, runs in (("collocation", 1), ("banded", _RUNS)):
-        problem = find("worm").vary("speed", solver=solver, strides=1).problem
-        assert isinstance(problem, Crawl)
+        problem = find("worm").vary("speed", solver=solver, strides=1).problem_as(Crawl)
         problem.replace(step=1.0).solve("speed")  # kernels warm
         seconds[solver], done = _fastest(functools.partial(problem.solve, "speed"), runs)
         instants = done.statistics["instants"]

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from cosserat.data.dataset import case_of
+from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
 from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.studies.calibration import CalibrationProcedure, beam_of
@@ -18,8 +18,7 @@ _GREEN = "#3a7d44"
 
 def limit(data: xr.Dataset) -> float:
     """Clamped-free tip over Timoshenko's to which the published coefficients lead."""
-    procedure = case_of(data).problem
-    assert isinstance(procedure, CalibrationProcedure)
+    procedure = problem_of(data, CalibrationProcedure)
     posed = procedure.clamped_free
     assert posed.gravity is not None
     beam, c = beam_of(posed), posed.rod.calibration

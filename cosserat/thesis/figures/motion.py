@@ -67,8 +67,7 @@ def fig_3_13(data: Data) -> Figure:
 def fig_modes(data: Data) -> Figure:
     """The four lowest modes of the beam with high shear stiffness, either way."""
     figure, axes = canvas(7.2, 3.6, 2, 2)
-    problem = problem_of(data["vibration_c4_20"], RodProblem)
-    assert isinstance(problem, RodMotion)
+    problem = problem_of(data["vibration_c4_20"], RodMotion)
     found = problem.modes(len(axes))
     geometry = problem.rod.geometry()
     for ax, frequency, shape, letter in zip(

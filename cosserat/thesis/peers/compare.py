@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import csv
 import datetime
+import functools
 import json
 import os
 import platform
@@ -32,6 +33,7 @@ from cosserat.exact import beams, elastica
 from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.dead import PointForce
+from cosserat.rods.problem import RodProblem
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.integrate import IntegratorSettings, integrate
@@ -87,8 +89,7 @@ class Line:
 def problems() -> dict[Problem, RodStatics | RodMotion]:
     """Every problem, and how our rod poses it."""
     posed: dict[Problem, RodStatics | RodMotion] = {}
-    weight = find("clamped_free_consistent").problem
-    assert isinstance(weight, RodStatics)
+    weight = find("clamped_free_consistent").problem_as(RodStatics)
     assert weight.gravity is not None
     beam = beam_of(weight)
     posed[
@@ -96,8 +97,7 @@ def problems() -> dict[Problem, RodStatics | RodMotion]:
             "(a) clamped-free, 19 elements", "weight", 19, weight, beam.line_density * weight.gravity.g
         )
     ] = weight
-    slender = find("elastica").problem
-    assert isinstance(slender, RodStatics)
+    slender = find("elastica").problem_as(RodStatics)
     beam = beam_of(slender)
     force = _FORCE * beam.bending_stiffness / beam.length**2
     for count in (20, 40, 80):
@@ -107,8 +107,9 @@ def problems() -> dict[Problem, RodStatics | RodMotion]:
         )
         posed[_problem(f"(b) elastica, {count} elements", "force", count, bent, force)] = bent
     for count in (20, 200, 2000):
-        moved = find("vibration_consistent").vary("peers", rod={"vertices": count + 1}).problem
-        assert isinstance(moved, RodMotion)
+        moved = (
+            find("vibration_consistent").vary("peers", rod={"vertices": count + 1}).problem_as(RodMotion)
+        )
         posed[_problem(f"(c) vibration, {count} elements", "vibration", count, moved, 1e-3)] = moved
     return posed
 
@@ -203,7 +204,7 @@ class _Ours:
 
     def run(self) -> dict[str, Any]:
         """One run."""
-        return _solve(self.problem, self.posed)
+        return _solve(self.posed, self.problem)
 
 
 @dataclass
@@ -262,14 +263,24 @@ class _Peer:
         )
 
 
-def _solve(problem: Problem, posed: RodStatics | RodMotion) -> dict[str, Any]:
-    if isinstance(posed, RodStatics):  # as for the others, the model is built before
-        system = posed.system(posed.rod.geometry())
-        start = time.perf_counter()
-        found = solve_full_load(EquilibriumSolver(system, posed.newton, problem.name))
-        taken = time.perf_counter() - start
-        u = found.q.reshape(-1, 4)[:, 1]
-        return {"seconds": taken, "profile": u.tolist(), "tip": float(u[-1])}
+@functools.singledispatch
+def _solve(posed: RodProblem, problem: Problem) -> dict[str, Any]:
+    """One run of ours; as for the others, the model is built before the clock starts."""
+    raise NotImplementedError(type(posed).__name__)
+
+
+@_solve.register
+def _solve_statics(posed: RodStatics, problem: Problem) -> dict[str, Any]:
+    system = posed.system(posed.rod.geometry())
+    start = time.perf_counter()
+    found = solve_full_load(EquilibriumSolver(system, posed.newton, problem.name))
+    taken = time.perf_counter() - start
+    u = found.q.reshape(-1, 4)[:, 1]
+    return {"seconds": taken, "profile": u.tolist(), "tip": float(u[-1])}
+
+
+@_solve.register
+def _solve_motion(posed: RodMotion, problem: Problem) -> dict[str, Any]:
     small = posed.replace(start=posed.start.replace(amplitude=problem.load))
     system, state = small.system(small.rod.geometry()), small.begin()
     settings = IntegratorSettings(step=problem.duration / problem.steps)

@@ -1,0 +1,147 @@
+"""The README is executed: every block of TOML, shell and Python; and its picture is the one that is drawn today."""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import cosserat
+from cosserat.cli import main
+from cosserat.figures.style import write
+from cosserat.thesis.figures.catalogue import FIGURES, draw
+
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", TEXT, flags=re.MULTILINE | re.DOTALL)
+PICTURE = ROOT / "chapters/opening.svg"
+ELSEWHERE = {  # lines that are not executed here, and where they are
+    "make": "minutes: .ci/run, in a fresh clone",
+    "make test": "runs this test: .ci/run",
+    "make test-workflow": "minutes: .ci/run",
+    "source .venv/bin/activate": "sets the path up, as is done here by hand",
+    ".venv/bin/python -m tests.outside": "minutes: tests/outside/test_public_cases.py runs its quick cases",
+    ".venv/bin/cosserat power": "minutes: tests/test_power.py runs it for some changes",
+}
+
+
+def blocks(language):
+    return [text for found, text in BLOCKS if found == language]
+
+
+TABLES = [(name, text) for text in blocks("toml") for name in tomllib.loads(text)]
+LINES = [line.split("  #")[0].strip() for text in blocks("sh") for line in text.splitlines()]
+
+
+def test_every_block_is_of_a_language_that_is_executed():
+    assert {language for language, _ in BLOCKS} == {"toml", "sh", "python"}
+    assert TEXT.count("```") == 2 * len(BLOCKS)
+    prose = re.sub(r"^```.*?^```$", "", TEXT, flags=re.MULTILINE | re.DOTALL)
+    assert not re.search(r"^(    |\t)", prose, flags=re.MULTILINE), (
+        "code outside a block with its language"
+    )
+    assert max(map(len, TEXT.splitlines())) <= 120
+
+
+@pytest.mark.parametrize(("name", "text"), TABLES, ids=[name for name, _ in TABLES])
+def test_a_case_of_the_readme_is_solved(name, text, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("my.toml").write_text(text, encoding="utf-8")
+    assert main(["run", name, "--file", "my.toml"]) == 0
+    said = capsys.readouterr()
+    assert said.err == "", "an example warns"
+    assert said.out.endswith(f"wrote {name}.nc\n")
+    assert cosserat.load(f"{name}.nc").attrs["case"] == name
+
+
+@pytest.mark.parametrize("text", blocks("python"))
+def test_python_of_the_readme_is_executed(text, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    exec(compile(text, "README.md", "exec"), {})
+    assert float(capsys.readouterr().out) > 0
+    assert [file.name for file in tmp_path.iterdir()] == re.findall(r"(\w+\.nc)", text)
+
+
+def test_shell_lines_of_the_readme_are_executed_in_their_order(tmp_path):
+    """With its cases in my.toml, as it says; what each line is said to write stands there."""
+    assert set(ELSEWHERE) <= set(LINES), "an exemption of a line that the README does not have"
+    (tmp_path / "my.toml").write_text("\n".join(blocks("toml")), encoding="utf-8")
+    path = os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()])
+    environment = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT)}
+    here = [line for line in LINES if line and line not in ELSEWHERE]
+    assert here
+    for line in here:
+        done = subprocess.run(
+            line, shell=True, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+        )
+        assert (done.returncode, done.stderr) == (0, ""), line
+    written = re.findall(r"\b(\w+\.(?:nc|svg))\b", "\n".join(blocks("sh")))
+    assert written
+    assert set(written) <= {file.name for file in tmp_path.iterdir()}
+
+
+def test_commands_within_sentences_have_the_options_that_they_name():
+    """`cosserat run CASE --keep-last`: read by the command line, not run."""
+    from cosserat.cli import _parser
+
+    named = re.findall(r"`(cosserat [^`]+)`", TEXT)
+    assert named
+    for code in named:
+        assert _parser().parse_args(shlex.split(code)[1:]), code
+
+
+def test_files_that_the_readme_names_are_there():
+    patterns = (
+        r"\]\(([^)#]+)\)",
+        r"`((?:cosserat|chapters|tests)/[\w/]+\.\w+)`",
+        r"\b[A-Z]+\.(?:md|cff)\b",
+    )
+    named = [name for pattern in patterns for name in re.findall(pattern, TEXT)]
+    assert len(named) > 3
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+def structure(svg):
+    """An SVG without its numbers and the names that depend on them, and the numbers."""
+    drawn = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    named = re.sub(r"[0-9a-f]{10}", "id", drawn)
+    number = r"-?\d+\.?\d*(?:e-?\d+)?"
+    return re.sub(number, "0", named), np.array([float(text) for text in re.findall(number, named)])
+
+
+def same_picture(one, other):
+    """Whether two SVGs differ by no more than a hundredth of a point."""
+    (form, numbers), (other_form, others) = structure(one), structure(other)
+    return form == other_form and bool(np.abs(numbers - others).max() < 0.01)
+
+
+@pytest.fixture(scope="module")
+def redrawn(solved, tmp_path_factory):
+    path = tmp_path_factory.mktemp("opening") / "opening.svg"
+    write(draw("fig_opening", {case: solved[case] for case in FIGURES["fig_opening"].cases}), path)
+    return path.read_text(encoding="utf-8")
+
+
+def test_the_picture_of_the_readme_is_what_is_drawn_today(redrawn):
+    assert f"({PICTURE.relative_to(ROOT)})" in TEXT
+    assert same_picture(PICTURE.read_text(encoding="utf-8"), redrawn), (
+        "chapters/opening.svg is stale: 'make', then 'cosserat figure fig_opening -o chapters/opening.svg'"
+    )
+    assert PICTURE.stat().st_size < 150_000
+    assert re.search(r'<path d="M 0 [\d.]+ \nL [^"]*" style="fill: #ffffff"/>', redrawn), (
+        "no ground of its own"
+    )
+
+
+def test_a_stale_picture_is_noticed(redrawn):
+    assert same_picture(redrawn, redrawn)
+    place = redrawn.index("L ", len(redrawn) // 2) + 2
+    digit = redrawn[place]
+    moved = redrawn[:place] + str((int(digit) + 1) % 10) + redrawn[place + 1 :]
+    assert not same_picture(redrawn, moved)
+    assert not same_picture(redrawn, redrawn.replace("#9cc1e2", "#9cc1e3"))
