@@ -82,6 +82,17 @@ VARIABLES: dict[str, Variable] = {
     "internal_variables": Variable(
         ("time", "internal"), "1", "internal variables of the loads, each in its own unit", "", "", 1e-9
     ),
+    "other_dofs": Variable(
+        ("time", "vertex", "other_dof"),
+        "m",
+        "vectors of the vertices beside position and director",
+        "",
+        "",
+        1e-12,
+    ),
+    "other_rates": Variable(
+        ("time", "vertex", "other_dof"), "m s-1", "rates of these vectors", "", "", 1e-9
+    ),
     "kinetic_energy": Variable(("time",), "J", "kinetic energy", "T", "3.3.33", 1e-9),
     "strain_energy": Variable(
         ("time",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, NotConvergedError
-from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.loads.couples import TERMS
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import (
@@ -22,6 +21,7 @@ from cosserat.rods.resolution import (
     coarse,
     unresolved_energy,
 )
+from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import band_product
 from cosserat.solvers.integrate import (
@@ -100,7 +100,7 @@ class CheckpointedRun:
         for stop in range(first + 1, last + 1):
             try:
                 state, done = integrate(self.system, state, substep, self.problem.integrator, self.name)
-                vectors = PLANAR.split(state.q)
+                vectors = self.problem.rod.kinematics.split(state.q)
                 check_crossing(
                     self.geometry,
                     vectors[:, 0],
@@ -115,9 +115,9 @@ class CheckpointedRun:
             state = replace(state, time=stop / self.substeps_per_frame * self.problem.between_frames)
             states.append(state)
             steps += done
-        fields = _fields(self.geometry, self.system, states) if states else {}
+        fields = _fields(self.problem.rod, self.geometry, self.system, states) if states else {}
         statistics = {"steps": steps, **self._judged(states)}
-        return Solution(fields, statistics, {"axis": PLANAR.axes}), state, stopped
+        return Solution(fields, statistics, {"axis": self.problem.rod.kinematics.axes}), state, stopped
 
     @property
     def step(self) -> float:
@@ -216,9 +216,11 @@ def resumed(part: Solution, system: MechanicalSystem) -> State:
         elif own.size:
             history[number] = part["internal_variables"][-1, used : used + own.size]
             used += own.size
+    others = part["other_dofs"][-1] if "other_dofs" in part else np.empty((part["x"].shape[1], 0))
+    rates = part["other_rates"][-1] if "other_dofs" in part else others
     return State(
-        np.hstack([part["x"][-1], part["d"][-1]]).ravel(),
-        np.hstack([part["x_rate"][-1], part["d_rate"][-1]]).ravel(),
+        np.hstack([part["x"][-1], part["d"][-1], others]).ravel(),
+        np.hstack([part["x_rate"][-1], part["d_rate"][-1], rates]).ravel(),
         tuple(history),
         float(part["time"][-1]),
         float(part["dissipated_energy"][-1]),
@@ -257,9 +259,11 @@ def _work_of_a_frame(problem: RodMotion, system: MechanicalSystem, geometry: Geo
     return step_count(problem.between_frames, settings) * (alone + each * problem.rod.vertices)
 
 
-def _fields(geometry: Geometry, system: MechanicalSystem, states: list[State]) -> dict[str, Field]:
-    vectors = PLANAR.split(np.array([state.q for state in states]))
-    rates = PLANAR.split(np.array([state.v for state in states]))
+def _fields(
+    rod: Rod, geometry: Geometry, system: MechanicalSystem, states: list[State]
+) -> dict[str, Field]:
+    vectors = rod.kinematics.split(np.array([state.q for state in states]))
+    rates = rod.kinematics.split(np.array([state.v for state in states]))
     loads = [
         system.nonlinear_load_energy(s.q, s.history) - system.dead_load @ (s.q - system.space.reference)
         for s in states
@@ -284,6 +288,10 @@ def _fields(geometry: Geometry, system: MechanicalSystem, states: list[State]) -
     )
     if internal.size:
         fields["internal_variables"] = (("time", "internal"), internal)
+    if vectors.shape[2] > 2:
+        others = ("time", "vertex", "other_dof")
+        fields["other_dofs"] = (others, vectors[:, :, 2:].reshape(*vectors.shape[:2], -1))
+        fields["other_rates"] = (others, rates[:, :, 2:].reshape(*vectors.shape[:2], -1))
     return fields | {
         "xi": (("vertex",), geometry.arc_length),
         "x_ref": (vector, geometry.X),

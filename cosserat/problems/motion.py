@@ -15,7 +15,6 @@ from cosserat.exact import beams
 from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.checkpoints import CheckpointedRun, joined, resumed
-from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
@@ -102,7 +101,8 @@ class RodMotion(RodProblem):
 
     def _anchored(self, geometry: Geometry) -> bool:
         """Whether no rigid motion is left free."""
-        return not PLANAR.free_motions(geometry.q, self.constrained().ravel()).any()
+        at_rest = self.rod.strain_energy.reference(geometry)
+        return not self.rod.kinematics.free_motions(at_rest, self.constrained()).any()
 
     def begin(self) -> State:
         """The state at time zero."""
@@ -114,17 +114,17 @@ class RodMotion(RodProblem):
             X[:, 1] += self.start.amplitude * shape
             D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
             D = self.rod.strain_energy.shaped(self.rod, geometry, X, D)
-        system, constrained = super().system(geometry, displacements=False), self.constrained().ravel()
-        q = np.where(constrained, geometry.q, np.hstack([X, D]).ravel())
-        v = np.zeros((self.rod.vertices, PLANAR.per_vertex))
-        v[:, : PLANAR.dimension] = self.start.speed * unit_vector(self.start.along)
-        pivot = np.zeros_like(v)
-        pivot[:, : PLANAR.dimension] = q[: PLANAR.dimension]
-        v = v.ravel() + self.start.spin * PLANAR.rigid_motions(q - pivot.ravel())[2]
-        v[constrained] = 0.0
-        place, rate, _ = system.constraints.at_time(0.0)
-        start = q + place
-        return State(start, v + rate, system.committed(start, system.history))
+        system, kinematics = super().system(geometry, displacements=False), self.rod.kinematics
+        start = kinematics.split(system.space.reference.copy())
+        start[:, 0], start[:, 1] = X, D
+        q = np.where(system.constrained, system.space.reference, start.ravel())
+        pivot, v = np.zeros_like(start), np.zeros_like(start)
+        pivot[:, 0] = q[: kinematics.dimension]
+        v[:, 0] = self.start.speed * unit_vector(self.start.along)
+        rotation = kinematics.rigid_motions(q - pivot.ravel())[kinematics.dimension]
+        rate = np.where(system.constrained, 0.0, v.ravel() + self.start.spin * rotation)
+        place, given, _ = system.constraints.at_time(0.0)
+        return State(q + place, rate + given, system.committed(q + place, system.history))
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """The motion at its frames; with a store of parts it resumes where an earlier run was interrupted.

@@ -14,10 +14,10 @@ from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.static import check_supports
-from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, coarse
+from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
@@ -70,7 +70,7 @@ class RodPath(RodProblem):
         """
         geometry = self.rod.geometry()
         system = self.system(geometry)
-        check_supports(geometry.q, system.constrained, name)
+        check_supports(self.rod, geometry, system.constrained, name)
         solver = EquilibriumSolver(system, self.newton, name)
         solver.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
         arc = ArcLengthSettings(
@@ -84,15 +84,15 @@ class RodPath(RodProblem):
         points: list[Equilibrium] = []
         try:
             for point in trace_path(solver, unloaded(solver), arc):
-                x, d = _placed(geometry, point)
+                x, d = _placed(self.rod, geometry, point)
                 where = f"{name}, {point.factor:.4g} of the load"
                 check_crossing(geometry, x, d, self.rod.below, where)
                 points.append(point)
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _solution(geometry, points, solver, self.rod.warnings())
+                error.reached = _solution(self.rod, geometry, points, solver)
             raise
-        return _solution(geometry, points, solver, self.rod.warnings())
+        return _solution(self.rod, geometry, points, solver)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -105,9 +105,9 @@ class RodPath(RodProblem):
         )
 
 
-def _placed(geometry: Geometry, point: Equilibrium) -> tuple[Array, Array]:
+def _placed(rod: Rod, geometry: Geometry, point: Equilibrium) -> tuple[Array, Array]:
     """Vertices and directors, (N, 2) each."""
-    vectors = PLANAR.split(geometry.q + point.q)
+    vectors = rod.vectors(geometry, point.q)
     return vectors[:, 0], vectors[:, 1]
 
 
@@ -118,10 +118,11 @@ def _energy(solver: EquilibriumSolver, point: Equilibrium) -> float:
 
 
 def _solution(
-    geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver, warnings: list[str]
+    rod: Rod, geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver
 ) -> Solution:
     x, d = (
-        np.array(parts) for parts in zip(*(_placed(geometry, point) for point in points), strict=True)
+        np.array(parts)
+        for parts in zip(*(_placed(rod, geometry, point) for point in points), strict=True)
     )
     along, vector = ("point",), ("vertex", "axis")
     fields: dict[str, Field] = {
@@ -140,9 +141,9 @@ def _solution(
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*solver.warnings(), *warnings, *coarse(d)]
+    warnings = [*solver.warnings(), *rod.warnings(), *coarse(d)]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"
         )
-    return Solution(fields, statistics, {"axis": PLANAR.axes}, tuple(warnings))
+    return Solution(fields, statistics, {"axis": rod.kinematics.axes}, tuple(warnings))

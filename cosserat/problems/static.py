@@ -13,7 +13,6 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.problem import ALONE, Run
-from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, strains
 from cosserat.rods.resolution import check_crossing, coarse
@@ -85,7 +84,7 @@ class RodStatics(RodProblem):
         self, geometry: Geometry, system: MechanicalSystem, name: str
     ) -> tuple[Equilibrium, EquilibriumSolver]:
         """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""
-        check_supports(geometry.q, system.constrained, name)
+        check_supports(self.rod, geometry, system.constrained, name)
         solver = EquilibriumSolver(system, self.newton, name)
         try:
             return solve_full_load(solver), solver
@@ -98,13 +97,10 @@ class RodStatics(RodProblem):
             raise
 
 
-def check_supports(q: Array, constrained: NDArray[np.bool_], name: str) -> None:
-    """Raise UnsupportedRodError if a rigid motion at q moves no constrained DOF; both (4 N,)."""
-    left = [
-        motion
-        for motion, fraction in zip(_MOTIONS, PLANAR.free_motions(q, constrained), strict=True)
-        if fraction > 0.1
-    ]
+def check_supports(rod: Rod, geometry: Geometry, constrained: NDArray[np.bool_], name: str) -> None:
+    """Raise UnsupportedRodError if a rigid motion moves no constrained DOF, (n,)."""
+    free = rod.kinematics.free_motions(rod.strain_energy.reference(geometry), constrained)
+    left = [motion for motion, fraction in zip(_MOTIONS, free, strict=True) if fraction > 0.1]
     if left:
         raise UnsupportedRodError(
             f"{name}: the supports leave the rod free to move ({', '.join(left)}); "
@@ -113,16 +109,16 @@ def check_supports(q: Array, constrained: NDArray[np.bool_], name: str) -> None:
 
 
 def _solution(rod: Rod, geometry: Geometry, point: Equilibrium, solver: EquilibriumSolver) -> Solution:
-    system, shape = solver.system, (rod.vertices, PLANAR.per_vertex)
+    system, shape = solver.system, (rod.vertices, rod.kinematics.per_vertex)
     load = point.factor * system.dead_load.reshape(shape)
-    u = point.q.reshape(shape)
-    x, d = np.split(u + geometry.q.reshape(shape), [PLANAR.dimension], axis=1)
+    u, vectors = rod.kinematics.split(point.q), rod.vectors(geometry, point.q)
+    x, d = vectors[:, 0], vectors[:, 1]
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
     terms = system.internal.energy_terms(point.q)
     coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
-    more, own = rod.strain_energy.fields(rod, geometry, x, d, terms, coupled)
-    labels = {"axis": PLANAR.axes, "dof": PLANAR.dofs} | more
+    more, own = rod.strain_energy.fields(rod, geometry, vectors, terms, coupled)
+    labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs} | more
     vector, force = ("vertex", "axis"), ("vertex", "dof")
     fields: dict[str, Field] = own | {
         "xi": (("vertex",), arc),
@@ -131,8 +127,8 @@ def _solution(rod: Rod, geometry: Geometry, point: Equilibrium, solver: Equilibr
         "d_ref": (vector, geometry.D),
         "x": (vector, x),
         "d": (vector, d),
-        "u": (vector, u[:, : PLANAR.dimension]),
-        "delta": (vector, u[:, PLANAR.dimension :]),
+        "u": (vector, u[:, 0]),
+        "delta": (vector, u[:, 1]),
         "mu_edge": (("edge",), measured.mu_edge),
         "mu": (("vertex",), measured.mu),
         "lam": (("vertex",), measured.lam),

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Parameters, Quantity
-from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.naming import DofName, Vertex
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
@@ -184,8 +183,7 @@ class PrescribedDisplacement(Constraint):
 
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
         """Its DOF, in proportion."""
-        index = rod.index(self.at) * PLANAR.per_vertex + PLANAR.dofs.index(self.dof)
-        return DisplacedDof(index, self.by, self.frequency)
+        return DisplacedDof(rod.dof(self.at, self.dof), self.by, self.frequency)
 
 
 class PrescribedRotation(Constraint):
@@ -219,6 +217,5 @@ class PrescribedRotation(Constraint):
 
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
         """Its director, along a circle."""
-        vertex = rod.index(self.at)
-        first = vertex * PLANAR.per_vertex + PLANAR.dofs.index("d3")
-        return RotatedDirector(first, geometry.D[vertex], self.by, self.frequency)
+        D = geometry.D[rod.index(self.at)]
+        return RotatedDirector(rod.dof(self.at, "d3"), D, self.by, self.frequency)

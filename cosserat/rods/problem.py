@@ -18,7 +18,6 @@ from cosserat.rods.constraints import (
     RodConstraints,
     Support,
 )
-from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.loads.couples import Couple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
 from cosserat.rods.loads.load import Load, LoadedRod
@@ -88,10 +87,10 @@ class RodProblem(Problem):
 
     @model_validator(mode="after")
     def _what_moves_is_constrained(self) -> Self:
-        constrained, met = self.constrained(), dict[tuple[int, int], str]()
+        constrained, met = self.constrained(), dict[int, str]()
         for key, item in self.constraints():
             for dof in item.moves:
-                number = self.rod.index(item.at), PLANAR.dofs.index(dof)
+                number = self.rod.dof(item.at, dof)
                 if number in met:
                     keys = " and ".join(f"'{name}'" for name in dict.fromkeys([met[number], key]))
                     raise PydanticCustomError(
@@ -119,8 +118,9 @@ class RodProblem(Problem):
         displacements : its DOFs are displacements from the reference; if not, they are positions and directors.
         """
         energy = self.rod.strain_energy.potential(self.rod, geometry, displacements=displacements)
-        body = LoadedRod(self.rod, geometry, geometry.q if displacements else None)
-        rounded = np.zeros(geometry.q.size) if energy.origin is None else energy.origin
+        at_rest = self.rod.strain_energy.reference(geometry)
+        body = LoadedRod(self.rod, geometry, at_rest if displacements else None)
+        rounded = np.zeros_like(at_rest) if energy.origin is None else energy.origin
         return MechanicalSystem(
             energy,
             tuple(
@@ -129,20 +129,18 @@ class RodProblem(Problem):
                 if self.loads_of(key) or key in self.always
             ),
             self._constraints(geometry),
-            RodSpace(PLANAR, geometry.q, displacements, rounded),
+            RodSpace(self.rod.kinematics, at_rest, displacements, rounded),
             body.mass,
         )
 
     def _constraints(self, geometry: Geometry) -> RodConstraints:
         parts = [item.part(self.rod, geometry) for _, item in self.constraints()]
-        return RodConstraints(
-            self.constrained().ravel(), tuple(part for part in parts if part is not None)
-        )
+        return RodConstraints(self.constrained(), tuple(part for part in parts if part is not None))
 
     def constrained(self) -> NDArray[np.bool_]:
-        """Which DOFs of each vertex are constrained, shape (N, 4)."""
-        constrained = np.zeros((self.rod.vertices, PLANAR.per_vertex), dtype=np.bool_)
+        """Which DOFs are constrained, shape (n,)."""
+        constrained = np.zeros(self.rod.vertices * self.rod.kinematics.per_vertex, dtype=np.bool_)
         for _, item in self.constraints():
             for dof in item.fixes:
-                constrained[self.rod.index(item.at), PLANAR.dofs.index(dof)] = True
+                constrained[self.rod.dof(item.at, dof)] = True
         return constrained

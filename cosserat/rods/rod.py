@@ -11,7 +11,7 @@ from pydantic import field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, OneOf, Parameters, Quantity
-from cosserat.rods.energies import ENERGIES, energy
+from cosserat.rods.energies import ENERGIES, energy_named
 from cosserat.rods.energies.compliance import LateralConstraint
 from cosserat.rods.energies.energy import Energy
 from cosserat.rods.energies.hemingway_stiffness import (
@@ -20,8 +20,8 @@ from cosserat.rods.energies.hemingway_stiffness import (
     IntrinsicCurvature,
     PoissonCoupling,
 )
-from cosserat.rods.kinematics import PLANAR
-from cosserat.rods.naming import Vertex
+from cosserat.rods.kinematics import Kinematics
+from cosserat.rods.naming import DofName, Vertex
 from cosserat.rods.reference import Geometry
 from cosserat.rods.variation import Station, mass_share, mean, vertex_cuts
 from cosserat.rods.variation import share as share_of
@@ -67,7 +67,7 @@ class Rod(Parameters):
     @model_validator(mode="after")
     def _sound(self) -> Self:
         for other in ENERGIES:
-            options = energy(other).options
+            options = energy_named(other).options
             given = [
                 option for option in options if getattr(self, option) != Rod.model_fields[option].default
             ]
@@ -105,7 +105,12 @@ class Rod(Parameters):
     @property
     def strain_energy(self) -> Energy:
         """The energy that it names."""
-        return energy(self.energy)
+        return energy_named(self.energy)
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """The layout of its degrees of freedom."""
+        return self.strain_energy.kinematics
 
     @property
     def poisson_ratios(self) -> list[float]:
@@ -136,6 +141,11 @@ class Rod(Parameters):
     def Y22(self) -> float:
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
         return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
+
+    @property
+    def inertia(self) -> Array:
+        """What mass counts between position and director: 1, Y02 and Y22, shape (2, 2) [1]."""
+        return np.array([[1.0, self.Y02], [self.Y02, self.Y22]])
 
     def warnings(self) -> list[str]:
         """What of the rod its edges follow less well than the rest."""
@@ -168,16 +178,17 @@ class Rod(Parameters):
         )
 
     def mass(self, geometry: Geometry) -> Array:
-        """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
-
-        That of an energy with masses that couple neighbours has the shape (4 N, 7).
-        """
-        own, shared = self.strain_energy.masses(self, geometry)
-        inertia = np.array([[1.0, self.Y02], [self.Y02, self.Y22]])
-        coupled = shared if shared.size else np.zeros(own.size - 1)
-        band = PLANAR.mass_band(own, coupled, inertia)
-        return band if shared.size else band[:, : PLANAR.dimension + 1]
+        """Mass matrix as a symmetric band, (n, w), eq. (3.3.43)."""
+        return self.strain_energy.mass(self, geometry)
 
     def index(self, at: Vertex) -> int:
         """The index of a vertex that a load or a constraint names."""
         return {"first": 0, "last": self.vertices - 1}[at] if isinstance(at, str) else at
+
+    def dof(self, at: Vertex, name: DofName) -> int:
+        """The index of a degree of freedom of a vertex."""
+        return self.index(at) * self.kinematics.per_vertex + self.kinematics.dofs.index(name)
+
+    def vectors(self, geometry: Geometry, u: Array) -> Array:
+        """The vectors of every vertex, displaced by u (n,) from the reference: (N, m, 2) [m]."""
+        return self.kinematics.split(self.strain_energy.reference(geometry) + u)

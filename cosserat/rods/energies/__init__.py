@@ -16,7 +16,7 @@ ENERGIES = {
 """Energies by the word that a case names in `rod.energy`."""
 
 
-def energy(name: str) -> Energy:
+def energy_named(name: str) -> Energy:
     """The energy of that name."""
     return _made(ENERGIES[name])
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from cosserat.rods.kinematics import PLANAR, Kinematics
 from cosserat.rods.reference import Geometry
 from cosserat.solution import Field
 from cosserat.solvers.potential import Potential
@@ -21,10 +22,12 @@ Array = NDArray[np.float64]
 class Energy(ABC):
     """One strain energy: its options, its potential, its mass and its own output.
 
+    kinematics : the layout of its DOFs; the first two vectors of a vertex are its position and its director.
     options : fields of `Rod` that only this energy reads.
     far : whether sections may rotate by more than a quarter turn, and a path be followed past limit points.
     """
 
+    kinematics: ClassVar[Kinematics] = PLANAR
     options: ClassVar[tuple[str, ...]] = ()
     far: ClassVar[bool] = False
 
@@ -39,18 +42,23 @@ class Energy(ABC):
         displacements : its DOFs are displacements from the reference; if not, they are positions and directors.
         """
 
-    @abstractmethod
-    def masses(self, rod: Rod, geometry: Geometry) -> tuple[Array, Array]:
-        """Masses of the vertices (N,), and those that couple neighbours (N - 1,) [kg]; no size if none do."""
+    def reference(self, geometry: Geometry) -> Array:
+        """The DOFs (n,) in the reference configuration."""
+        return geometry.q
 
     @abstractmethod
+    def mass(self, rod: Rod, geometry: Geometry) -> Array:
+        """The mass matrix as a symmetric band, (n, w)."""
+
     def fields(
-        self, rod: Rod, geometry: Geometry, x: Array, d: Array, terms: Array, couples: float
+        self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
-        """Labels and fields of a state x, d (N, 2) [m] that only this energy has.
+        """Labels and fields that only this energy has, of a state.
 
-        terms : the parts of the energy there [J].  couples : energy of the couples [J].
+        vectors : (N, m, 2) the vectors of every vertex [m].  terms : the parts of the energy there [J].
+        couples : energy of the couples [J].
         """
+        return {}, {}
 
     def shaped(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
         """Directors (N, 2) [m] with which a motion from x, d can begin: these, unless they set off vibrations."""

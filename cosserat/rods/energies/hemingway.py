@@ -62,15 +62,17 @@ class Hemingway(Energy):
         """Eq. (3.4.11); it computes with positions, also where its DOFs are displacements."""
         return potential(self.stiffness(rod, geometry), geometry.q if displacements else None)
 
-    def masses(self, rod: Rod, geometry: Geometry) -> tuple[Array, Array]:
-        """Eq. (3.3.43): the mass of the part round each vertex."""
-        return rod.part_masses(geometry), np.empty(0)
+    def mass(self, rod: Rod, geometry: Geometry) -> Array:
+        """Eq. (3.3.43): rho0 L times 1, Y02 and Y22, shape (4 N, 3)."""
+        none = np.zeros(rod.vertices - 1)
+        band = self.kinematics.mass_band(rod.part_masses(geometry), none, rod.inertia)
+        return band[:, :3]
 
     def fields(
-        self, rod: Rod, geometry: Geometry, x: Array, d: Array, terms: Array, couples: float
+        self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Shear angles and the seven terms."""
-        theta = strains(geometry, x, d).theta
+        theta = strains(geometry, vectors[:, 0], vectors[:, 1]).theta
         return {"term": TERMS}, {"theta": (("vertex",), theta), "energy": (("term",), terms)}
 
 

@@ -62,15 +62,17 @@ class Reissner(Energy):
             displacements=displacements,
         )
 
-    def masses(self, rod: Rod, geometry: Geometry) -> tuple[Array, Array]:
-        """The mean of lumped masses and of those that straight edges have."""
+    def mass(self, rod: Rod, geometry: Geometry) -> Array:
+        """The mean of lumped masses and of those that straight edges have, shape (4 N, 7)."""
         edges = edge_masses(rod.stations, rod.line_density, geometry.arc_length)
-        return np.append(edges.before, 0.0) + np.insert(edges.after, 0, 0.0), edges.shared
+        own = np.append(edges.before, 0.0) + np.insert(edges.after, 0, 0.0)
+        return self.kinematics.mass_band(own, edges.shared, rod.inertia)
 
     def fields(
-        self, rod: Rod, geometry: Geometry, x: Array, d: Array, terms: Array, couples: float
+        self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Shear angles of the edges and the parts of the energy, that of the couples included."""
+        x, d = vectors[:, 0], vectors[:, 1]
         return {"part": (*TERMS, "couples")}, {
             "shear": (("edge",), edge_shear(x + rod.Y02 * d, d)),
             "energy_parts": (("part",), np.append(terms, couples)),

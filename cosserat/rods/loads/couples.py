@@ -18,6 +18,7 @@ from numba import cfunc, njit
 from numpy.typing import NDArray
 
 from cosserat.parameters import Quantity
+from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.naming import Vertex
 from cosserat.rods.reference import unwrapped_angles
@@ -27,7 +28,13 @@ from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, KERNEL, Potent
 Array = NDArray[np.float64]
 TERMS = ("couples",)
 """Names of the parts of the potential."""
-_VERTEX = np.dtype([("moment", "f8"), ("angle", "f8")])  # [N m]; of the director in the reference [rad]
+_VERTEX = np.dtype(
+    [
+        ("moment", "f8"),  # [N m]
+        ("angle", "f8"),  # of the director in the reference [rad]
+        ("dof", "i8"),  # the first of its director
+    ]
+)
 
 
 class Couple(Load):
@@ -47,13 +54,20 @@ class Couple(Load):
         moments = np.zeros(body.rod.vertices)
         for load in loads:
             moments[body.rod.index(load.at)] += load.moment
-        return couples(moments, unwrapped_angles(body.geometry.D), body.origin)
+        angles = unwrapped_angles(body.geometry.D)
+        return couples(moments, angles, body.rod.kinematics.per_vertex, body.origin)
 
 
-def couples(moments: Array, angles: Array, origin: Vector | None = None) -> Potential:
-    """The potential of couples (N,) [N m] on directors whose reference angles are (N,) [rad]."""
+def couples(
+    moments: Array, angles: Array, per_vertex: int = PLANAR.per_vertex, origin: Vector | None = None
+) -> Potential:
+    """The potential of couples (N,) [N m] on directors whose reference angles are (N,) [rad].
+
+    per_vertex : number of DOFs of a vertex, of which the director is the second pair.
+    """
     constants = np.empty(moments.size, _VERTEX)
     constants["moment"], constants["angle"] = moments, angles
+    constants["dof"] = per_vertex * np.arange(moments.size) + 2
     reach = 1 if moments.any() else -1
     return Potential(
         _work,
@@ -88,16 +102,17 @@ def _work(
 ) -> float:
     """Minus the work of the couples, as `solvers.potential.KERNEL` says."""
     vertices = data.view(_VERTEX)
-    ends = after if after.size > 0 else q
+    ends, first = after if after.size > 0 else q, vertices[0].dof
     if task == COMMIT:
-        history[0] = unwrap(ends[3], ends[2], history[0])
+        history[0] = unwrap(ends[first + 1], ends[first], history[0])
         return 0.0
     terms[0] = 0.0
-    angle = unwrap(ends[3], ends[2], history[0])
+    angle = unwrap(ends[first + 1], ends[first], history[0])
     for K in range(vertices.size):
-        p, M = 4 * K + 2, vertices[K].moment
+        p, M = vertices[K].dof, vertices[K].moment
         if K > 0:
-            a0, a1, b0, b1 = ends[p - 4], ends[p - 3], ends[p], ends[p + 1]
+            r = vertices[K - 1].dof
+            a0, a1, b0, b1 = ends[r], ends[r + 1], ends[p], ends[p + 1]
             angle += np.arctan2(a0 * b1 - a1 * b0, a0 * b0 + a1 * b1)
         if M == 0.0:
             continue

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Quantity
-from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.naming import Direction, Vertex, unit_vector
 from cosserat.rods.reference import Geometry
@@ -30,12 +29,12 @@ class DeadLoad(Load):
 
     @abstractmethod
     def on_dofs(self, body: LoadedRod) -> Array:
-        """Force on the DOFs of each vertex, shape (N, 4) [N]."""
+        """Force on the DOFs of each vertex, shape (N, DOFs of a vertex) [N]."""
 
     @classmethod
     def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
         """Minus the work of the forces from the reference on, eq. (3.3.40)."""
-        total = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        total = body.no_force
         for load in loads:
             total += load.on_dofs(body)
         return dead(total.ravel(), body.unmoved)
@@ -49,7 +48,7 @@ class Gravity(DeadLoad):
 
     def on_dofs(self, body: LoadedRod) -> Array:
         """The same mass as in motion."""
-        fall = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        fall = body.no_force
         fall[:, :2] = self.g * unit_vector(self.along)
         return band_product(body.mass, fall.ravel()).reshape(fall.shape)
 
@@ -68,7 +67,7 @@ class PointForce(DeadLoad):
 
     def on_dofs(self, body: LoadedRod) -> Array:
         """On the position of its vertex."""
-        forces = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        forces = body.no_force
         forces[body.rod.index(self.at), :2] = self.force * unit_vector(self.along)
         return forces
 
@@ -94,7 +93,7 @@ class LineLoad(DeadLoad):
 
     def on_dofs(self, body: LoadedRod) -> Array:
         """On the parts round the vertices, as far as it covers them."""
-        forces = np.zeros((body.rod.vertices, PLANAR.per_vertex))
+        forces = body.no_force
         covered = _overlap(body.geometry, self.start, self._end(body.rod))
         forces[:, :2] = self.density * covered[:, None] * unit_vector(self.along)
         return forces

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 class LoadedRod:
     """What a load acts on.
 
-    origin : (4 N,) what its potential adds to the DOFs to get positions and directors: nothing, or the reference.
+    origin : (n,) what its potential adds to the DOFs to get positions and directors: nothing, or the reference.
     """
 
     rod: Rod
@@ -37,9 +37,15 @@ class LoadedRod:
         return self.rod.mass(self.geometry)
 
     @property
+    def no_force(self) -> Array:
+        """Zero for the DOFs of each vertex, shape (N, DOFs of a vertex)."""
+        return np.zeros((self.rod.vertices, self.rod.kinematics.per_vertex))
+
+    @property
     def unmoved(self) -> Array:
-        """The DOFs (4 N,) of the reference."""
-        return self.geometry.q if self.origin is None else np.zeros_like(self.origin)
+        """The DOFs (n,) of the reference."""
+        at_rest = self.rod.strain_energy.reference(self.geometry)
+        return at_rest if self.origin is None else np.zeros_like(at_rest)
 
 
 class Load(Parameters):
