@@ -141,7 +141,7 @@ def _solution(
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*solver.warnings(), *rod.warnings(), *coarse(d)]
+    warnings = [*solver.warnings(), *coarse(d)]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"

@@ -75,20 +75,20 @@ class Kinematics:
         left: Array = np.abs(free).max(axis=0, initial=0.0)
         return left
 
-    def mass_band(self, own: Array, shared: Array, inertia: Array) -> Array:
+    def mass_band(self, own: Array, shared: Array | None = None) -> Array:
         """The mass matrix as a symmetric band, (N m d, (2 m - 1) d + 1).
 
-        own : (N,) masses of the vertices [kg].  shared : (N - 1,) masses that couple neighbours [kg].
-        inertia : (m, m) what they count between two vectors of a vertex, or of neighbours [1].
+        own : (m, m, N) masses between the vectors of a vertex [kg].
+        shared : (m, m, N - 1) masses between a vector of a vertex and one of the next vertex [kg]; None: none.
         """
-        m, d = len(self.vectors), self.dimension
-        band = np.zeros((own.size, m, d, (2 * m - 1) * d + 1))
+        m, d, count = len(self.vectors), self.dimension, own.shape[2]
+        band = np.zeros((count, m, d, (2 * m - 1) * d + 1))
         for a, b in itertools.product(range(m), repeat=2):
             if b >= a:
-                band[:, a, :, (b - a) * d] = inertia[a, b] * own[:, None]
-        for a, b in itertools.product(range(m), repeat=2):
-            band[:-1, a, :, (m + b - a) * d] = inertia[a, b] * shared[:, None]
-        return band.reshape(own.size * m * d, -1)
+                band[:, a, :, (b - a) * d] = own[a, b, :, None]
+            if shared is not None:
+                band[:-1, a, :, (m + b - a) * d] = shared[a, b, :, None]
+        return band.reshape(count * m * d, -1)
 
 
 PLANAR = Kinematics(("E3", "E2"), ("x", "d"))

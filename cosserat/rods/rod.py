@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import Annotated, Self
 
 import numpy as np
@@ -142,31 +141,15 @@ class Rod(Parameters):
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
         return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
 
-    @property
-    def inertia(self) -> Array:
-        """What mass counts between position and director: 1, Y02 and Y22, shape (2, 2) [1]."""
-        return np.array([[1.0, self.Y02], [self.Y02, self.Y22]])
-
-    def warnings(self) -> list[str]:
-        """What of the rod its edges follow less well than the rest."""
-        steps = [
-            after.at
-            for before, after in itertools.pairwise(self.stations)
-            if before.at == after.at and before.height != after.height and 0 < after.at < self.length
-        ]
-        if self.energy == "published" or self.centreline == 0.5 or not steps:
-            return []
-        return [
-            f"stepped axis: the height jumps at {steps[0]:.4g} m and the centreline is not in the middle, so the area "
-            "centres jump too, which an edge cannot; what stretching and bending do to each other there is right to "
-            "first order in 'rod.vertices' only: use more, or 'rod.centreline' = 0.5"
-        ]
-
     def geometry(self) -> Geometry:
         """Its reference configuration; the directors reach the upper surface."""
-        arc = np.linspace(0.0, self.length, self.vertices)
-        heights = self.height * share_of(self.stations, "height", arc, before=False)
+        heights = self.height * self.height_fractions()
         return Geometry.arc(self.vertices, self.length, (1 - self.centreline) * heights, self.curvature)
+
+    def height_fractions(self) -> Array:
+        """Heights at the vertices over the nominal one, after a step that lies on a vertex, shape (N,) [1]."""
+        arc = np.linspace(0.0, self.length, self.vertices)
+        return share_of(self.stations, "height", arc, before=False)
 
     def part_masses(self, geometry: Geometry) -> Array:
         """Mass of the part round each vertex, shape (N,) [kg]."""

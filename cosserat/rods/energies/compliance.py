@@ -8,6 +8,17 @@ length, least over all axial strains of the mean e, is
 
 which is that of an edge with 2 mu A = alpha <a/c> and Lambda A = alpha <b/c> whose vertices have <a b/c> - alpha <a/c>
 <b/c> more than their own 2 mu A.  Shearing and bending add up their compliances alike.
+
+Where the height varies and the centreline is not in the middle, the area centres are off it by e(s).  The moment about
+an axis at E is nearly constant along the edge, m say, and the curvature is (m + n (e - E)) / EI under the tension n.
+With E = <e/EI> / <1/EI> the mean curvature is m <1/EI>, and the mean strain of that axis is
+
+    n <1/c + (e - E)^2/EI> - <b/c> w,
+
+so tension and bending do not couple at E, and 1/alpha has <(e - E)^2/EI> more.  The rest stays as it is.
+
+Means are along the line of the area centres, which in a rod of curvature K has the length 1 - K e per length of the
+centreline.
 """
 
 from __future__ import annotations
@@ -34,7 +45,8 @@ INCOMPRESSIBLE = 0.49
 class EdgeStiffnesses(NamedTuple):
     """axial 2 mu A, volume Lambda A, shear k mu A, bending EI, stretch_gradient mu I: (N - 1,); section 2 mu A: (N,).
 
-    The third and fourth in N m^2, the others in N.
+    The fourth and fifth in N m^2, the others in N.  axis : (N - 1,) E over the offset of the nominal section [1].
+    length : (N - 1,) of the line of the area centres, per length of the centreline [1].
     """
 
     axial: Array
@@ -43,6 +55,8 @@ class EdgeStiffnesses(NamedTuple):
     bending: Array
     stretch_gradient: Array
     section: Array
+    axis: Array
+    length: Array
 
 
 def stiffnesses(
@@ -55,10 +69,13 @@ def stiffnesses(
     poisson: float,
     shear_correction: float,
     lateral_constraint: LateralConstraint,
+    offset: float = 0.0,
+    curvature: float = 0.0,
 ) -> EdgeStiffnesses:
     """Of a rod whose nominal section and material vary as the stations say.
 
     arc : (N,) arc length of the vertices [m].  second_moment : about the area centres [m^4].
+    offset : of the nominal area centre from the centreline [m].  curvature : of the reference [1/m].
     """
 
     def along(s: Shares) -> tuple[Array, Array, Array, Array, Array]:
@@ -67,29 +84,35 @@ def stiffnesses(
         mu, first, plane = moduli(young * s.young, poisson * s.poisson, lateral_constraint)
         return 2 * mu * here, first * here, shear_correction * mu * here, plane * bending, mu * bending
 
+    def centres(s: Shares) -> Array:
+        """Length of the line of the area centres per length of the centreline."""
+        return 1 - curvature * offset * s.height
+
     def on_edges(s: Shares, _: Array) -> Array:
         axial, volume, shear, bending, gradient = along(s)
         both = axial + volume
-        return np.stack(
-            [
-                1 / both,
-                axial / both,
-                volume / both,
-                axial * volume / both,
-                1 / shear,
-                1 / bending,
-                1 / gradient,
-            ]
-        )
+        shares = [1 / both, axial / both, volume / both, axial * volume / both]
+        return centres(s) * np.stack([*shares, 1 / shear, 1 / bending, 1 / gradient])
 
-    compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc)
-    alpha = 1 / compliance
-    more = (product - alpha * axial * volume) * np.diff(arc) / 2
+    first_height = stations[0].height if stations else 1.0
+
+    def off_axis(s: Shares, _: Array) -> Array:
+        higher = s.height - first_height
+        turning = centres(s) / along(s)[3]
+        return np.stack([higher, higher * turning, higher**2 * turning])
+
+    above, lever, square = mean(stations, off_axis, arc)
+    length = 1 - curvature * offset * (first_height + above)
+    compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc) / length
+    lever, square = lever / length, square / length
+    alpha = 1 / (compliance + offset**2 * (square - lever**2 / bending))
+    axis = first_height + lever / bending
+    more = (product - alpha * axial * volume) * length * np.diff(arc) / 2
     cuts = vertex_cuts(arc)
-    own = mean(stations, lambda s, _: along(s)[0], cuts)
-    shared = np.append(more, 0.0) + np.insert(more, 0, 0.0)
+    own = mean(stations, lambda s, _: centres(s) * along(s)[0], cuts)
+    section = own + (np.append(more, 0.0) + np.insert(more, 0, 0.0)) / np.diff(cuts)
     return EdgeStiffnesses(
-        alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, own + shared / np.diff(cuts)
+        alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, section, axis, length
     )
 
 

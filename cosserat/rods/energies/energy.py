@@ -63,7 +63,3 @@ class Energy(ABC):
     def shaped(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
         """Directors (N, 2) [m] with which a motion from x, d can begin: these, unless they set off vibrations."""
         return d
-
-    def warnings(self, rod: Rod) -> list[str]:
-        """What of the rod its edges follow less well than the rest."""
-        return []

@@ -64,9 +64,8 @@ class Hemingway(Energy):
 
     def mass(self, rod: Rod, geometry: Geometry) -> Array:
         """Eq. (3.3.43): rho0 L times 1, Y02 and Y22, shape (4 N, 3)."""
-        none = np.zeros(rod.vertices - 1)
-        band = self.kinematics.mass_band(rod.part_masses(geometry), none, rod.inertia)
-        return band[:, :3]
+        m = rod.part_masses(geometry)
+        return self.kinematics.mass_band(np.array([[m, rod.Y02 * m], [rod.Y02 * m, rod.Y22 * m]]))[:, :3]
 
     def fields(
         self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float

@@ -11,10 +11,11 @@ and each vertex has the stretch lambda = |d| / |D| of its section.  The energy i
        + sum over vertices L 2 mu A (lambda - 1)^2 / 2
 
 less the measures of the reference.  Where the centreline misses the area centres, edges run between those, at
-x + Y02 d: stretching and bending then couple as they do in (1.2.93).  The volumetric part sits on the edges, where it
-cannot lock; Lambda is Lame's first constant in plane strain, and E nu / (1 - nu^2) where the section is free in E1.
-In an incompressible section Lambda is a penalty, on a times the mean of lambda less 1: the area in the plane itself,
-not its linear part.
+x plus a share of d: stretching and bending then couple as they do in (1.2.93).  The share, Y02 where the height is
+constant, belongs to the edge: edges that meet at a step of the height end at different points of its director.  The
+volumetric part sits on the edges, where it cannot lock; Lambda is Lame's first constant in plane strain, and
+E nu / (1 - nu^2) where the section is free in E1.  In an incompressible section Lambda is a penalty, on a times the
+mean of lambda less 1: the area in the plane itself, not its linear part.
 
 Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, and t = (sin b, -cos b),
     h a = e . t,   h g = e . m,   d(h a)/db = h g,   d(h g)/db = -h a.
@@ -46,7 +47,7 @@ TERMS = (
 VERTEX = np.dtype(
     [
         # of the edge after the vertex, zero at the last one
-        ("edge", "f8"),  # length between the area centres [m]
+        ("edge", "f8"),  # length along the area centres [m]
         ("axial", "f8"),  # h a of the reference [m]
         ("slide", "f8"),  # h g of the reference [m]
         ("turn", "f8"),  # T of the reference [rad]
@@ -55,6 +56,8 @@ VERTEX = np.dtype(
         ("k_shear", "f8"),  # k mu A [N]
         ("k_bending", "f8"),  # EI [N m^2]
         ("k_stretch_gradient", "f8"),  # mu I [N m^2]
+        ("low", "f8"),  # its first end from the vertex, in directors of that [1]
+        ("high", "f8"),  # its second end from the next vertex, in directors of that [1]
         # of the vertex
         ("director", "f8"),  # |D| [m]
         ("voronoi", "f8"),  # L [m]
@@ -64,7 +67,6 @@ VERTEX = np.dtype(
         ("edge_2", "f8"),
         ("director_3", "f8"),
         ("director_2", "f8"),
-        ("offset", "f8"),  # of the area centres from the centreline, in directors [1]
         # choices; those of the first vertex count
         ("barrier", "f8"),  # one with the barriers of Fig. 3.7
         ("product", "?"),  # whether the volume is the product of the stretches, not their sum
@@ -157,7 +159,7 @@ def assemble(
     terms[:] = 0.0
     moving, measuring, curving = after.size > 0, task == STRAINS, task == HESSIAN
     deriving = curving or task == GRADIENT
-    barrier, product, offset = rod[0].barrier, rod[0].product, rod[0].offset
+    barrier, product = rod[0].barrier, rod[0].product
     # of the vertex before: direction, length and stretch; at the end of a step; and the stretch that stresses go by
     n0 = n1 = r_a = a0 = a1 = end_a = used_a = 0.0
     v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
@@ -187,10 +189,10 @@ def assemble(
             W_rb = rod[K].k_section / 2 * rod[K].voronoi * first / D
             W_rr = rod[K].k_section / 2 * rod[K].voronoi * second / D**2
         if K > 0:
-            E, D_a = rod[J].edge, rod[J].director
+            E, D_a, low, high = rod[J].edge, rod[J].director, rod[J].low, rod[J].high
             e0, e1 = q[p] - q[p - 4] + rod[J].edge_3, q[p + 1] - q[p - 3] + rod[J].edge_2
-            if offset != 0.0:
-                e0, e1 = e0 + offset * (q[p + 2] - q[p - 2]), e1 + offset * (q[p + 3] - q[p - 1])
+            e0 += high * (q[p + 2] - q[p - 2]) + (high - low) * q[p - 2]
+            e1 += high * (q[p + 3] - q[p - 1]) + (high - low) * q[p - 1]
             A, G, T, m0, m1 = _measured(e0, e1, n0, n1, p0, p1)
             if not A > 0.0:
                 return np.inf
@@ -200,9 +202,8 @@ def assemble(
                     after[p] - after[p - 4] + rod[J].edge_3,
                     after[p + 1] - after[p - 3] + rod[J].edge_2,
                 )
-                if offset != 0.0:
-                    e0 += offset * (after[p + 2] - after[p - 2])
-                    e1 += offset * (after[p + 3] - after[p - 1])
+                e0 += high * (after[p + 2] - after[p - 2]) + (high - low) * after[p - 2]
+                e1 += high * (after[p + 3] - after[p - 1]) + (high - low) * after[p - 1]
                 A_end, G_end, turn, _, _ = _measured(e0, e1, a0, a1, b0, b1)
                 if not A_end > 0.0:
                     return np.inf
@@ -249,11 +250,10 @@ def assemble(
                 gradient[p - 1] += W_ra * n1 + turn_a * n0
                 gradient[p] += f0
                 gradient[p + 1] += f1
-                if offset != 0.0:
-                    gradient[p - 2] -= offset * f0
-                    gradient[p - 1] -= offset * f1
-                    gradient[p + 2] += offset * f0
-                    gradient[p + 3] += offset * f1
+                gradient[p - 2] -= low * f0
+                gradient[p - 1] -= low * f1
+                gradient[p + 2] += high * f0
+                gradient[p + 3] += high * f1
             if curving:
                 # gradients by (x, d) of both vertices: A, G, T, volume E, jump, b
                 v[0, 0], v[0, 1], v[0, 4], v[0, 5] = -m1, m0, m1, -m0
@@ -263,8 +263,9 @@ def assemble(
                 for i in range(8):
                     if i % 4 > 1:
                         v[5, i] = v[2, i] / 2 if i > 3 else -v[2, i] / 2
-                        v[0, i] = G * v[5, i] + offset * v[0, i - 2]
-                        v[1, i] = -A * v[5, i] + offset * v[1, i - 2]
+                        share = high if i > 3 else low
+                        v[0, i] = G * v[5, i] + share * v[0, i - 2]
+                        v[1, i] = -A * v[5, i] + share * v[1, i - 2]
                         widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
                     v[3, i] = by_axial * v[0, i] + by_wide * E * widening[i]
                 w[0], w[1], w[2] = (
@@ -279,7 +280,7 @@ def assemble(
                 )
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
                 c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
-                c[2], c[3], c[6], c[7] = -offset * c0, -offset * c1, offset * c0, offset * c1
+                c[2], c[3], c[6], c[7] = -low * c0, -low * c1, high * c0, high * c1
                 _curve(band, p - 4, v, w, c)
                 if product:
                     _pair(band, p - 4, v[0], widening, pressure)

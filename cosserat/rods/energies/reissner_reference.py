@@ -52,29 +52,41 @@ class Reissner(Energy):
             poisson=rod.poisson,
             shear_correction=rod.shear_correction,
             lateral_constraint=rod.lateral_constraint,
+            offset=(0.5 - rod.centreline) * rod.height,
+            curvature=rod.curvature,
         )
+        heights = rod.height_fractions()
         return potential(
             geometry,
             stiffness,
             barrier=rod.barrier,
             product=rod.lateral_constraint == "incompressible",
-            offset=rod.Y02,
+            offsets=rod.Y02 * (stiffness.axis / np.stack([heights[:-1], heights[1:]])),
             displacements=displacements,
         )
 
     def mass(self, rod: Rod, geometry: Geometry) -> Array:
-        """The mean of lumped masses and of those that straight edges have, shape (4 N, 7)."""
-        edges = edge_masses(rod.stations, rod.line_density, geometry.arc_length)
-        own = np.append(edges.before, 0.0) + np.insert(edges.after, 0, 0.0)
-        return self.kinematics.mass_band(own, edges.shared, rod.inertia)
+        """The mean of lumped masses and of those that straight edges have, shape (4 N, 7).
+
+        Y02 and Y22 are those of the sections along an edge, in directors of the vertices.
+        """
+        arc, heights = geometry.arc_length, rod.height_fractions()
+        edges = [edge_masses(rod.stations, rod.line_density, arc, power) for power in range(3)]
+        own = [np.append(edge.before, 0.0) + np.insert(edge.after, 0, 0.0) for edge in edges]
+        m0, m1, m2 = own[0], rod.Y02 * own[1] / heights, rod.Y22 * own[2] / heights**2
+        low, high = heights[:-1], heights[1:]
+        n0, n1, n2 = (edge.shared for edge in edges)
+        between = [[n0, rod.Y02 * n1 / high], [rod.Y02 * n1 / low, rod.Y22 * n2 / (low * high)]]
+        return self.kinematics.mass_band(np.array([[m0, m1], [m1, m2]]), np.array(between))
 
     def fields(
         self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Shear angles of the edges and the parts of the energy, that of the couples included."""
-        x, d = vectors[:, 0], vectors[:, 1]
+        constants = self.potential(rod, geometry).constants
+        edges = centre_edges(constants, vectors[:, 0], vectors[:, 1])
         return {"part": (*TERMS, "couples")}, {
-            "shear": (("edge",), edge_shear(x + rod.Y02 * d, d)),
+            "shear": (("edge",), edge_shear(edges, vectors[:, 1])),
             "energy_parts": (("part",), np.append(terms, couples)),
         }
 
@@ -91,22 +103,22 @@ def potential(
     *,
     barrier: bool,
     product: bool,
-    offset: float = 0.0,
+    offsets: Array | float = 0.0,
     displacements: bool = False,
 ) -> Potential:
     """The energy of given stiffnesses.
 
     barrier : with those of Fig. 3.7.  product : the volume is the product of the stretches, not their sum.
-    offset : of the area centres from the centreline, in directors; edges run from one area centre to the next, and the
-        second moment is about them.
+    offsets : (2, N - 1) of each edge's area centres from the centreline at its two vertices, in directors of those, or
+        one for all; edges run from one area centre to the next, and the second moment is about them.
     displacements : DOFs are displacements, whose rounding on fine meshes is far less than that of positions.
     """
-    centres = geometry.X + offset * geometry.D
     rod = np.zeros(geometry.X.shape[0], VERTEX)
-    e, turn = np.diff(centres, axis=0), np.diff(unwrapped_angles(geometry.D))
+    rod["low"][:-1], rod["high"][:-1] = np.broadcast_to(offsets, (2, rod.size - 1))
+    e, turn = centre_edges(rod, geometry.X, geometry.D), np.diff(unwrapped_angles(geometry.D))
     b = unwrapped_angles(geometry.D)[:-1] + turn / 2
     edges = {
-        "edge": np.linalg.norm(e, axis=1),
+        "edge": np.linalg.norm(np.diff(geometry.X, axis=0), axis=1) * stiffness.length,
         "axial": e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b),
         "slide": e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b),
         "turn": turn,
@@ -119,7 +131,7 @@ def potential(
     for name, values in edges.items():
         rod[name][:-1] = values
     rod["director"], rod["voronoi"] = geometry.director_length, geometry.voronoi_length
-    rod["k_section"], rod["offset"] = stiffness.section, offset
+    rod["k_section"] = stiffness.section
     rod["barrier"], rod["product"] = float(barrier), product
     if displacements:
         rod["edge_3"][:-1], rod["edge_2"][:-1] = e.T
@@ -132,6 +144,13 @@ def potential(
         half_bandwidth=7,  # two neighbouring vertices
         strains=(rod.size, 4),
     )
+
+
+def centre_edges(constants: NDArray[np.void], x: Array, d: Array) -> Array:
+    """Edges between area centres, (N - 1, 2) [m], of vertices and directors (N, 2) [m]."""
+    low, high = constants["low"][:-1, None], constants["high"][:-1, None]
+    edges: Array = (x[1:] + high * d[1:]) - (x[:-1] + low * d[:-1])
+    return edges
 
 
 def keeping_volume(
