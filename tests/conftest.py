@@ -41,14 +41,20 @@ def random_state(rod: Rod, seed: int, size: float = 0.3, turn: float | None = No
     return np.hstack([x @ R.T + rng.uniform(-3, 3, 2), d @ R.T]).ravel()
 
 
-def assembled(body, q):
+def assembled(potential, q):
     """Energy, gradient (n,) and dense Hessian (n, n) at q."""
     from cosserat.solvers.banded import to_dense
 
     gradient = np.empty(q.size)
-    band = np.empty((q.size, body.half_bandwidth + 1))
-    energy = body.assemble(q, gradient, band)
+    band = np.empty((q.size, potential.half_bandwidth + 1))
+    energy = potential.assemble(q, gradient, band)
     return energy, gradient, to_dense(band)
+
+
+def differentiated(potential, q):
+    """Energy and gradient (n,) at q."""
+    gradient = np.zeros(q.size)
+    return potential.add_gradient(q, potential.history, gradient), gradient
 
 
 @pytest.fixture(scope="session")
