@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numba import njit
 from scipy.linalg import solve
 
 import cosserat
@@ -9,59 +10,51 @@ from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import absolute_product, constrain, solve_positive, to_dense
 from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
 from cosserat.solvers.incremental import solve_full_load
+from cosserat.solvers.potential import GRADIENT, HESSIAN, Potential
+from cosserat.solvers.system import FixedDofs, FlatSpace, MechanicalSystem
 
 
-class Springs:
-    """energy = sum of q^4 / 4 - softening factor q^2 / 2 + stiffness q^2 / 2, unknowns uncoupled: no rod at all."""
-
-    half_bandwidth = 0
-    max_increment = np.inf
-
-    def __init__(self, dead, stiffness=0.0, softening=0.0):
-        self.dead = np.array(dead, dtype=float)
-        self.constrained = np.zeros(self.dead.size, dtype=bool)
-        self.dof_scale = np.ones(self.dead.size)
-        self.stiffness, self.softening = stiffness, softening
-
-    def prescribe(self, q, factor):
-        return q
-
-    def prescribed_rate(self, factor):
-        return np.zeros_like(self.dead)
-
-    def assemble(self, q, factor, gradient, band):
-        k = self.stiffness - self.softening * factor
-        gradient[:] = q**3 + k * q - factor * self.dead
-        band[:, 0] = 3 * q**2 + k
-        return float((q**4 / 4 + k * q**2 / 2).sum())
-
-    def load(self, factor, *, signed=False):
-        return factor * self.dead if signed else np.abs(factor * self.dead)
-
-    def rate(self, q, factor, band):
-        return -self.dead - self.softening * q
-
-    def max_step_fraction(self, q, step):
-        largest = np.abs(step).max()
-        return 1 / largest if largest > 0 else np.inf
-
-    def rates(self, q, change):
-        return np.column_stack([change, np.zeros_like(change)])
-
-    def predicted(self, q, moved, factor):
-        return q + moved[:, 0]
-
-    def carried(self, change):
-        return np.zeros_like(change)
+@njit
+def springs(q, after, data, history, strains, task, gradient, band, skew, terms):
+    """Sum of a q^4 / 4 + b q^2 / 2 - c q; DOFs uncoupled."""
+    rows = data.view(np.float64).reshape(q.size, 3)
+    a, b, c = rows[:, 0], rows[:, 1], rows[:, 2]
+    if task in (GRADIENT, HESSIAN):
+        gradient += a * q**3 + b * q - c
+    if task == HESSIAN:
+        band[:, 0] += 3 * a * q**2 + b
+    terms[0] = (a * q**4 / 4 + b * q**2 / 2 - c * q).sum()
+    return terms[0]
 
 
-def climbed(springs, **settings):
-    solver = EquilibriumSolver(springs, NewtonSettings(**settings), "trial")
-    return solve_full_load(solver, np.zeros(springs.dead.size)), solver
+def uncompiled():
+    raise AssertionError("no compiled solver meets these springs")
+
+
+def potential(kernel, *columns, half_bandwidth=0):
+    """What a kernel makes of constants (n,), one column each."""
+    constants = np.column_stack(columns).astype(float).ravel()
+    return Potential(kernel, uncompiled, constants, ("energy",), half_bandwidth)
+
+
+def cubic(dead, stiffness=0.0, softening=0.0, kernel=springs):
+    """energy = sum of q^4 / 4 - softening factor q^2 / 2 + stiffness q^2 / 2, under dead loads: no rod at all."""
+    ones = np.ones(len(dead))
+    return MechanicalSystem(
+        potential(kernel, ones, stiffness * ones, 0 * ones),
+        (potential(springs, 0 * ones, -softening * ones, dead, half_bandwidth=0 if softening else -1),),
+        FixedDofs(np.zeros(len(dead), dtype=bool)),
+        FlatSpace(ones),
+    )
+
+
+def climbed(system, **settings):
+    solver = EquilibriumSolver(system, NewtonSettings(**settings), "trial")
+    return solve_full_load(solver), solver
 
 
 def test_springs_reach_the_root_of_the_cubic():
-    point, _ = climbed(Springs([8.0, 27.0], stiffness=1.0))
+    point, _ = climbed(cubic([8.0, 27.0], stiffness=1.0))
     for q, load in zip(point.q, (8.0, 27.0), strict=True):
         assert q**3 + q == pytest.approx(load, rel=1e-10)
     assert point.residual <= point.tolerance
@@ -73,14 +66,14 @@ def test_springs_reach_the_root_of_the_cubic():
 @pytest.mark.parametrize("side", [1, -1])
 def test_a_softening_spring_goes_to_the_side_of_any_nudge(nudge, side, steps):
     """Beyond factor 1/4.3 it has two minima, at the roots of q^3 - 3.3 q = nudge; the nudge decides from the first."""
-    springs = Springs([side * nudge], stiffness=1.0, softening=4.3)
-    point, solver = climbed(springs, load_increments=steps)
+    system = cubic([side * nudge], stiffness=1.0, softening=4.3)
+    point, solver = climbed(system, load_increments=steps)
     assert point.q[0] == pytest.approx(side * np.roots([1, 0, -3.3, -nudge]).real.max(), rel=1e-8)
     assert not list(solver.warnings())
 
 
 def test_a_symmetric_spring_says_that_its_side_is_open():
-    point, solver = climbed(Springs([0.0], stiffness=1.0, softening=4.3))
+    point, solver = climbed(cubic([0.0], stiffness=1.0, softening=4.3))
     assert abs(point.q[0]) == pytest.approx(np.sqrt(3.3), rel=1e-8)
     (remark,) = solver.warnings()
     assert remark.startswith("bifurcation: at 0.232")
@@ -91,11 +84,11 @@ def test_convergence_is_quadratic():
     residuals = []
     for iterations in range(1, 7):
         solver = EquilibriumSolver(
-            Springs([8.0], stiffness=1.0),
+            cubic([8.0], stiffness=1.0),
             NewtonSettings(max_iterations=iterations, tolerance=1e-15),
             "x",
         )
-        solver.correct(np.array([2.5]), 1.0)
+        solver.correct(np.array([2.5]), 1.0, solver.system.history)
         residuals.append(solver.residual)
     first, second, third = np.log([r for r in residuals if r > 1e-12][-3:])
     assert (third - second) / (second - first) == pytest.approx(2, abs=0.1)
@@ -123,26 +116,32 @@ def test_too_few_iterations_raise_with_name_residual_and_remedy():
 def test_a_load_without_equilibrium_raises():
     """A spring that pushes back with one newton at most, under two."""
 
-    class Weak(Springs):
-        def assemble(self, q, factor, gradient, band):
-            gradient[:] = np.tanh(q) - factor * self.dead
-            band[:, 0] = 1 / np.cosh(np.minimum(np.abs(q), 300)) ** 2
-            return float(np.log(np.cosh(np.minimum(np.abs(q), 300))).sum())
+    @njit
+    def weak(q, after, data, history, strains, task, gradient, band, skew, terms):
+        near = np.minimum(np.abs(q), 300)
+        if task in (GRADIENT, HESSIAN):
+            gradient += np.tanh(q)
+        if task == HESSIAN:
+            band[:, 0] += 1 / np.cosh(near) ** 2
+        return np.log(np.cosh(near)).sum()
 
     with pytest.raises(NotConvergedError, match="no equilibrium found beyond 0") as caught:
-        climbed(Weak([2.0]))
-    assert 0.3 < caught.value.factor < 0.5 + 1e-6
+        climbed(cubic([2.0], kernel=weak))
+    assert 0.3 < caught.value.state.factor < 0.5 + 1e-6
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_a_stiffness_or_an_energy_that_is_not_finite_raises(value):
-    class Broken(Springs):
-        def assemble(self, q, factor, gradient, band):
-            gradient[:], band[:] = 0.5, value
-            return value if np.isinf(value) else 0.0
+    @njit
+    def broken(q, after, data, history, strains, task, gradient, band, skew, terms):
+        if task in (GRADIENT, HESSIAN):
+            gradient += 0.5
+        if task == HESSIAN:
+            band[:] = value
+        return value if np.isinf(value) else 0.0
 
     with pytest.raises(NotConvergedError):
-        climbed(Broken([1.0, 1.0]))
+        climbed(cubic([1.0, 1.0], kernel=broken))
 
 
 def test_nothing_to_do_takes_no_iteration():
