@@ -81,7 +81,7 @@ def test_kinetic_energy_and_momenta_are_those_of_the_points_of_the_sections(seed
     mass = rod.line_density * geometry.voronoi_length[:, None] * weights / 2  # of each part and node
     at = x[:, None] + place[:, None] * d[:, None]
     velocity = v[:, None] + place[:, None] * w[:, None]
-    matrix, rate = to_dense(problem.mass(geometry)), np.hstack([v, w]).ravel()
+    matrix, rate = to_dense(problem.rod.mass(geometry)), np.hstack([v, w]).ravel()
     momenta = (matrix @ rate).reshape(-1, 4)
     np.testing.assert_allclose(momenta[:, :2], np.einsum("kp,kpa->ka", mass, velocity), atol=1e-12)
     np.testing.assert_allclose(
@@ -126,7 +126,7 @@ def test_the_consistent_mass_is_that_of_straight_edges_and_of_their_ends_in_the_
                 straight += mass * section((1 - t) * v[K] + t * v[K + 1], (1 - t) * w[K] + t * w[K + 1])
                 ends += mass * ((1 - t) * section(v[K], w[K]) + t * section(v[K + 1], w[K + 1]))
     rate = np.hstack([v, w]).ravel()
-    found = rate @ to_dense(problem.mass(geometry)) @ rate
+    found = rate @ to_dense(problem.rod.mass(geometry)) @ rate
     assert found == pytest.approx((straight + ends) / 2, rel=1e-12)
 
 
@@ -148,7 +148,7 @@ def test_stiffnesses_are_made_of_the_means_of_table_3_1():
     rod = cosserat.case("necking").vary("x", rod={"stations": stations, "centreline": low}).problem.rod
     rod = rod.replace(vertices=7)
     geometry = rod.geometry()
-    found, c = rod.body(geometry).stiffness, rod.calibration
+    found, c = rod.strain_energy.stiffness(rod, geometry), rod.calibration
 
     def local(xi):
         side = [0, 1] if xi < 3.1 else [2, 3]
@@ -184,15 +184,20 @@ def test_bending_of_a_curved_rod_costs_as_eulers_elastica():
     """EI (kappa - kappa_0)^2 / 2, eq. (3.2.3), on the inner parts, for arcs with the curvatures of (3.3.23)."""
     rod = make_rod(vertices=9, curvature=0.1)
     geometry = rod.geometry()
-    body = rod.body(geometry)
+    potential = rod.strain_energy.potential(rod, geometry)
     edge = geometry.edge_length[0]
     bent = Geometry.arc(9, rod.length, geometry.director_length, 0.25)
 
     def curvature(arc):
         return 2 / edge * np.tan(np.arcsin(arc * edge / 2))
 
-    energy = body.stiffness.k3[1:-1] * edge * (curvature(0.25) - curvature(0.1)) ** 2 / 2
-    found = body.energy_terms(np.hstack([bent.X, bent.D]).ravel())
+    energy = (
+        rod.strain_energy.stiffness(rod, geometry).k3[1:-1]
+        * edge
+        * (curvature(0.25) - curvature(0.1)) ** 2
+        / 2
+    )
+    found = potential.energy_terms(bent.q)
     assert found[2] == pytest.approx(energy.sum(), rel=1e-12)
     assert np.abs(found[[0, 1, 3]]).max() < 1e-9 * found[2]  # neither stretched nor sheared
 
