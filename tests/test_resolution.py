@@ -7,12 +7,12 @@ from conftest import make_rod
 import cosserat
 from cosserat.data.dataset import warnings_of
 from cosserat.errors import CrossingError
-from cosserat.rods.energies import hemingway_kernel, reissner
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, surface_stretch, unresolved_energy
-from cosserat.solvers.banded import to_dense
+from cosserat.solvers.banded import NO_BAND, to_dense
 from cosserat.solvers.modes import modes
+from cosserat.solvers.potential import GRADIENT, NOTHING, STRAINS
 
 BEAM = cosserat.case("vibration_consistent")
 
@@ -61,20 +61,26 @@ def test_forces_of_a_step_have_no_resultant_and_work_as_the_energy_changes(like)
     """Also where the body turns far in the step; the work misses the change of energy to third order in the step."""
     problem = cosserat.case(like).vary("x", supports=[], rod={"vertices": 6, "poisson": 0.3}).problem
     geometry = problem.rod.geometry()
-    body = problem.rod.body(geometry)
+    potential = problem.rod.strain_energy.potential(problem.rod, geometry)
     rng = np.random.default_rng(3)
     start, change = geometry.q, rng.uniform(-1, 1, 24) * 0.02
     start = start + rng.uniform(-1, 1, 24) * 0.005
-    turned = 0.7 * rigid_motions(start.reshape(-1, 4))[2].ravel()
-    parameters, none, terms = body.parameters, np.empty((0, body.half_bandwidth + 1)), np.empty(16)
-    kernel = hemingway_kernel.assemble if like == "vibration_c4_20" else reissner._assemble
-    measures, gradient, missing = np.zeros((6, 4)), np.empty(24), []
+    turned = 0.7 * PLANAR.rigid_motions(start)[2]
+    strains, terms, missing = np.zeros(potential.strains), np.empty(len(potential.terms)), []
     for size in (1.0, 0.5, 0.25):
         step = size * (change + turned)
-        before = kernel(start, np.empty(0), parameters, 3, measures, gradient, none, terms)
-        after = kernel(start + step / 2, start + step, parameters, 1, measures, gradient, none, terms)
-        assert after == pytest.approx(body.energy(start + step), rel=1e-12)
-        work = rigid_motions((start + step / 2).reshape(-1, 4)).reshape(3, -1) @ gradient
+        gradient = np.zeros(24)
+        before, after = (
+            potential.evaluate(
+                q, end, potential.data, NOTHING, strains, task, gradient, NO_BAND, NO_BAND, terms
+            )
+            for q, end, task in (
+                (start, NOTHING, STRAINS),
+                (start + step / 2, start + step, GRADIENT),
+            )
+        )
+        assert after == pytest.approx(potential.energy(start + step), rel=1e-12)
+        work = PLANAR.rigid_motions(start + step / 2) @ gradient
         assert np.abs(work).max() < 1e-11 * np.abs(gradient).max()
         missing.append(abs(after - before - gradient @ step))
     assert (np.diff(np.log2(missing)) < -2.5).all(), missing
@@ -119,7 +125,7 @@ def test_the_filter_agrees_with_the_modes():
     v = np.where(system.constrained, 0.0, rng.uniform(-1, 1, q.size))
     share = found.coordinates(system.mass, [v])[0] ** 2 / 2
     gradient, band = np.empty(q.size), np.empty((q.size, 14))
-    system.body.assemble(q, gradient, band)
+    system.internal.assemble(q, gradient, band)
     for h in (1e-6, 1e-5, 1e-4, 1e-3):
         x = found.angular_frequency * h
         right = float((share * x**16 / (1 + x**16)).sum())
@@ -276,7 +282,7 @@ def test_sections_that_shear_into_each_other_are_refused_where_their_surfaces_me
         share = -1.0 if surface == "upper" else rod.below
         apart = np.linalg.norm(share * d[1] + x[2] - x[1] - share * d[2])
         assert apart == pytest.approx(0.01 * geometry.edge_length[1], rel=1e-9)
-        assert np.isfinite(rod.body(geometry).energy(np.hstack([x, d]).ravel()))
+        assert np.isfinite(rod.strain_energy.potential(rod, geometry).energy(np.hstack([x, d]).ravel()))
         if gap > 0:
             check_crossing(geometry, x, d, rod.below, "x")
         else:
