@@ -8,14 +8,16 @@ from collections.abc import Callable, Iterator
 from typing import Any
 from unittest import mock
 
+import numpy as np
 from numba.core.dispatcher import Dispatcher
+from numpy.typing import NDArray
 
-from cosserat.rods import rod
-from cosserat.rods.energies import hemingway_kernel
+from cosserat.rods.energies import hemingway, hemingway_kernel
 from cosserat.rods.energies.hemingway_stiffness import Stiffness, stiffnesses
 from cosserat.rods.rod import Rod
 from cosserat.thesis.table.power import Change, Physics
 
+Array = NDArray[Any]
 BAR = ("hanging_bar",)
 _READINGS = ("", "_ends_halved", "_k_1", "_k_1_ends_halved")
 FREE = tuple(f"clamped_free{reading}" for reading in _READINGS)
@@ -124,8 +126,15 @@ def _kernel(**helpers: Callable[..., object]) -> Iterator[None]:
         for name, value in vars(hemingway_kernel).items()
         if isinstance(value, Dispatcher)
     }
+    assemble = plain["assemble"]
+
+    def with_records(q: Array, after: Array, data: Array, *others: Any) -> float:
+        """Plain Python reads the fields of a constant by name only from such an array."""
+        energy: float = assemble(q, after, data.view(np.recarray), *others)
+        return energy
+
     with contextlib.ExitStack() as stack:
-        for name, value in {**plain, **helpers}.items():
+        for name, value in {**plain, **helpers, "assemble": with_records}.items():
             stack.enter_context(mock.patch.object(hemingway_kernel, name, value))
         yield
 
@@ -153,7 +162,7 @@ def current_curvature() -> Iterator[None]:
         stiff = stiffnesses(*given)
         return stiff._replace(k3=stiff.k3 / INFLATION**2)
 
-    with mock.patch.object(rod, "stiffnesses", divided):
+    with mock.patch.object(hemingway, "stiffnesses", divided):
         yield
 
 
@@ -225,8 +234,8 @@ CHANGES: tuple[Change, ...] = (
             ("hanging bar", "A of the model x 1.04", "area", 1.04, ""),
             ("beams", "A of the model x 1.04", "area", 1.04, ""),
             ("necking", "A of the model x 1.04", "area", 1.04, ""),
-            ("vibration", "Y22 x 5", "second_inertia", 5.0, ""),
-            ("vibration", "Y22 / 100", "second_inertia", 0.01, ""),
+            ("vibration", "Y22 x 5", "Y22", 5.0, ""),
+            ("vibration", "Y22 / 100", "Y22", 0.01, ""),
             ("hanging bar", "mass of parts x 1.25", "part_masses", 1.25, ""),
             ("beams", "mass of parts x 1.25", "part_masses", 1.25, ""),
             ("vibration", "mass of parts x 1.25", "part_masses", 1.25, ""),
@@ -260,7 +269,7 @@ CHANGES: tuple[Change, ...] = (
             ("nu + 0.05", "rod.poisson", _plus(0.05)),
         )
     ],
-    Change("own rod: Y22 x 5", OWN[-1:], physics=scaled("second_inertia", 5.0)),
+    Change("own rod: Y22 x 5", OWN[-1:], physics=scaled("Y22", 5.0)),
     Change("own slender rods: E x 1.1", SLENDER, ("rod.young",), _times(1.1)),
     Change("own slender rods: L x 1.02", SLENDER, ("rod.length",), _times(1.02)),
     Change("elastica: load x 0.9", SLENDER[:1], ("forces.0.force",), _times(0.9)),
