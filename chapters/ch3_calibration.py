@@ -166,7 +166,7 @@ from cosserat.data.dataset import case_of
 from cosserat.studies.calibration import beam_of
 
 necked = case_of(run).problem.necking
-stiff, beam = necked.rod.body(necked.rod.geometry()).stiffness, beam_of(necked)
+stiff, beam = necked.rod.strain_energy.stiffness(necked.rod, necked.rod.geometry()), beam_of(necked)
 beta = beams.necking_decay(beam, "printed")
 derived = (
     (2 * stiff.k2[1] - stiff.k7[1] ** 2 / (2 * stiff.k1[0]))

@@ -34,15 +34,14 @@ import numpy as np
 import cosserat
 from cosserat.data.dataset import case_of
 from cosserat.exact import beams
-from cosserat.problems import motion
-from cosserat.rods import kinematics
+from cosserat.rods.energies import hemingway
 from cosserat.solvers import energy_momentum
 from cosserat.studies.calibration import beam_of
 from cosserat.thesis.book import page
 from cosserat.thesis.table import readouts
 
 # %% tags=["remove-input"]
-page.source(motion.RodMotion.mass)
+page.source(hemingway.Hemingway.mass)
 
 # %% [markdown]
 # ## Keeping what the motion keeps
@@ -68,7 +67,7 @@ page.source(motion.RodMotion.mass)
 # as they are as well.
 
 # %% tags=["remove-input"]
-page.excerpt(energy_momentum._integrate_steps, "arrived, near", "if not arrived")
+page.source(energy_momentum._solve_step)
 
 # %% tags=["remove-input"]
 page.source(energy_momentum._sigma)
@@ -170,7 +169,7 @@ explicit = cosserat.run(
 )
 system, start = beam.system(beam.rod.geometry()), beam.begin()
 every = beam.modes(start.q.size)
-share = every.coordinates(system.mass, [start.q - kinematics.reference(beam.rod.geometry())])[0]
+share = every.coordinates(system.mass, [start.q - beam.rod.geometry().q])[0]
 energy = (every.angular_frequency * share) ** 2 / 2
 stiff = int(np.argmax(energy[1:])) + 1
 assert (

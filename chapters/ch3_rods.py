@@ -18,9 +18,8 @@
 import numpy as np
 
 import cosserat
-from cosserat.rods import variation
-from cosserat.rods.energies import hemingway_kernel
-from cosserat.rods.problem import RodProblem
+from cosserat.rods import constraints, variation
+from cosserat.rods.loads import couples, dead
 from cosserat.thesis.book import page
 
 # %% [markdown]
@@ -164,7 +163,7 @@ page.say(
 # half as much for a director that reaches the surface at half the height (E3.10).
 
 # %% tags=["remove-input"]
-page.source(hemingway_kernel._work_of_couples)
+page.excerpt(couples._work, "terms[0] = 0.0", "energy: float")
 
 # %% [markdown]
 # Line loads act over any stretch of the rod. Fixed degrees of freedom may be moved (`prescribed_displacements`): at rest to a
@@ -172,7 +171,10 @@ page.source(hemingway_kernel._work_of_couples)
 # components of its director along straight lines would stretch it.
 
 # %% tags=["remove-input"]
-page.source(RodProblem.loads)
+page.source(dead.LineLoad.on_dofs)
+
+# %% tags=["remove-input"]
+page.source(constraints.RotatedDirector.place)
 
 # %% [markdown]
 # ## Curved references

@@ -28,7 +28,7 @@ import numpy as np
 
 from cosserat.data.dataset import case_of, statistics_of
 from cosserat.exact import beams
-from cosserat.rods import kinematics, resolution
+from cosserat.rods import reference, resolution
 from cosserat.rods.energies import hemingway_kernel, hemingway_stiffness
 from cosserat.solvers import incremental
 from cosserat.thesis.book import page
@@ -119,7 +119,7 @@ page.rows("F3.5")
 # become one arc tangent, which keeps its digits at small angles.
 
 # %% tags=["remove-input"]
-page.source(kinematics.strains)
+page.source(reference.strains)
 
 # %% [markdown]
 # ## What the strains cost
@@ -358,7 +358,7 @@ page.table(
 
 # %% tags=["remove-input"]
 rod = page.data("clamped_free").pipe(case_of).problem.rod
-stiff = rod.body(rod.geometry()).stiffness
+stiff = rod.strain_energy.stiffness(rod, rod.geometry())
 layer = np.sqrt(stiff.k5[0] / stiff.k4[1])
 page.say(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f} m long.")
 
