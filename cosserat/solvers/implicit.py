@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import functools
+import warnings
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numba import njit
 from numba import types as numba_types
+from numba.core.errors import NumbaExperimentalFeatureWarning
 from numpy.typing import NDArray
 
 from cosserat.errors import NotConvergedError
+from cosserat.solvers.banded import Vector
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
-from cosserat.solvers.potential import KERNEL, Potential
+from cosserat.solvers.potential import KERNEL, NOTHING, Potential, handed_over
 from cosserat.solvers.step import CORRECTED, COUNTED, UNCORRECTED, Bodies, Room, Run
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
+_PLACES = 4  # for potentials, of compiled steps; where there are more, steps are compiled anew
 types: Any = numba_types  # which says nothing of its own types
 
 
@@ -65,15 +69,7 @@ def integrate_implicitly(
     history = list(state.history)
     for k in met:
         history[k] = history[k].copy()
-    bodies = Bodies(
-        tuple(p.compiled() for p in potentials),
-        tuple(p.data for p in potentials),
-        tuple(history[k] for k in met),
-        tuple(np.zeros(p.strains) for p in potentials),
-        tuple(np.empty(len(p.terms)) for p in potentials),
-        np.array([_role(p) for p in potentials]),
-        any(not load.linear for load in system.external),
-    )
+    bodies = _bodies(potentials, [history[k] for k in met])
     width = 1 + max(np.flatnonzero(system.inertia.any(axis=0)), default=0)
     mass = np.ascontiguousarray(system.inertia[:, :width])
     free = system.space.rigid_motions(state.q)[
@@ -93,7 +89,9 @@ def integrate_implicitly(
     bands = [rotations, np.empty((n, system.half_bandwidth + 1)), mass.copy()]
     room = Room._make([*vectors, *bands])
     q, v, exchanged = state.q.copy(), state.v.copy(), np.array([state.dissipated, state.driven])
-    done = _compiled_steps(len(potentials))(bodies, run, room, q, v, exchanged)
+    with warnings.catch_warnings():  # Numba calls functions that are handed over an experiment
+        warnings.simplefilter("ignore", NumbaExperimentalFeatureWarning)
+        done = _compiled_steps(len(bodies.kernels))(bodies, run, room, q, v, exchanged)
     if done < count:
         raise NotConvergedError(
             f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
@@ -101,6 +99,24 @@ def integrate_implicitly(
             tolerance=TOLERANCE,
         )
     return State(q, v, tuple(history), state.time + count * h, *exchanged.tolist()), count
+
+
+def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
+    """The potentials for compiled code, filled up to a number of places that it is compiled for."""
+    places = _PLACES
+    while places < len(potentials):
+        places *= 2
+    empty = places - len(potentials)
+    given = [*potentials, *potentials[:1] * empty]
+    return Bodies(
+        tuple(handed_over(p.evaluate) for p in given),
+        tuple(p.data for p in given),
+        tuple(history + [NOTHING] * empty),
+        tuple(np.zeros(p.strains) for p in given),
+        tuple(np.empty(len(p.terms)) for p in given),
+        np.array([_role(p) for p in potentials] + [COUNTED] * empty),
+        any(_role(p) != COUNTED for p in potentials[1:]),
+    )
 
 
 def _role(potential: Potential) -> int:

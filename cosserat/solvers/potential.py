@@ -7,11 +7,12 @@ time step replaces by their means over its two ends.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numba import types
+from numba import cfunc, types
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import NO_BAND, Band, Vector
@@ -54,11 +55,21 @@ NOTHING = np.empty(0)
 _NO_STRAINS = np.empty((0, 0))
 
 
+@functools.cache
+def handed_over(kernel: Callable[..., float]) -> object:
+    """A kernel as a function that compiled solvers can be handed; made once in a process, in a tenth of a second."""
+
+    def called(q, after, constants, history, strains, task, gradient, band, skew, terms):  # type: ignore[no-untyped-def]
+        return kernel(q, after, constants, history, strains, task, gradient, band, skew, terms)
+
+    return cfunc(KERNEL)(called)
+
+
 @dataclass(frozen=True)
 class Potential:
     """A potential of n DOFs.
 
-    evaluate : the kernel, called as `KERNEL` says.  compiled : makes the same function for compiled solvers.
+    evaluate : the kernel, a function compiled by Numba that is called as `KERNEL` says.
     constants : what the kernel reads, a structured array whose dtype says what it holds.
     terms : names of the parts of the energy.
     half_bandwidth : largest distance of two DOFs that the Hessian couples; -1 where the potential is linear.
@@ -69,7 +80,6 @@ class Potential:
     """
 
     evaluate: Callable[..., float]
-    compiled: Callable[[], object]
     constants: NDArray[np.void]
     terms: tuple[str, ...]
     half_bandwidth: int

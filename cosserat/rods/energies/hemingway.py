@@ -83,7 +83,6 @@ def potential(stiffness: Stiffness, origin: Array | None = None) -> Potential:
         constants[name][: values.size] = values
     return Potential(
         evaluate=hemingway_kernel.assemble,
-        compiled=hemingway_kernel.compiled_energy,
         constants=constants,
         terms=TERMS,
         half_bandwidth=13,  # x_(K-1) meets x_(K+2) in the shearing gradients

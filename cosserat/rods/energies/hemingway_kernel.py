@@ -14,14 +14,12 @@ All compiled functions of this model stand in this file: Numba's cache does not 
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
-from numba import cfunc, njit
+from numba import njit
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Band, Vector
-from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, STRAINS
+from cosserat.solvers.potential import GRADIENT, HESSIAN, STRAINS
 
 Array = NDArray[np.float64]
 
@@ -349,25 +347,3 @@ def assemble(
         w = W_lam_next[K] / (rod[K].director * rod[J].director)
         _cross(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
     return total
-
-
-def _energy(
-    q: Vector,
-    after: Vector,
-    data: NDArray[np.uint8],
-    history: Vector,
-    strains_before: Array,
-    task: int,
-    gradient: Vector,
-    band: Band,
-    skew: Band,
-    terms: Array,
-) -> float:
-    """The same, as a function that compiled solvers can be handed."""
-    return assemble(q, after, data, history, strains_before, task, gradient, band, skew, terms)
-
-
-@functools.cache
-def compiled_energy() -> object:
-    """Loaded only where a motion needs it: 0.2 s."""
-    return cfunc(KERNEL, cache=True)(_energy)

@@ -23,14 +23,12 @@ Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, a
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
-from numba import cfunc, njit
+from numba import njit
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Band, Vector
-from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, STRAINS
+from cosserat.solvers.potential import GRADIENT, HESSIAN, STRAINS
 
 Array = NDArray[np.float64]
 
@@ -296,25 +294,3 @@ def assemble(
         n0, n1, r_a, a0, a1, end_a, used_a = p0, p1, r_b, b0, b1, end_b, used_b
     total: float = terms.sum()
     return total
-
-
-def _energy(
-    q: Vector,
-    after: Vector,
-    data: NDArray[np.uint8],
-    history: Vector,
-    strains: Array,
-    task: int,
-    gradient: Vector,
-    band: Band,
-    skew: Band,
-    terms: Array,
-) -> float:
-    """The same, as a function that compiled solvers can be handed."""
-    return assemble(q, after, data, history, strains, task, gradient, band, skew, terms)
-
-
-@functools.cache
-def compiled_energy() -> object:
-    """Loaded only where a motion needs it: 0.2 s."""
-    return cfunc(KERNEL, cache=True)(_energy)

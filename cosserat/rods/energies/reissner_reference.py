@@ -138,7 +138,6 @@ def potential(
         rod["director_3"], rod["director_2"] = geometry.D.T
     return Potential(
         evaluate=reissner.assemble,
-        compiled=reissner.compiled_energy,
         constants=rod,
         terms=TERMS,
         half_bandwidth=7,  # two neighbouring vertices

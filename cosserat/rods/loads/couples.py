@@ -9,12 +9,11 @@ internal variable, so that they may count whole turns.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Sequence
 from typing import Annotated, Self
 
 import numpy as np
-from numba import cfunc, njit
+from numba import njit
 from numpy.typing import NDArray
 
 from cosserat.parameters import Quantity
@@ -23,7 +22,7 @@ from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.naming import Vertex
 from cosserat.rods.reference import unwrapped_angles
 from cosserat.solvers.banded import Band, Vector
-from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, KERNEL, Potential
+from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, Potential
 
 Array = NDArray[np.float64]
 TERMS = ("couples",)
@@ -71,7 +70,6 @@ def couples(
     reach = 1 if moments.any() else -1
     return Potential(
         _work,
-        _compiled,
         constants,
         TERMS,
         half_bandwidth=reach,
@@ -129,25 +127,3 @@ def _work(
                 band[p + 1, 0] += 2 * turn * d0 * d1
     energy: float = terms[0]
     return energy
-
-
-def _kernel(
-    q: Vector,
-    after: Vector,
-    data: NDArray[np.uint8],
-    history: Vector,
-    strains: Array,
-    task: int,
-    gradient: Vector,
-    band: Band,
-    skew: Band,
-    terms: Array,
-) -> float:
-    """The same, as a function that compiled solvers can be handed."""
-    return _work(q, after, data, history, strains, task, gradient, band, skew, terms)
-
-
-@functools.cache
-def _compiled() -> object:
-    """Loaded only where a motion needs it."""
-    return cfunc(KERNEL, cache=True)(_kernel)

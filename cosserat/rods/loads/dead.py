@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import functools
 from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Annotated, Self
 
 import numpy as np
-from numba import cfunc, njit
+from numba import njit
 from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
@@ -18,7 +17,7 @@ from cosserat.rods.naming import Direction, Vertex, unit_vector
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.solvers.banded import Band, Vector, band_product
-from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, KERNEL, Potential
+from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, Potential
 
 Array = NDArray[np.float64]
 _DOF = np.dtype([("force", "f8"), ("reference", "f8")])
@@ -114,7 +113,7 @@ def dead(force: Vector, reference: Vector) -> Potential:
     """The potential of constant forces (n,) [N] on the DOFs, zero at the reference (n,)."""
     constants = np.empty(force.size, _DOF)
     constants["force"], constants["reference"] = force, reference
-    return Potential(_work, _compiled, constants, ("dead loads",), half_bandwidth=-1)
+    return Potential(_work, constants, ("dead loads",), half_bandwidth=-1)
 
 
 @njit(cache=True)
@@ -141,25 +140,3 @@ def _work(
     if task != COMMIT:
         terms[0] = energy
     return energy
-
-
-def _kernel(
-    q: Vector,
-    after: Vector,
-    data: NDArray[np.uint8],
-    history: Vector,
-    strains: Array,
-    task: int,
-    gradient: Vector,
-    band: Band,
-    skew: Band,
-    terms: Array,
-) -> float:
-    """The same, as a function that compiled solvers can be handed."""
-    return _work(q, after, data, history, strains, task, gradient, band, skew, terms)
-
-
-@functools.cache
-def _compiled() -> object:
-    """Loaded only where a motion needs it."""
-    return cfunc(KERNEL, cache=True)(_kernel)
