@@ -44,7 +44,7 @@ def small_rod(section="free", barrier=False, couples=True, poisson=0.3, offset=0
             moments,
             barrier=barrier,
             product=section == "incompressible",
-            offset=offset,
+            offsets=offset,
         )
     )
 

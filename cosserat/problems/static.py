@@ -143,7 +143,7 @@ def _solution(
     if isinstance(body, ConsistentRod):
         labels["part"] = PARTS
         own = {
-            "shear": (("edge",), edge_shear(x + body.offset * d, d)),
+            "shear": (("edge",), edge_shear(body.centre_edges(x, d), d)),
             "energy_parts": (("part",), terms),
         }
     else:

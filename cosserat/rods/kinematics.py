@@ -173,10 +173,13 @@ def unwrapped_angles(d: Array) -> Array:
     return angles
 
 
-def edge_shear(x: Array, d: Array) -> Array:
-    """Angle of each edge against the normal of the mean of its two unit directors (3.3.6), shape (N - 1,) [rad]."""
+def edge_shear(e: Array, d: Array) -> Array:
+    """Angle of each edge against the normal of the mean of its two unit directors (3.3.6), shape (N - 1,) [rad].
+
+    e : (N - 1, 2) edges [m].  d : (N, 2) directors [m].
+    """
     unit = d / np.linalg.norm(d, axis=1)[:, None]
-    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
+    m = unit[1:] + unit[:-1]
     angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
     return angle
 

@@ -152,9 +152,13 @@ class Rod(Parameters):
 
     def geometry(self) -> Geometry:
         """Its reference configuration; the directors reach the upper surface."""
-        arc = np.linspace(0.0, self.length, self.vertices)
-        heights = self.height * share_of(self.stations, "height", arc, before=False)
+        heights = self.height * self._height_shares()
         return Geometry.arc(self.vertices, self.length, (1 - self.centreline) * heights, self.curvature)
+
+    def _height_shares(self) -> Array:
+        """Heights at the vertices over the nominal one, after a step that lies on a vertex, shape (N,) [1]."""
+        arc = np.linspace(0.0, self.length, self.vertices)
+        return share_of(self.stations, "height", arc, before=False)
 
     def part_masses(self, geometry: Geometry) -> Array:
         """Mass of the part round each vertex, shape (N,) [kg]."""
@@ -204,7 +208,9 @@ class Rod(Parameters):
                 poisson=self.poisson,
                 shear_correction=self.shear_correction,
                 lateral_constraint=self.lateral_constraint,
+                offset=(0.5 - self.centreline) * self.height,
             )
+            shares = self._height_shares()
             return ConsistentRod(
                 coefficients(
                     geometry,
@@ -212,7 +218,7 @@ class Rod(Parameters):
                     np.zeros(self.vertices) if couples is None else couples,
                     barrier=self.barrier,
                     product=self.lateral_constraint == "incompressible",
-                    offset=self.Y02,
+                    offsets=self.Y02 * (stiffness.axis / np.stack([shares[:-1], shares[1:]])),
                 )
             )
         vertex, edge = lump(

@@ -8,6 +8,14 @@ length, least over all axial strains of the mean e, is
 
 which is that of an edge with 2 mu A = alpha <a/c> and Lambda A = alpha <b/c> whose vertices have <a b/c> - alpha <a/c>
 <b/c> more than their own 2 mu A.  Shearing and bending add up their compliances alike.
+
+Where the height varies and the centreline is not in the middle, the area centres are off it by e(s).  The moment about
+an axis at E is nearly constant along the edge, m say, and the curvature is (m + n (e - E)) / EI under the tension n.
+With E = <e/EI> / <1/EI> the mean curvature is m <1/EI>, and the mean strain of that axis is
+
+    n <1/c + (e - E)^2/EI> - <b/c> w,
+
+so tension and bending do not couple at E, and 1/alpha has <(e - E)^2/EI> more.  The rest stays as it is.
 """
 
 from __future__ import annotations
@@ -32,7 +40,7 @@ PENALTY = 1e5
 class EdgeStiffnesses(NamedTuple):
     """axial 2 mu A, volume Lambda A, shear k mu A, bending EI, stretch_gradient mu I: (N - 1,); section 2 mu A: (N,).
 
-    The third and fourth in N m^2, the others in N.
+    The fourth and fifth in N m^2, the others in N.  axis : (N - 1,) E over the offset of the nominal section [1].
     """
 
     axial: Array
@@ -41,6 +49,7 @@ class EdgeStiffnesses(NamedTuple):
     bending: Array
     stretch_gradient: Array
     section: Array
+    axis: Array
 
 
 def stiffnesses(
@@ -53,10 +62,12 @@ def stiffnesses(
     poisson: float,
     shear_correction: float,
     lateral_constraint: LateralConstraint,
+    offset: float = 0.0,
 ) -> EdgeStiffnesses:
     """Of a rod whose nominal section and material vary as the stations say.
 
     arc : (N,) arc length of the vertices [m].  second_moment : about the area centres [m^4].
+    offset : of the nominal area centre from the centreline [m].
     """
 
     def along(s: Shares) -> tuple[Array, Array, Array, Array, Array]:
@@ -80,14 +91,28 @@ def stiffnesses(
             ]
         )
 
+    first_height = stations[0].height if stations else 1.0
+
+    def off_axis(s: Shares, _: Array) -> Array:
+        higher = s.height - first_height
+        return np.stack([higher, higher**2]) / along(s)[3]
+
     compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc)
-    alpha = 1 / compliance
+    lever, square = mean(stations, off_axis, arc)
+    higher = lever / bending
+    alpha = 1 / (compliance + offset**2 * (square - higher * lever))
     more = (product - alpha * axial * volume) * np.diff(arc) / 2
     cuts = vertex_cuts(arc)
     own = mean(stations, lambda s, _: along(s)[0], cuts)
     shared = np.append(more, 0.0) + np.insert(more, 0, 0.0)
     return EdgeStiffnesses(
-        alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, own + shared / np.diff(cuts)
+        alpha * axial,
+        alpha * volume,
+        1 / shear,
+        1 / bending,
+        1 / gradient,
+        own + shared / np.diff(cuts),
+        first_height + higher,
     )
 
 

@@ -11,10 +11,11 @@ and each vertex has the stretch lambda = |d| / |D| of its section.  The energy i
        + sum over vertices L 2 mu A (lambda - 1)^2 / 2
 
 less the measures of the reference.  Where the centreline misses the area centres, edges run between those, at
-x + Y02 d: stretching and bending then couple as they do in (1.2.93).  The volumetric part sits on the edges, where it
-cannot lock; Lambda is Lame's first constant in plane strain, and E nu / (1 - nu^2) where the section is free in E1.
-In an incompressible section Lambda is a penalty, on a times the mean of lambda less 1: the area in the plane itself,
-not its linear part.
+x plus a share of d: stretching and bending then couple as they do in (1.2.93).  The share, Y02 where the height is
+constant, belongs to the edge: edges that meet at a step of the height end at different points of its director.  The
+volumetric part sits on the edges, where it cannot lock; Lambda is Lame's first constant in plane strain, and
+E nu / (1 - nu^2) where the section is free in E1.  In an incompressible section Lambda is a penalty, on a times the
+mean of lambda less 1: the area in the plane itself, not its linear part.
 
 Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, and t = (sin b, -cos b),
     h a = e . t,   h g = e . m,   d(h a)/db = h g,   d(h g)/db = -h a.
@@ -52,7 +53,7 @@ _STIFF = 5.0
 
 (EDGE, AXIAL, SLIDE, TURN, K_AXIAL, K_VOLUME, K_SHEAR, K_BENDING, K_STRETCH_GRADIENT) = range(9)
 (DIRECTOR, VORONOI, K_SECTION, COUPLE, BARRIER, ANGLE) = range(9, 15)
-(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, OFFSET, START) = range(15, 22)
+(EDGE_3, EDGE_2, DIRECTOR_3, DIRECTOR_2, PRODUCT, LOW, HIGH, START) = range(15, 23)
 """Columns of what the kernel reads; `consistent_reference.coefficients` says what they hold."""
 STRAIN, SLIDING, TURNING, STRETCH = range(4)
 """Columns of the measures: of edge K the axial strain, the shear and the turning; of vertex K the section stretch."""
@@ -84,10 +85,11 @@ class ConsistentRod(CompiledRod):
         """Whether a change of volume costs so much more than one of shape that motions have to begin without."""
         return bool((self.rod[:, K_VOLUME] > _STIFF * self.rod[:, K_AXIAL]).any())
 
-    @property
-    def offset(self) -> float:
-        """Of the area centres from the centreline, in directors."""
-        return float(self.rod[0, OFFSET])
+    def centre_edges(self, x: Array, d: Array) -> Array:
+        """Edges between area centres, (N - 1, 2) [m], of vertices and directors of shape (N, 2) [m]."""
+        low, high = self.rod[:-1, LOW : HIGH + 1].T[..., None]
+        edges: Array = (x[1:] + high * d[1:]) - (x[:-1] + low * d[:-1])
+        return edges
 
     def unwrapped_near(self, angle: float) -> ConsistentRod:
         """The same rod, the angle of its first director counted within half a turn of this one [rad]."""
@@ -101,7 +103,7 @@ class ConsistentRod(CompiledRod):
         Forces then feel the rounding of displacements instead of positions, which on fine meshes is far less.
         """
         rod = self.rod.copy()
-        rod[:-1, EDGE_3 : EDGE_2 + 1] = np.diff(geometry.X + self.offset * geometry.D, axis=0)
+        rod[:-1, EDGE_3 : EDGE_2 + 1] = self.centre_edges(geometry.X, geometry.D)
         rod[:, DIRECTOR_3 : DIRECTOR_2 + 1] = geometry.D
         return ConsistentRod(rod)
 
@@ -200,7 +202,7 @@ def _assemble(
     band[:, :] = 0.0
     terms[:] = 0.0
     moving, measuring, deriving, curving = after.size > 0, order == 3, 0 < order < 3, order == 2
-    barrier, product, offset = rod[0, BARRIER], rod[0, PRODUCT] != 0.0, rod[0, OFFSET]
+    barrier, product = rod[0, BARRIER], rod[0, PRODUCT] != 0.0
     # of the vertex before: direction, length and stretch; at the end of a step; and the stretch that stresses go by
     n0 = n1 = r_a = a0 = a1 = end_a = used_a = angle = 0.0
     v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
@@ -233,10 +235,10 @@ def _assemble(
             angle = np.arctan2(b1, b0)
             angle -= 2 * np.pi * np.round((angle - rod[0, START]) / (2 * np.pi))
         else:
-            E, D_a = rod[J, EDGE], rod[J, DIRECTOR]
+            E, D_a, low, high = rod[J, EDGE], rod[J, DIRECTOR], rod[J, LOW], rod[J, HIGH]
             e0, e1 = q[p] - q[p - 4] + rod[J, EDGE_3], q[p + 1] - q[p - 3] + rod[J, EDGE_2]
-            if offset != 0.0:
-                e0, e1 = e0 + offset * (q[p + 2] - q[p - 2]), e1 + offset * (q[p + 3] - q[p - 1])
+            e0 += high * (q[p + 2] - q[p - 2]) + (high - low) * q[p - 2]
+            e1 += high * (q[p + 3] - q[p - 1]) + (high - low) * q[p - 1]
             A, G, T, m0, m1 = _measured(e0, e1, n0, n1, p0, p1)
             if not A > 0.0:
                 return np.inf
@@ -246,9 +248,8 @@ def _assemble(
                     after[p] - after[p - 4] + rod[J, EDGE_3],
                     after[p + 1] - after[p - 3] + rod[J, EDGE_2],
                 )
-                if offset != 0.0:
-                    e0 += offset * (after[p + 2] - after[p - 2])
-                    e1 += offset * (after[p + 3] - after[p - 1])
+                e0 += high * (after[p + 2] - after[p - 2]) + (high - low) * after[p - 2]
+                e1 += high * (after[p + 3] - after[p - 1]) + (high - low) * after[p - 1]
                 A_end, G_end, turn, _, _ = _measured(e0, e1, a0, a1, b0, b1)
                 if not A_end > 0.0:
                     return np.inf
@@ -296,11 +297,10 @@ def _assemble(
                 gradient[p - 1] += W_ra * n1 + turn_a * n0
                 gradient[p] += f0
                 gradient[p + 1] += f1
-                if offset != 0.0:
-                    gradient[p - 2] -= offset * f0
-                    gradient[p - 1] -= offset * f1
-                    gradient[p + 2] += offset * f0
-                    gradient[p + 3] += offset * f1
+                gradient[p - 2] -= low * f0
+                gradient[p - 1] -= low * f1
+                gradient[p + 2] += high * f0
+                gradient[p + 3] += high * f1
             if curving:
                 # gradients by (x, d) of both vertices: A, G, T, volume E, jump, b
                 v[0, 0], v[0, 1], v[0, 4], v[0, 5] = -m1, m0, m1, -m0
@@ -310,8 +310,9 @@ def _assemble(
                 for i in range(8):
                     if i % 4 > 1:
                         v[5, i] = v[2, i] / 2 if i > 3 else -v[2, i] / 2
-                        v[0, i] = G * v[5, i] + offset * v[0, i - 2]
-                        v[1, i] = -A * v[5, i] + offset * v[1, i - 2]
+                        share = high if i > 3 else low
+                        v[0, i] = G * v[5, i] + share * v[0, i - 2]
+                        v[1, i] = -A * v[5, i] + share * v[1, i - 2]
                         widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
                     v[3, i] = by_axial * v[0, i] + by_wide * E * widening[i]
                 w[0], w[1], w[2] = (
@@ -326,7 +327,7 @@ def _assemble(
                 )
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
                 c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
-                c[2], c[3], c[6], c[7] = -offset * c0, -offset * c1, offset * c0, offset * c1
+                c[2], c[3], c[6], c[7] = -low * c0, -low * c1, high * c0, high * c1
                 _curve(band, p - 4, v, w, c)
                 if product:
                     _pair(band, p - 4, v[0], widening, pressure)

@@ -13,18 +13,20 @@ from cosserat.rods.energies.reissner import (
     COUPLE,
     DIRECTOR,
     EDGE,
+    HIGH,
     K_AXIAL,
     K_BENDING,
     K_SECTION,
     K_SHEAR,
     K_STRETCH_GRADIENT,
     K_VOLUME,
-    OFFSET,
+    LOW,
     PRODUCT,
     SLIDE,
     START,
     TURN,
     VORONOI,
+    ConsistentRod,
 )
 from cosserat.rods.kinematics import Geometry, unwrapped_angles
 
@@ -38,23 +40,23 @@ def coefficients(
     *,
     barrier: bool,
     product: bool,
-    offset: float = 0.0,
+    offsets: Array | float = 0.0,
 ) -> Array:
-    """What the kernel needs, shape (N, 22): row K has edge K (the last row none), vertex K and its couple.
+    """What the kernel needs, shape (N, 23): row K has edge K (the last row none), vertex K and its couple.
 
     Of the edge: length; axial measure, shear measure and turning in the reference; 2 mu A, Lambda A, k mu A, EI, mu I.
     Of the vertex: |D|, L, 2 mu A, the couple [N m], one for the barriers of Fig. 3.7, and the angle of the director in
     the reference, counted on from vertex to vertex.  Then four numbers that are zero, or what `ConsistentRod.displaced`
-    puts there; one where the product of the stretches is the volume, not their sum; the offset; and, in row 0, the
-    angle within half a turn of which that of the first director is counted.
+    puts there; one where the product of the stretches is the volume, not their sum; the offsets of the edge; and, in
+    row 0, the angle within half a turn of which that of the first director is counted.
 
-    offset : of the area centres from the centreline, in directors; edges run from one area centre to the next, and the
-        second moment is about them.
+    offsets : (2, N - 1) of each edge's area centres from the centreline at its two vertices, in directors of those, or
+        one for all; edges run from one area centre to the next, and the second moment is about them.
     """
-    centres = geometry.X + offset * geometry.D
     n = geometry.X.shape[0]
     rod = np.zeros((n, START + 1))
-    e, alpha = np.diff(centres, axis=0), unwrapped_angles(geometry.D)
+    rod[:-1, LOW], rod[:-1, HIGH] = np.broadcast_to(offsets, (2, n - 1))
+    e, alpha = ConsistentRod(rod).centre_edges(geometry.X, geometry.D), unwrapped_angles(geometry.D)
     turn = np.diff(alpha)
     b = alpha[:-1] + turn / 2
     rod[:-1, EDGE] = np.linalg.norm(e, axis=1)
@@ -73,7 +75,6 @@ def coefficients(
     rod[:, BARRIER] = float(barrier)
     rod[:, ANGLE] = alpha
     rod[:, PRODUCT] = float(product)
-    rod[:, OFFSET] = offset
     rod[0, START] = alpha[0]
     return rod
 

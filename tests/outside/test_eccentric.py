@@ -1,0 +1,130 @@
+"""Rods whose height jumps while the line they are followed by is not in the middle: of second order, by other codes."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from . import eccentric
+from .cases import ORDER, run
+
+AT = {"on a vertex": 0.5, "inside an edge": 13 / 30}
+"""Meshes of 10, 40 and 160 edges have a vertex at the first and meet the second at the same share of an edge."""
+MESHES = (11, 41, 161)
+everywhere = pytest.mark.parametrize("centreline", [0.2, 0.7])
+steps = pytest.mark.parametrize("at", AT.values(), ids=AT)
+
+
+def pieces(height, at, centreline, poisson, thin=0.5):
+    return [
+        eccentric.Piece.rectangle(length, height * share, height, 1e9, poisson, centreline)
+        for length, share in ((at, 1.0), (1 - at, thin))
+    ]
+
+
+def stepped(height, at, centreline, poisson, vertices, thin=0.5, **case):
+    rod = {
+        "height": height,
+        "width": height,
+        "centreline": centreline,
+        "poisson": poisson,
+        "vertices": vertices,
+        "stations": [{"at": at}, {"at": at, "height": thin}],
+    }
+    return run("joint", rod=rod, **case)
+
+
+def tip(along, across, **rod):
+    """Displacement of the tip, linear in the loads: half the difference of what they do and what their opposites do."""
+    ends = [
+        stepped(**rod, forces=pulled(sign * along, sign * across)).u.isel(vertex=-1).to_numpy()
+        for sign in (1, -1)
+    ]
+    return (ends[0] - ends[1]) / 2
+
+
+def pulled(along, across):
+    return [
+        {"at": "last", "along": axis, "force": force}
+        for axis, force in (("E3", along), ("E2", across))
+        if force
+    ]
+
+
+def check_order(errors, size, floor):
+    """Four times as fine, a sixteenth of the error or less, or none to speak of: (meshes,) errors beside a size."""
+    errors = np.abs(np.array(errors)) / size
+    for coarse, fine in pairwise(errors):
+        assert fine < floor or np.log2(coarse / fine) / 2 > 2 - ORDER, errors
+    assert errors[-1] < 2e-4, errors
+
+
+@everywhere
+@pytest.mark.parametrize("poisson", [0.0, 0.3])
+def test_the_code_that_judges_is_beam_theory_where_the_rod_is_thin(centreline, poisson):
+    """Closed form, section stretch and shooting give one answer for a rod a hundred times as long as high."""
+    parts = pieces(0.01, 0.4, centreline, poisson)
+    for load in ((1e-7, 0.0), (0.0, 1e-7)):
+        right = eccentric.beam_tip(parts, *load)
+        np.testing.assert_allclose(eccentric.linear_tip(parts, *load), right, rtol=1e-4)
+        small = eccentric.large_tip(parts, *load)
+        assert small[1] == pytest.approx(right[1], rel=1e-4)
+    e, EI = 0.3 * 0.01, 1e9 * 0.01**4 / 12  # by hand: a couple N e at the ends of two cantilevers
+    across = 1e-7 * e / EI * (0.4 - 0.4**2 / 2 + 0.5 / 0.5**3 * 0.6**2 / 2)
+    assert eccentric.beam_tip(pieces(0.01, 0.4, 0.2, 0.0), 1e-7, 0.0)[1] == pytest.approx(across)
+
+
+@everywhere
+@steps
+@pytest.mark.parametrize("poisson", [0.0, 0.3])
+def test_a_slender_stepped_body_pulled_beside_its_axis_bends_as_a_beam(at, centreline, poisson):
+    """What tension bends and what a force across pulls along, both by (0.5 - centreline) of the height."""
+    parts = pieces(0.02, at, centreline, poisson)
+    for along, across in ((1e-3, 0.0), (0.0, 1e-3)):
+        judge = eccentric.linear_tip if poisson else eccentric.beam_tip
+        right = judge(parts, along, across)
+        found = [
+            tip(along, across, at=at, height=0.02, centreline=centreline, poisson=poisson, vertices=n)
+            - right
+            for n in MESHES
+        ]
+        check_order(np.array(found)[:, 1], abs(right[1]), 5e-6)
+        if (
+            across or not poisson
+        ):  # these meshes do not resolve the layers, a fifth of the height, that stretch by themselves
+            check_order(np.array(found)[:, 0], abs(right[0]), 5e-6)
+
+
+@everywhere
+@steps
+@pytest.mark.parametrize("poisson", [0.0, 0.3])
+def test_a_thick_stepped_body_with_its_layers(at, centreline, poisson):
+    """Five times as long as high, so that the meshes resolve the layers of section stretch."""
+    parts = pieces(0.2, at, centreline, poisson)
+    for along, across in ((1.0, 0.0), (0.0, 1.0)):
+        right = eccentric.linear_tip(parts, along, across)
+        found = [
+            tip(along, across, at=at, height=0.2, centreline=centreline, poisson=poisson, vertices=n)
+            - right
+            for n in (41, 161)
+        ]
+        for k in range(2):
+            check_order(np.array(found)[:, k], abs(right[k]), 1e-5)
+
+
+@everywhere
+@steps
+@pytest.mark.parametrize("poisson", [0.0, 0.3])
+@pytest.mark.parametrize(("along", "across"), [(0.0, 0.5), (0.5, 0.5)])
+def test_large_deflections_of_a_stepped_body_are_of_second_order(at, centreline, poisson, along, across):
+    """Loads in EI / L^2 of the thicker part: the thinner one turns by more than half a right angle."""
+    height = 0.02
+    unit = 1e9 * height**4 / 12
+    right = eccentric.large_tip(pieces(height, at, centreline, poisson), along * unit, across * unit)
+    found = []
+    for n in MESHES:
+        forces = pulled(along * unit, across * unit)
+        data = stepped(height, at, centreline, poisson, n, forces=forces)
+        found.append(data.x.isel(vertex=-1).to_numpy() - right)
+    for k in range(2):
+        check_order(np.array(found)[:, k], 1.0, 1e-9)

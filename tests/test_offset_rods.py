@@ -1,0 +1,140 @@
+"""The consistent rod where its height varies and its centreline is not in the middle: gradients, invariance, shear."""
+
+import numpy as np
+import pytest
+from conftest import assembled, random_state
+from hypothesis import given
+from hypothesis import strategies as st
+
+import cosserat
+from cosserat.rods.energies import reissner
+from cosserat.rods.kinematics import edge_shear, reference, rigid_fields
+
+TAPERED = [
+    {"at": 0.3},
+    {"at": 2.0, "height": 0.6},
+    {"at": 2.0, "height": 1.2, "young": 0.4},
+    {"at": 4.1, "height": 0.5, "width": 2.0},
+]
+"""A step on a vertex and kinks inside edges, of a rod of 5 m with six vertices."""
+SECTIONS = {
+    "free": {},
+    "barrier": {"barrier": True},
+    "incompressible": {"lateral_constraint": "incompressible", "poisson": 0.4999},
+    "curved": {"curvature": 0.1},
+}
+everywhere = pytest.mark.parametrize("centreline", [0.2, 0.7])
+sections = pytest.mark.parametrize("section", SECTIONS.values(), ids=SECTIONS)
+
+
+def tapered(centreline, section, **changes):
+    rod = {"vertices": 6, "length": 5.0, "height": 0.5, "stations": TAPERED, "centreline": centreline}
+    case = cosserat.case("clamped_free_consistent").vary("tapered", rod=rod | section | changes)
+    return case.problem.rod
+
+
+def step(body, start, q, after, order=2):
+    """Gradient and dense Hessian of a step from `start`, taken at q with what is reached `after`."""
+    n = q.size
+    measures, gradient, band = np.zeros((n // 4, 4)), np.empty(n), np.empty((n, 8))
+    nothing, terms = np.empty(0), np.empty(8)
+    reissner._assemble(start, nothing, body.rod, 3, measures, gradient, band, terms)
+    reissner._assemble(q, after, body.rod, order, measures, gradient, band, terms)
+    return gradient, band
+
+
+@everywhere
+@sections
+@given(st.integers(0, 1000))
+def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(centreline, section, seed):
+    rod = tapered(centreline, section)
+    body, q = rod.body(rod.geometry(), np.linspace(-1e4, 1e4, 6)), random_state(rod, seed, size=0.1)
+    _, gradient, hessian = assembled(body, q)
+    h = 1e-6
+    numeric, columns = np.empty(q.size), np.empty((q.size, q.size))
+    ahead, behind = np.empty(q.size), np.empty(q.size)
+    for k, shift in enumerate(h * np.eye(q.size)):
+        rise = body.differentiate(q + shift, ahead) - body.differentiate(q - shift, behind)
+        numeric[k], columns[k] = rise / (2 * h), (ahead - behind) / (2 * h)
+    np.testing.assert_allclose(gradient, numeric, atol=1e-6 * np.abs(gradient).max())
+    np.testing.assert_allclose(hessian, columns, atol=1e-6 * np.abs(hessian).max())
+
+
+@everywhere
+@sections
+@given(st.integers(0, 1000))
+def test_the_hessian_of_a_step_of_no_length_is_the_derivative_of_its_force(centreline, section, seed):
+    """Forces act at the middle q + s of a step, stresses are those of the mean of q and q + 2 s."""
+    rod = tapered(centreline, section)
+    body, q = rod.body(rod.geometry()), random_state(rod, seed, size=0.05)
+    _, plain, hessian = assembled(body, q)
+    gradient, _ = step(body, q, q, q)
+    np.testing.assert_allclose(gradient, plain, atol=1e-12 * np.abs(plain).max())
+    h = 1e-6
+    columns = np.empty((q.size, q.size))
+    for k, shift in enumerate(h * np.eye(q.size)):
+        ahead, _ = step(body, q, q + shift, q + 2 * shift, order=1)
+        behind, _ = step(body, q, q - shift, q - 2 * shift, order=1)
+        columns[k] = (ahead - behind) / (2 * h)
+    np.testing.assert_allclose(hessian, columns, atol=1e-6 * np.abs(hessian).max())
+
+
+@everywhere
+@sections
+@given(st.integers(0, 1000), st.floats(-3, 3))
+def test_rigid_motions_strain_nothing_and_forces_balance(centreline, section, seed, turn):
+    """Also where the rod is turned from its reference, and in a step from one state to another."""
+    rod = tapered(centreline, section)
+    geometry = rod.geometry()
+    body = rod.body(geometry)
+    c, s = np.cos(turn), np.sin(turn)
+    turned = (reference(geometry).reshape(-1, 2) @ np.array([[c, s], [-s, c]])).reshape(-1, 4)
+    turned[:, :2] += [3.0, -1.0]
+    gradient, scale = np.empty(24), np.abs(assembled(body, random_state(rod, seed))[1]).max()
+    body.differentiate(turned.ravel(), gradient)
+    assert np.abs(gradient).max() < 1e-9 * scale
+    q, after = random_state(rod, seed, turn=0.1), random_state(rod, seed + 1, turn=0.2)
+    force, _ = step(body, q, (q + after) / 2, after, order=1)
+    for motions, forces in ((q, assembled(body, q)[1]), ((q + after) / 2, force)):
+        assert np.abs(rigid_fields(motions) @ forces).max() < 1e-10 * np.abs(forces).max()
+
+
+@everywhere
+@sections
+def test_counted_from_the_reference_it_is_the_same_rod(centreline, section):
+    rod = tapered(centreline, section)
+    geometry = rod.geometry()
+    body, q = rod.body(geometry), random_state(rod, 1, turn=0.3)
+    counted = assembled(body.displaced(geometry), q - reference(geometry))
+    for one, other in zip(assembled(body, q), counted, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9 * np.abs(one).max())
+
+
+@everywhere
+def test_a_tapered_body_at_rest_is_not_sheared(centreline):
+    """Edges between area centres are parallel to the centreline, whatever the height does within them."""
+    rod = tapered(centreline, {})
+    geometry = rod.geometry()
+    edges = rod.body(geometry).centre_edges(geometry.X, geometry.D)
+    assert np.abs(edge_shear(edges, geometry.D)).max() < 1e-15
+    heights = np.array(
+        [1.0, 1.0, 1.2, 1.2 - 0.7 / 2.1, 1.2 - 0.7 * 2 / 2.1]
+    )  # after a step: at 0, 1, ... 4 m
+    assert geometry.D[:5, 1] == pytest.approx(
+        0.5 * (1 - centreline) * (heights - [0, 0.4 * 0.7 / 1.7, 0, 0, 0])
+    )
+
+
+@everywhere
+def test_the_axis_of_an_edge_is_where_tension_does_not_bend_it(centreline):
+    """Half of it with an eighth of the EI: at 8/9 of the offset of this half and 1/9 of that of the other."""
+    stations = [{"at": 2.5}, {"at": 2.5, "height": 0.5}]
+    rod = tapered(centreline, {}, stations=stations)
+    geometry = rod.geometry()
+    body = rod.body(geometry)
+    offset = (0.5 - centreline) * 0.5
+    edges = body.centre_edges(0 * geometry.X, geometry.D)[:, 1]
+    low = body.rod[2, reissner.LOW] * geometry.director_length[2]
+    high = body.rod[2, reissner.HIGH] * geometry.director_length[3]
+    assert (low, high) == pytest.approx([offset * (1 / 9 + 0.5 * 8 / 9)] * 2)
+    np.testing.assert_allclose(edges, 0, atol=1e-15)
