@@ -150,7 +150,6 @@ class CheckpointedRun:
             *self._unresolved(whole.statistics),
             *self._too_fast(whole),
             *self._driven_too_fast(),
-            *self.problem.rod.warnings(),
             *coarse(whole["d"]),
             *self._damped_beyond(),
         )

@@ -89,9 +89,9 @@ class RodPath(RodProblem):
                 points.append(point)
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _solution(geometry, start, points, solver, self.rod.warnings())
+                error.reached = _solution(geometry, start, points, solver)
             raise
-        return _solution(geometry, start, points, solver, self.rod.warnings())
+        return _solution(geometry, start, points, solver)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -105,11 +105,7 @@ class RodPath(RodProblem):
 
 
 def _solution(
-    geometry: Geometry,
-    start: Array,
-    points: list[Equilibrium],
-    solver: EquilibriumSolver,
-    warnings: list[str],
+    geometry: Geometry, start: Array, points: list[Equilibrium], solver: EquilibriumSolver
 ) -> Solution:
     q = start + np.array([point.q for point in points]).reshape(len(points), -1, 4)
     along, vector = ("point",), ("vertex", "axis")
@@ -129,7 +125,7 @@ def _solution(
         "load_factor_reached": points[-1].factor,
         "unstable_points": sum(not point.stable for point in points),
     }
-    warnings = [*solver.warnings(), *warnings, *coarse(q[..., 2:])]
+    warnings = [*solver.warnings(), *coarse(q[..., 2:])]
     if not points[-1].stable:
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"

@@ -60,7 +60,7 @@ class RodStatics(RodProblem):
         point, solver = self.led_to(geometry, loaded, name)
         found = _solution(geometry, loaded, point, solver)
         check_crossing(geometry, found["x"], found["d"], self.rod.below, name)
-        return replace(found, warnings=(*solver.warnings(), *self.rod.warnings(), *coarse(found["d"])))
+        return replace(found, warnings=(*solver.warnings(), *coarse(found["d"])))
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

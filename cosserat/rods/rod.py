@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Sequence
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -135,21 +135,6 @@ class Rod(Parameters):
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
         return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
 
-    def warnings(self) -> list[str]:
-        """What of the rod its edges follow less well than the rest."""
-        steps = [
-            after.at
-            for before, after in itertools.pairwise(self.stations)
-            if before.at == after.at and before.height != after.height and 0 < after.at < self.length
-        ]
-        if self.energy == "published" or self.centreline == 0.5 or not steps:
-            return []
-        return [
-            f"stepped axis: the height jumps at {steps[0]:.4g} m and the centreline is not in the middle, so the area "
-            "centres jump too, which an edge cannot; what stretching and bending do to each other there is right to "
-            "first order in 'rod.vertices' only: use more, or 'rod.centreline' = 0.5"
-        ]
-
     def geometry(self) -> Geometry:
         """Its reference configuration; the directors reach the upper surface."""
         heights = self.height * self._height_shares()
@@ -173,22 +158,31 @@ class Rod(Parameters):
         """Mass matrix as a symmetric band: (3.3.43), shape (4 N, 3), rho0 L times 1, Y02 and Y22.
 
         That of the consistent rod is the mean of such a one and of the mass that straight edges have, shape (4 N, 7).
+        Its Y02 and Y22 are those of the sections along an edge, in directors of the vertices.
         """
         if self.calibration is not None:
-            return self._mass_band(self.part_masses(geometry), np.zeros(self.vertices - 1))[:, :3]
-        edges = edge_masses(self.stations, self.line_density, geometry.arc_length)
-        own = np.append(edges.before, 0.0) + np.insert(edges.after, 0, 0.0)
-        return self._mass_band(own, edges.shared)
+            part, none = self.part_masses(geometry), np.zeros(self.vertices - 1)
+            return self._mass_band([part] * 3, [none] * 3, np.ones(self.vertices))[:, :3]
+        edges = [
+            edge_masses(self.stations, self.line_density, geometry.arc_length, power)
+            for power in range(3)
+        ]
+        own = [np.append(edge.before, 0.0) + np.insert(edge.after, 0, 0.0) for edge in edges]
+        return self._mass_band(own, [edge.shared for edge in edges], self._height_shares())
 
-    def _mass_band(self, own: Array, shared: Array) -> Array:
-        """Masses of vertices (N,) and between neighbours (N - 1,), times 1, Y02 and Y22, shape (4 N, 7)."""
-        first, second = self.Y02, self.Y22
-        band = np.zeros((own.size, len(DOFS), 7))
-        band[:, :2, 0], band[:, :2, 2], band[:, 2:, 0] = (
-            factor * own[:, None] for factor in (1.0, first, second)
-        )
-        band[:-1, :2, 4], band[:-1, :2, 6] = shared[:, None], first * shared[:, None]
-        band[:-1, 2:, 2], band[:-1, 2:, 4] = first * shared[:, None], second * shared[:, None]
+    def _mass_band(self, own: Sequence[Array], shared: Sequence[Array], height: Array) -> Array:
+        """The band of masses times height^0, height^1 and height^2, of vertices (N,) and between them (N - 1,).
+
+        height : of the vertices, as shares of the nominal one, (N,) [1].
+        """
+        band = np.zeros((height.size, len(DOFS), 7))
+        before, after = height[:-1, None], height[1:, None]
+        m0, m1, m2 = (mass[:, None] for mass in own)
+        band[:, :2, 0], band[:, :2, 2] = m0, self.Y02 * m1 / height[:, None]
+        band[:, 2:, 0] = self.Y22 * m2 / height[:, None] ** 2
+        m0, m1, m2 = (mass[:, None] for mass in shared)
+        band[:-1, :2, 4], band[:-1, :2, 6] = m0, self.Y02 * m1 / after
+        band[:-1, 2:, 2], band[:-1, 2:, 4] = self.Y02 * m1 / before, self.Y22 * m2 / (before * after)
         return band.reshape(-1, 7)
 
     def body(self, geometry: Geometry, couples: Array | None = None) -> RodBody:

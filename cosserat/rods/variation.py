@@ -106,15 +106,19 @@ class EdgeMasses(NamedTuple):
     after: Array
 
 
-def edge_masses(stations: Sequence[Station], line_density: float, arc: Array) -> EdgeMasses:
-    """The mean of the lumped and the consistent mass of every edge.
+def edge_masses(
+    stations: Sequence[Station], line_density: float, arc: Array, power: int = 0
+) -> EdgeMasses:
+    """The mean of the lumped and the consistent mass of every edge, or of mass times a power of the height's share.
 
     derived: with s from 0 to 1 along an edge and M_k the integral of s^k over its mass, linear interpolation gives
     M_0 - 2 M_1 + M_2, M_1 - M_2 and M_2; the two masses at the ends that keep M_0 and M_1 are M_0 - M_1 and M_1.  Both
     keep mass and centre of mass, and their errors in a frequency are opposite.
     """
     M0, M1, M2 = (np.diff(arc) * line_density) * mean(
-        stations, lambda scale, s: mass_share(scale) * s ** np.arange(3)[:, None], arc
+        stations,
+        lambda scale, s: mass_share(scale) * scale.height**power * s ** np.arange(3)[:, None],
+        arc,
     )
     return EdgeMasses(M0 - 3 / 2 * M1 + M2 / 2, (M1 - M2) / 2, (M1 + M2) / 2)
 

@@ -8,6 +8,9 @@ stretch of its height less one.  With the area centres e above the line
     energy per length [ A eps^2 + B (eps + s)^2 + A s^2 + GA g^2 + EI a'^2 + J s'^2 ] / 2.
 
 So N = (A + B) eps + B s, M = EI a' - e N, t = J s' + e Q; N and Q are constant, M' = -Q and t' = B eps + (A + B) s.
+A vibration takes omega^2 times the momenta from these, the kinetic energy per length being
+
+    m [ (u' - e a')^2 + (w' + e s')^2 + k^2 (a'^2 + s'^2) ] / 2      with rates instead of slopes.
 """
 
 from dataclasses import dataclass
@@ -15,12 +18,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
-from scipy.optimize import newton
+from scipy.optimize import brentq, newton
 
 
 @dataclass(frozen=True)
 class Piece:
-    """length, e [m]; A = 2 mu area, B = Lambda area, GA [N]; EI, J = mu I [N m^2]."""
+    """length, e [m]; A = 2 mu area, B = Lambda area, GA [N]; EI, J = mu I [N m^2]; m [kg/m], k^2 = I / area [m^2]."""
 
     length: float
     e: float
@@ -29,16 +32,25 @@ class Piece:
     GA: float
     EI: float
     J: float
+    m: float
+    square: float
 
     @classmethod
-    def rectangle(cls, length, height, width, young, poisson, centreline, correction=5 / 6):
+    def rectangle(cls, length, height, width, young, poisson, centreline, density=0.0, correction=5 / 6):
         """Its sections are free to contract; the line lies at that share of the height."""
         mu, area = young / (2 * (1 + poisson)), height * width
-        inertia = area * height**2 / 12
+        square = height**2 / 12
         first = young * poisson / (1 - poisson**2)
-        e = (0.5 - centreline) * height
         return cls(
-            length, e, 2 * mu * area, first * area, correction * mu * area, young * inertia, mu * inertia
+            length=length,
+            e=(0.5 - centreline) * height,
+            A=2 * mu * area,
+            B=first * area,
+            GA=correction * mu * area,
+            EI=young * area * square,
+            J=mu * area * square,
+            m=density * area,
+            square=square,
         )
 
     @property
@@ -46,8 +58,7 @@ class Piece:
         """Where the height is free: B eps + (A + B) s = 0."""
         return self.A + self.B - self.B**2 / (self.A + self.B)
 
-    @property
-    def rates(self):
+    def rates(self, omega):
         """Of (u, w, a, s, N, Q, M, t)."""
         both, R = self.A + self.B, np.zeros((8, 8))
         R[2, 6], R[2, 4] = 1 / self.EI, self.e / self.EI
@@ -59,27 +70,56 @@ class Piece:
         R[1, 2], R[1, 5] = 1, R[1, 5] + 1 / self.GA
         R[6, 5] = -1
         R[7, 4], R[7, 3] = self.B / both, both - self.B**2 / both
+        e, polar = self.e, self.e**2 + self.square
+        inertia = [[1, 0, -e, 0], [0, 1, 0, e], [-e, 0, polar, 0], [0, e, 0, polar]]
+        R[4:, :4] -= omega**2 * self.m * np.array(inertia)
         return R
 
 
-def linear_tip(pieces, along, across):
-    """(u, w) of the free end of a clamped rod under forces on the line there [m], with its layers of section stretch.
+def _equations(pieces, omega=0.0):
+    """Transfer over all pieces, clamped and free ends, of the states at their ends in units of order one; forces in A.
 
     Pieces are cut to half their height, so that no transfer matrix grows beyond what elimination can bear.
     """
     steps = []
     for piece in pieces:
-        count = int(np.ceil(piece.length / np.sqrt(3 * piece.J / piece.A)))
-        steps += [expm(piece.rates * piece.length / count)] * count
+        count = int(np.ceil(piece.length / np.sqrt(3 * piece.square)))
+        steps += [expm(piece.rates(omega) * piece.length / count)] * count
     n = len(steps)
-    rows, right = np.zeros((8 * n + 8, 8 * n + 8)), np.zeros(8 * n + 8)
+    rows = np.zeros((8 * n + 8, 8 * n + 8))
     for k, step in enumerate(steps):
         rows[8 * k : 8 * k + 8, 8 * k : 8 * k + 8] = step
         rows[8 * k : 8 * k + 8, 8 * k + 8 : 8 * k + 16] = -np.eye(8)
     rows[8 * n : 8 * n + 4, :4] = rows[8 * n + 4 :, 8 * n + 4 :] = np.eye(4)
-    right[8 * n + 4 :] = along, across, 0, 0
     unit = np.tile([1.0] * 4 + [pieces[0].A] * 4, n + 1)
-    return (np.linalg.solve(rows * unit[None, :] / unit[:, None], right / unit))[8 * n : 8 * n + 2]
+    return rows * unit[None, :] / unit[:, None]
+
+
+def linear_tip(pieces, along, across):
+    """(u, w) of the free end of a clamped rod under forces on the line there [m], with its layers of stretch."""
+    rows = _equations(pieces)
+    right = np.zeros(len(rows))
+    right[-4:] = np.array([along, across, 0, 0]) / pieces[0].A
+    return np.linalg.solve(rows, right)[-8:-6]
+
+
+def frequencies(pieces, count, start, factor=1.05):
+    """The lowest ones of a clamped rod above `start` [Hz], where the determinant of its equations changes sign."""
+
+    _, scale = np.linalg.slogdet(_equations(pieces, 2 * np.pi * start))
+
+    def determinant(frequency):
+        sign, size = np.linalg.slogdet(_equations(pieces, 2 * np.pi * frequency))
+        return sign * np.exp(size - scale)
+
+    found, low, before = [], start, determinant(start)
+    while len(found) < count:
+        high = factor * low
+        after = determinant(high)
+        if before * after < 0:
+            found.append(brentq(determinant, low, high, rtol=1e-11))
+        low, before = high, after
+    return np.array(found)
 
 
 def beam_tip(pieces, along, across):

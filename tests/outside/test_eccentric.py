@@ -5,19 +5,22 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+import cosserat
+
 from . import eccentric
-from .cases import ORDER, run
+from .cases import ORDER, inputs
 
 AT = {"on a vertex": 0.5, "inside an edge": 13 / 30}
 """Meshes of 10, 40 and 160 edges have a vertex at the first and meet the second at the same share of an edge."""
 MESHES = (11, 41, 161)
+DENSITY = 1e3
 everywhere = pytest.mark.parametrize("centreline", [0.2, 0.7])
 steps = pytest.mark.parametrize("at", AT.values(), ids=AT)
 
 
 def pieces(height, at, centreline, poisson, thin=0.5):
     return [
-        eccentric.Piece.rectangle(length, height * share, height, 1e9, poisson, centreline)
+        eccentric.Piece.rectangle(length, height * share, height, 1e9, poisson, centreline, DENSITY)
         for length, share in ((at, 1.0), (1 - at, thin))
     ]
 
@@ -29,18 +32,20 @@ def stepped(height, at, centreline, poisson, vertices, thin=0.5, **case):
         "centreline": centreline,
         "poisson": poisson,
         "vertices": vertices,
+        "line_density": DENSITY * height**2,
         "stations": [{"at": at}, {"at": at, "height": thin}],
     }
-    return run("joint", rod=rod, **case)
+    return inputs()["joint"].vary("stepped", rod=rod, **case)
 
 
-def tip(along, across, **rod):
-    """Displacement of the tip, linear in the loads: half the difference of what they do and what their opposites do."""
-    ends = [
-        stepped(**rod, forces=pulled(sign * along, sign * across)).u.isel(vertex=-1).to_numpy()
-        for sign in (1, -1)
-    ]
-    return (ends[0] - ends[1]) / 2
+def tip(*sizes, **case):
+    """Displacement of the tip, (2,) [m]."""
+    return cosserat.run(stepped(*sizes, **case)).u.isel(vertex=-1).to_numpy()
+
+
+def linear_tip(along, across, **rod):
+    """The part of it that is linear in the forces: half the difference of what they do and what their opposites do."""
+    return (tip(forces=pulled(along, across), **rod) - tip(forces=pulled(-along, -across), **rod)) / 2
 
 
 def pulled(along, across):
@@ -84,7 +89,9 @@ def test_a_slender_stepped_body_pulled_beside_its_axis_bends_as_a_beam(at, centr
         judge = eccentric.linear_tip if poisson else eccentric.beam_tip
         right = judge(parts, along, across)
         found = [
-            tip(along, across, at=at, height=0.02, centreline=centreline, poisson=poisson, vertices=n)
+            linear_tip(
+                along, across, at=at, height=0.02, centreline=centreline, poisson=poisson, vertices=n
+            )
             - right
             for n in MESHES
         ]
@@ -104,7 +111,9 @@ def test_a_thick_stepped_body_with_its_layers(at, centreline, poisson):
     for along, across in ((1.0, 0.0), (0.0, 1.0)):
         right = eccentric.linear_tip(parts, along, across)
         found = [
-            tip(along, across, at=at, height=0.2, centreline=centreline, poisson=poisson, vertices=n)
+            linear_tip(
+                along, across, at=at, height=0.2, centreline=centreline, poisson=poisson, vertices=n
+            )
             - right
             for n in (41, 161)
         ]
@@ -120,11 +129,46 @@ def test_large_deflections_of_a_stepped_body_are_of_second_order(at, centreline,
     """Loads in EI / L^2 of the thicker part: the thinner one turns by more than half a right angle."""
     height = 0.02
     unit = 1e9 * height**4 / 12
-    right = eccentric.large_tip(pieces(height, at, centreline, poisson), along * unit, across * unit)
+    right = eccentric.large_tip(pieces(height, at, centreline, poisson), along * unit, across * unit) - [
+        1.0,
+        0.0,
+    ]
     found = []
     for n in MESHES:
         forces = pulled(along * unit, across * unit)
-        data = stepped(height, at, centreline, poisson, n, forces=forces)
-        found.append(data.x.isel(vertex=-1).to_numpy() - right)
+        found.append(tip(height, at, centreline, poisson, n, forces=forces) - right)
     for k in range(2):
         check_order(np.array(found)[:, k], 1.0, 1e-9)
+
+
+@everywhere
+@steps
+def test_the_weight_of_a_stepped_body_that_hangs_bends_it_as_much_as_its_halves_are_apart(
+    at, centreline
+):
+    """The thin part hangs beside the area centres of the thick one, by e1 - e2, and nothing bends the thin one."""
+    height, g = 0.05, 1e-3
+    thick, thin = pieces(height, at, centreline, 0.0)
+    moment = thin.m * g * thin.length * (thick.e - thin.e)
+    right = moment / thick.EI * (at - at**2 / 2)
+    found = [
+        tip(height, at, centreline, 0.0, n, forces=[], gravity={"g": g, "along": "E3"})[1]
+        for n in MESHES
+    ]
+    check_order(np.array(found) - right, abs(right), 2e-6)
+
+
+@everywhere
+@steps
+@pytest.mark.parametrize("poisson", [0.0, 0.3])
+def test_frequencies_of_a_stepped_body_are_of_second_order(at, centreline, poisson):
+    """The third of these three stretches the body."""
+    parts = pieces(0.1, at, centreline, poisson)
+    right = eccentric.frequencies(parts, 3, 10.0)
+    meshes = [
+        stepped(0.1, at, centreline, poisson, n, forces=[]).problem.modes(3).angular_frequency
+        for n in MESHES
+    ]
+    errors = np.array(meshes) / (2 * np.pi) - right
+    for k in range(3):
+        check_order(errors[:, k], right[k], 1e-5)
