@@ -42,7 +42,8 @@
 # - *Shear.* $k \mu A\, g^2$, of the edge against the mean director, which cannot lock: a thin rod bends as easily as it should.
 # - *Bending.* $EI\, T^2 / h$, of the directors.
 # - *A centreline anywhere.* Where it misses the area centres, edges run between those, at $\mathbf{x} + Y^{02}\mathbf{d}$: the
-#   body is the same whichever line one follows it by.
+#   body is the same whichever line one follows it by. Where the height varies along an edge, both ends of the edge are as far
+#   off the centreline as the one axis in it that tension does not bend.
 # - *Gradients of the section stretch.* $\mu I (\Delta\lambda)^2 / h$, the $k_{11}$ of Chapter 1.
 
 # %% tags=["remove-cell"]

@@ -1,5 +1,7 @@
 """The consistent rod where its height varies and its centreline is not in the middle: gradients, invariance, shear."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from conftest import assembled, random_state
@@ -138,3 +140,29 @@ def test_the_axis_of_an_edge_is_where_tension_does_not_bend_it(centreline):
     high = body.rod[2, reissner.HIGH] * geometry.director_length[3]
     assert (low, high) == pytest.approx([offset * (1 / 9 + 0.5 * 8 / 9)] * 2)
     np.testing.assert_allclose(edges, 0, atol=1e-15)
+
+
+@everywhere
+@pytest.mark.parametrize("curvature", [0.0, 0.1, -0.1])
+def test_sections_that_narrow_cost_what_the_material_of_all_pieces_costs(centreline, curvature):
+    """Without tension (2 mu A + Lambda A - (Lambda A)^2 / (2 mu A + Lambda A)) w^2 / 2 along the area centres."""
+    heights, ratios, places = (1.0, 0.6, 1.2), (0.0, 0.3, 0.45), (0.0, 1.3, 2.0, 5.0)
+    stations = [
+        {"at": place, "height": height, "poisson": ratio / 0.3}
+        for height, ratio, ends in zip(heights, ratios, pairwise(places), strict=True)
+        for place in ends
+    ]
+    rod = tapered(centreline, {}, stations=stations, curvature=curvature, width=0.5, poisson=0.3)
+    geometry, w = rod.geometry(), 1e-2
+    body, q = rod.body(geometry), np.hstack([geometry.X, (1 + w) * geometry.D]).ravel()
+    free = np.arange(q.size).reshape(-1, 4)[1:, :2].ravel()
+    for _ in range(3):
+        _, gradient, hessian = assembled(body, q)
+        q[free] -= np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
+    right = 0.0
+    for height, nu, (begin, end) in zip(heights, ratios, pairwise(places), strict=True):
+        area, e = 0.25 * height, (0.5 - centreline) * 0.5 * height
+        plain, volume = rod.young * area / (1 + nu), rod.young * nu / (1 - nu**2) * area
+        cost = plain + volume - volume**2 / (plain + volume)
+        right += (end - begin) * (1 - curvature * e) * cost * w**2 / 2
+    assert body.energy(q) == pytest.approx(right, rel=1e-9)

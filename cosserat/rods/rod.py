@@ -203,6 +203,7 @@ class Rod(Parameters):
                 shear_correction=self.shear_correction,
                 lateral_constraint=self.lateral_constraint,
                 offset=(0.5 - self.centreline) * self.height,
+                curvature=self.curvature,
             )
             shares = self._height_shares()
             return ConsistentRod(

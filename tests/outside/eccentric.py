@@ -138,11 +138,13 @@ def beam_tip(pieces, along, across):
     return np.array([u, w])
 
 
-def large_tip(pieces, along, across):
+def large_tip(pieces, along, across, curvature=0.0):
     """Where the free end of a clamped rod is under dead forces on the line there, (x, y) [m]; no section stretch.
 
+    curvature : K of the line at rest [1/m], where the area centres are 1 - K e times as far apart.
+
     Reissner's rod through the area centres, which are e above the line: x' = (1 + N/EA + e a', Q/GA) in the frame of
-    the section and EI a' = M + e N, M the moment about the line.  The moment at the clamp is found by shooting.
+    the section and EI a' = M + e N, M the moment about the line, which at the clamp is found by shooting.
     """
 
     def shot(first):
@@ -152,16 +154,21 @@ def large_tip(pieces, along, across):
             def rates(_, y, p=p):
                 c, s = np.cos(y[2]), np.sin(y[2])
                 N, Q = along * c + across * s, across * c - along * s
-                turn = (y[3] + p.e * N) / p.EI
-                on, aside = 1 + N / p.EA + p.e * turn, Q / p.GA
+                apart = 1 - curvature * p.e
+                turn = curvature + apart * (y[3] + p.e * N) / p.EI
+                on, aside = apart * (1 + N / p.EA) + p.e * turn, apart * Q / p.GA
                 dx, dy = on * c - aside * s, on * s + aside * c
                 return [dx, dy, turn, along * dy - across * dx]
 
             y = solve_ivp(rates, (0, p.length), y, method="DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
         return y
 
-    arm = across * sum(p.length for p in pieces)
+    L = sum(p.length for p in pieces)
+    x, y = (
+        (np.sin(curvature * L), 1 - np.cos(curvature * L)) / np.array(curvature) if curvature else (L, 0)
+    )
+    moment = across * x - along * y
     first = newton(
-        lambda moment: shot(moment)[3], arm, x1=arm + 1e-3 * pieces[0].EI, tol=1e-13 * pieces[0].EI
+        lambda moment: shot(moment)[3], moment, x1=moment + 1e-3 * pieces[0].EI, tol=1e-13 * pieces[0].EI
     )
     return shot(first)[:2]

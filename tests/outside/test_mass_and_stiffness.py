@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import cosserat
-from cosserat.data.dataset import warnings_of
 from cosserat.exact import elastica
 from cosserat.studies.calibration import beam_of
 
@@ -166,22 +165,6 @@ def test_tapers_are_of_second_order(thin, end):
     assert abs(errors[-1]) < 1e-3
     order = np.log2(abs(errors[0] / errors[1])) / 2
     assert order == pytest.approx(2, abs=ORDER), errors
-
-
-@pytest.mark.parametrize("centreline", [0.3, 0.5])
-@pytest.mark.parametrize("at", [0.5, 0.52])
-def test_a_step_of_a_body_pulled_beside_its_axis_says_that_it_is_of_first_order(at, centreline):
-    """Pulled e beside its area centres, the tip goes across by the integral of N e (L - s) / EI."""
-    stations = [{"at": at}, {"at": at, "height": 0.5}]
-    pull = [{"at": "last", "along": "E3", "force": 1e-6}]
-    e = (0.5 - centreline) * 0.01
-    right = 1e-6 * e / EI * ((at - at**2 / 2) + 0.5 / 0.5**3 * (1 - at) ** 2 / 2)
-    for n in (41, 161):
-        rod = {"stations": stations, "centreline": centreline, "vertices": n}
-        data = run("joint", rod=rod, forces=pull)
-        assert last(data) == pytest.approx(right, abs=1.0 / n * right + 1e-15)
-        said = [warning.split(":")[0] for warning in warnings_of(data)]
-        assert said == (["stepped axis"] if centreline != 0.5 else [])
 
 
 @pytest.mark.parametrize("vertices", [20, 40, 80, 160])

@@ -16,6 +16,9 @@ With E = <e/EI> / <1/EI> the mean curvature is m <1/EI>, and the mean strain of 
     n <1/c + (e - E)^2/EI> - <b/c> w,
 
 so tension and bending do not couple at E, and 1/alpha has <(e - E)^2/EI> more.  The rest stays as it is.
+
+Means are along the line of the area centres, which in a rod of curvature K has the length 1 - K e per length of the
+centreline.
 """
 
 from __future__ import annotations
@@ -41,6 +44,7 @@ class EdgeStiffnesses(NamedTuple):
     """axial 2 mu A, volume Lambda A, shear k mu A, bending EI, stretch_gradient mu I: (N - 1,); section 2 mu A: (N,).
 
     The fourth and fifth in N m^2, the others in N.  axis : (N - 1,) E over the offset of the nominal section [1].
+    length : (N - 1,) of the line of the area centres, per length of the centreline [1].
     """
 
     axial: Array
@@ -50,6 +54,7 @@ class EdgeStiffnesses(NamedTuple):
     stretch_gradient: Array
     section: Array
     axis: Array
+    length: Array
 
 
 def stiffnesses(
@@ -63,11 +68,12 @@ def stiffnesses(
     shear_correction: float,
     lateral_constraint: LateralConstraint,
     offset: float = 0.0,
+    curvature: float = 0.0,
 ) -> EdgeStiffnesses:
     """Of a rod whose nominal section and material vary as the stations say.
 
     arc : (N,) arc length of the vertices [m].  second_moment : about the area centres [m^4].
-    offset : of the nominal area centre from the centreline [m].
+    offset : of the nominal area centre from the centreline [m].  curvature : of the reference [1/m].
     """
 
     def along(s: Shares) -> tuple[Array, Array, Array, Array, Array]:
@@ -76,34 +82,32 @@ def stiffnesses(
         mu, first, plane = moduli(young * s.young, poisson * s.poisson, lateral_constraint)
         return 2 * mu * here, first * here, shear_correction * mu * here, plane * bending, mu * bending
 
+    def centres(s: Shares) -> Array:
+        """Length of the line of the area centres per length of the centreline."""
+        return 1 - curvature * offset * s.height
+
     def on_edges(s: Shares, _: Array) -> Array:
         axial, volume, shear, bending, gradient = along(s)
         both = axial + volume
-        return np.stack(
-            [
-                1 / both,
-                axial / both,
-                volume / both,
-                axial * volume / both,
-                1 / shear,
-                1 / bending,
-                1 / gradient,
-            ]
-        )
+        shares = [1 / both, axial / both, volume / both, axial * volume / both]
+        return centres(s) * np.stack([*shares, 1 / shear, 1 / bending, 1 / gradient])
 
     first_height = stations[0].height if stations else 1.0
 
     def off_axis(s: Shares, _: Array) -> Array:
         higher = s.height - first_height
-        return np.stack([higher, higher**2]) / along(s)[3]
+        turning = centres(s) / along(s)[3]
+        return np.stack([higher, higher * turning, higher**2 * turning])
 
-    compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc)
-    lever, square = mean(stations, off_axis, arc)
+    above, lever, square = mean(stations, off_axis, arc)
+    length = 1 - curvature * offset * (first_height + above)
+    compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc) / length
+    lever, square = lever / length, square / length
     higher = lever / bending
     alpha = 1 / (compliance + offset**2 * (square - higher * lever))
-    more = (product - alpha * axial * volume) * np.diff(arc) / 2
+    more = (product - alpha * axial * volume) * length * np.diff(arc) / 2
     cuts = vertex_cuts(arc)
-    own = mean(stations, lambda s, _: along(s)[0], cuts)
+    own = mean(stations, lambda s, _: centres(s) * along(s)[0], cuts)
     shared = np.append(more, 0.0) + np.insert(more, 0, 0.0)
     return EdgeStiffnesses(
         alpha * axial,
@@ -113,6 +117,7 @@ def stiffnesses(
         1 / gradient,
         own + shared / np.diff(cuts),
         first_height + higher,
+        length,
     )
 
 

@@ -44,11 +44,11 @@ def coefficients(
 ) -> Array:
     """What the kernel needs, shape (N, 23): row K has edge K (the last row none), vertex K and its couple.
 
-    Of the edge: length; axial measure, shear measure and turning in the reference; 2 mu A, Lambda A, k mu A, EI, mu I.
-    Of the vertex: |D|, L, 2 mu A, the couple [N m], one for the barriers of Fig. 3.7, and the angle of the director in
-    the reference, counted on from vertex to vertex.  Then four numbers that are zero, or what `ConsistentRod.displaced`
-    puts there; one where the product of the stretches is the volume, not their sum; the offsets of the edge; and, in
-    row 0, the angle within half a turn of which that of the first director is counted.
+    Of the edge: length along the area centres; axial measure, shear measure and turning in the reference; 2 mu A,
+    Lambda A, k mu A, EI, mu I.  Of the vertex: |D|, L, 2 mu A, the couple [N m], one for the barriers of Fig. 3.7, and
+    the angle of the director in the reference, counted on from vertex to vertex.  Then four numbers that are zero, or
+    what `ConsistentRod.displaced` puts there; one where the product of the stretches is the volume, not their sum; the
+    offsets of the edge; and, in row 0, the angle within half a turn of which that of the first director is counted.
 
     offsets : (2, N - 1) of each edge's area centres from the centreline at its two vertices, in directors of those, or
         one for all; edges run from one area centre to the next, and the second moment is about them.
@@ -59,7 +59,7 @@ def coefficients(
     e, alpha = ConsistentRod(rod).centre_edges(geometry.X, geometry.D), unwrapped_angles(geometry.D)
     turn = np.diff(alpha)
     b = alpha[:-1] + turn / 2
-    rod[:-1, EDGE] = np.linalg.norm(e, axis=1)
+    rod[:-1, EDGE] = np.linalg.norm(np.diff(geometry.X, axis=0), axis=1) * stiffness.length
     rod[:-1, AXIAL] = e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b)
     rod[:-1, SLIDE] = e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b)
     rod[:-1, TURN] = turn
