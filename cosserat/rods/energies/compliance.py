@@ -103,21 +103,14 @@ def stiffnesses(
     length = 1 - curvature * offset * (first_height + above)
     compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc) / length
     lever, square = lever / length, square / length
-    higher = lever / bending
-    alpha = 1 / (compliance + offset**2 * (square - higher * lever))
+    alpha = 1 / (compliance + offset**2 * (square - lever**2 / bending))
+    axis = first_height + lever / bending
     more = (product - alpha * axial * volume) * length * np.diff(arc) / 2
     cuts = vertex_cuts(arc)
     own = mean(stations, lambda s, _: centres(s) * along(s)[0], cuts)
-    shared = np.append(more, 0.0) + np.insert(more, 0, 0.0)
+    section = own + (np.append(more, 0.0) + np.insert(more, 0, 0.0)) / np.diff(cuts)
     return EdgeStiffnesses(
-        alpha * axial,
-        alpha * volume,
-        1 / shear,
-        1 / bending,
-        1 / gradient,
-        own + shared / np.diff(cuts),
-        first_height + higher,
-        length,
+        alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, section, axis, length
     )
 
 
