@@ -35,6 +35,12 @@ _KINDS = {
 }
 """What a number in a unit is; of the units without a word, the unit itself is said."""
 
+
+def what_is_in(unit: str) -> str:
+    """What a number in a unit is, such as "a length"; of units without a word, "a quantity"."""
+    return _KINDS.get(unit, "a quantity")
+
+
 _ALIKE = {"m^-1": "rad/m"}
 """Units that may be written for another, though pint's own rule, that an angle is a number, holds nowhere else."""
 

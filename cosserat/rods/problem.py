@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
 
 
-class _VertexName:
+class VertexName:
     """Annotation: 'first', 'last' or an index."""
 
     @staticmethod
@@ -43,7 +43,7 @@ class _VertexName:
         return core_schema.no_info_plain_validator_function(self.check)
 
 
-Vertex = Annotated[str | int, _VertexName()]
+Vertex = Annotated[str | int, VertexName()]
 Direction = Literal["E3", "-E3", "E2", "-E2"]
 DofName = Literal["x3", "x2", "d3", "d2"]
 
@@ -57,39 +57,51 @@ class Support(Parameters):
     """Numbers of one vertex that keep their reference value."""
 
     at: Vertex
+    """The vertex that is held."""
     fixed: tuple[DofName, ...]
+    """Degrees of freedom that keep their reference value: components of the position (x) and of the director (d)."""
 
 
 class Gravity(Parameters):
     """The weight of the rod: its mass matrix times a uniform acceleration, which lumped is rho0 g L of section 3.5."""
 
     g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
+    """Acceleration of free fall."""
     along: Direction
+    """Direction in which things fall."""
 
 
 class PointForce(Parameters):
     """A dead force on the centreline at one vertex."""
 
     at: Vertex
+    """The vertex that is pulled."""
     along: Direction
+    """Direction of the force."""
     force: Annotated[float, Quantity("N", "n", "section 3.5")]
+    """Size of the force; a negative one pulls the other way."""
 
 
 class LineLoad(Parameters):
     """A dead force per length on the centreline, over a stretch of it."""
 
     along: Direction
+    """Direction of the load."""
     density: Annotated[float, Quantity("N/m")]
+    """Force per length of the reference centreline."""
     start: Annotated[float, Quantity("m", at_least=0)] = 0.0
+    """Where the load begins, counted along the reference centreline."""
     end: Annotated[float, Quantity("m", above=0)] | None = None
-    """The end of the rod, if not given."""
+    """Where the load ends; at the end of the rod, if not given."""
 
 
 class Couple(Parameters):
     """A moment on one section, positive from E3 towards E2, that turns with it: it does the work of a couple."""
 
     at: Vertex
+    """The vertex whose section is turned."""
     moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
+    """Moment, positive from E3 towards E2."""
 
 
 class PrescribedDisplacement(Parameters):
@@ -99,9 +111,13 @@ class PrescribedDisplacement(Parameters):
     """
 
     at: Vertex
+    """The vertex that is moved."""
     dof: DofName
+    """Which of its fixed degrees of freedom is moved."""
     by: Annotated[float, Quantity("m")]
+    """How far it is moved from its reference value; to and fro, the amplitude."""
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
+    """Frequency of moving to and fro; with zero it is moved once."""
 
 
 class PrescribedRotation(Parameters):
@@ -111,8 +127,11 @@ class PrescribedRotation(Parameters):
     """
 
     at: Vertex
+    """The vertex whose fixed section is turned."""
     by: Annotated[float, Quantity("rad")]
+    """Angle from E3 towards E2; to and fro, the amplitude."""
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
+    """Frequency of turning to and fro; with zero it is turned once."""
 
 
 class RodProblem(Problem):
@@ -120,12 +139,18 @@ class RodProblem(Problem):
 
     rod: Rod
     supports: tuple[Support, ...]
+    """What holds the rod; empty for a free one, which only a motion may be."""
     gravity: Gravity | None = None
     forces: tuple[PointForce, ...] = ()
+    """Dead forces, each at one vertex."""
     line_loads: tuple[LineLoad, ...] = ()
+    """Dead forces per length, each over a stretch of the rod."""
     couples: tuple[Couple, ...] = ()
+    """Moments, each on one section."""
     prescribed_displacements: tuple[PrescribedDisplacement, ...] = ()
+    """Fixed degrees of freedom that are moved."""
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()
+    """Fixed sections that are turned."""
 
     @model_validator(mode="after")
     def _vertices_exist(self) -> Self:
