@@ -98,6 +98,13 @@ def _parser() -> argparse.ArgumentParser:
     sub = add("describe", _describe, "list the kinds of cases, or what a case of one kind may say")
     sub.add_argument("kind", nargs="*", help="such as rod statics (default: list the kinds)")
 
+    sub = add("schema", _schema, "print the JSON Schema of case files, for editors")
+    sub.add_argument(
+        "--merged",
+        action="store_true",
+        help="of one case with everything that 'like' brings in (default: of a file as it is written)",
+    )
+
     for publication in publications():
         publication.add_commands()(add)
     return parser
@@ -207,6 +214,14 @@ def _describe(options: argparse.Namespace) -> None:
     from cosserat.describe.text import list_of_keys, list_of_kinds
 
     print(list_of_keys(" ".join(options.kind)) if options.kind else list_of_kinds())
+
+
+def _schema(options: argparse.Namespace) -> None:
+    import json
+
+    from cosserat.describe.schema import as_written, merged
+
+    print(json.dumps(merged() if options.merged else as_written(), indent=1, ensure_ascii=False))
 
 
 def _show(options: argparse.Namespace) -> None:
