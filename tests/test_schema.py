@@ -232,30 +232,51 @@ def shown(node, before=""):
     """Paths of the keys of a schema, with what an editor shows of each."""
     for choice in [node, *node.get("anyOf", [])]:
         for name, inner in choice.get("properties", {}).items():
-            yield before + name, inner
-            yield from shown(inner, f"{before}{name}.")
+            for alternative in [inner] if "description" in inner else inner["anyOf"]:
+                yield before + name, alternative
+                yield from shown(alternative, f"{before}{name}.")
         if "items" in choice:
             yield from shown(choice["items"], f"{before[:-1]}[].")
 
 
-@pytest.mark.parametrize("kind", list(kinds()))
-def test_an_editor_is_shown_every_key_with_its_meaning_unit_and_default(written, kind):
-    (case,) = [c for c in written.schema["additionalProperties"]["anyOf"] if c["title"] == kind]
-    found = [(path, node) for path, node in shown(case) if not path.endswith(".like")]
-    listed = {key.path: key for key in (*common_keys(), *keys(kind))}
-    assert {path for path, _ in found} == set(listed)
-    for path, node in found:
-        key = listed[path]
-        if not key.when and "material" not in path:
-            assert " ".join(key.meaning.split()) in node["description"]
-            assert json.dumps(node.get("default")) == json.dumps(
-                None if key.default is None else tomllib.loads(f"x = {key.default}")["x"]
-            )
-        unit = getattr(key.value.about, "unit", "")
-        if unit:
-            assert {"$ref": f"#/$defs/{NAMES[unit]}"} in node["anyOf"][0].get("anyOf", node["anyOf"])
-            assert f" in {unit}" in node["description"] or unit == "1"
-            assert unit in str(node["examples"]) or unit == "1"
+def is_of(node, key):
+    """Whether a node says what the list says of a key."""
+    unit = getattr(key.value.about, "unit", "")
+    texts = [{"$ref": f"#/$defs/{NAMES[unit]}"}] if unit else []
+    default = None if key.default is None else tomllib.loads(f"x = {key.default}")["x"]
+    return (
+        " ".join(key.meaning.split()) in node["description"]
+        and json.dumps(node.get("default")) == json.dumps(default)
+        and (unit in ("", "1") or (f" in {unit}" in node["description"] and unit in node["examples"][0]))
+        and all(text in node["anyOf"] + node["anyOf"][0].get("anyOf", []) for text in texts)
+    )
+
+
+def test_an_editor_is_shown_every_key_with_its_meaning_unit_and_default(written):
+    case = written.schema["additionalProperties"]
+    found = {}
+    for path, node in shown({"properties": case["properties"]}):
+        found.setdefault(path, []).append(node)
+    listed = [key for kind in kinds() for key in (*common_keys(), *keys(kind))]
+    assert {path for path in found if "like" not in path} == {key.path for key in listed} - {"like"}
+    for key in listed:
+        assert any(is_of(node, key) for node in found[key.path]), key.path
+    together = {choice["title"]: choice["propertyNames"]["enum"] for choice in case["anyOf"]}
+    for kind in kinds():
+        assert set(together[kind]) == {
+            key.path for key in (*common_keys(), *keys(kind)) if not re.search(r"\W", key.path)
+        }
+
+
+def test_a_fault_is_shown_where_it_is(written):
+    places = {
+        'rod.length = "3 kg"': "$.mine.rod.length",
+        'rod.lenght = "3 m"': "$.mine.rod",
+        'gravity.along = "down"': "$.mine.gravity.along",
+        'lenght = "3 m"': "$.mine",
+    }
+    for text, place in places.items():
+        assert place in [error.json_path for error in written.iter_errors(mine(text))]
 
 
 @pytest.mark.parametrize(("options", "made"), [([], as_written), (["--merged"], merged)])

@@ -33,7 +33,7 @@ def as_written() -> Schema:
         "minProperties": 1,
         "propertyNames": {"pattern": "^(?:_.*|[A-Za-z][A-Za-z0-9_-]*)$"},
         "patternProperties": {"^_": part},
-        "additionalProperties": {"anyOf": [_case(kind, whole=False) for kind in kinds()]},
+        "additionalProperties": _case_of_any_kind(),
         "$defs": _shared(whole=False),
     }
 
@@ -85,6 +85,25 @@ def _case(kind: str, *, whole: bool) -> Schema:
         **table,
         "properties": nodes | table["properties"],
     }
+
+
+def _case_of_any_kind() -> Schema:
+    """A case whose `kind` may come from `like`: every key of any kind, then which of them go together.
+
+    So an editor shows a key of several kinds once, and a fault where it is.
+    """
+    cases = {kind: _case(kind, whole=False)["properties"] for kind in kinds()}
+    names = dict.fromkeys(name for nodes in cases.values() for name in nodes)
+    alike = {name: [node for node in cases.values() if name in node] for name in names}
+    properties = {
+        name: _any(list({repr(nodes[name]): nodes[name] for nodes in having}.values()))
+        for name, having in alike.items()
+    }
+    together = [
+        {"title": kind, "properties": {"kind": {"const": kind}}, "propertyNames": {"enum": list(nodes)}}
+        for kind, nodes in cases.items()
+    ]
+    return {"type": "object", "properties": properties, "additionalProperties": False, "anyOf": together}
 
 
 def _problem(kind: str, *, whole: bool) -> Schema:
