@@ -171,7 +171,7 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
 
 rule chapter:
     input:
-        package("thesis/book", "thesis/table", "figures", "thesis/figures"),
+        package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
         "results/check.txt",
         "results/report.csv",
         "results/tolerances.csv",
@@ -209,6 +209,7 @@ rule peers:  # its table is tracked, so it is the output of no rule, and measure
 rule book:
     input:
         package("thesis/book"),
+        "cosserat/__init__.py",
         notebooks=expand("results/notebooks/{chapter}.ipynb", chapter=CHAPTERS),
     output:
         "results/book/index.html",

@@ -35,6 +35,8 @@
 # results_table
 # errata
 # left_out
+# case_keys
+# python_api
 # ```
 
 # %% tags=["remove-input"]

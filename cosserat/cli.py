@@ -95,6 +95,16 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("file", type=Path, help="netCDF file of ours")
     sub.add_argument("-o", "--output", type=Path, help="SVG file to write (default: beside the file)")
 
+    sub = add("describe", _describe, "list the kinds of cases, or what a case of one kind may say")
+    sub.add_argument("kind", nargs="*", help="such as rod statics (default: list the kinds)")
+
+    sub = add("schema", _schema, "print the JSON Schema of case files, for editors")
+    sub.add_argument(
+        "--merged",
+        action="store_true",
+        help="of one case with everything that 'like' brings in (default: of a file as it is written)",
+    )
+
     for publication in publications():
         publication.add_commands()(add)
     return parser
@@ -198,6 +208,20 @@ def _report_progress(share: float, words: str) -> None:
     """A line that overwrites itself on a terminal, and nothing elsewhere."""
     if sys.stderr.isatty():
         print(f"\r{share:4.0%}  {words}   ", end="" if share < 1 else "\n", file=sys.stderr, flush=True)
+
+
+def _describe(options: argparse.Namespace) -> None:
+    from cosserat.describe.text import list_of_keys, list_of_kinds
+
+    print(list_of_keys(" ".join(options.kind)) if options.kind else list_of_kinds())
+
+
+def _schema(options: argparse.Namespace) -> None:
+    import json
+
+    from cosserat.describe.schema import as_written, merged
+
+    print(json.dumps(merged() if options.merged else as_written(), indent=1, ensure_ascii=False))
 
 
 def _show(options: argparse.Namespace) -> None:

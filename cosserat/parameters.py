@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import difflib
+import functools
 import inspect
 import itertools
 import math
@@ -18,7 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Self, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler, ValidationError
 from pydantic_core import ErrorDetails, PydanticCustomError, core_schema
 
 from cosserat.errors import InputError
@@ -107,6 +108,14 @@ class OneOf:
         return core_schema.no_info_plain_validator_function(self.check)
 
 
+def _none_by_word(value: object) -> object:
+    return None if value == "none" else value
+
+
+NONE_BY_WORD = BeforeValidator(_none_by_word)
+"""Annotation: a file has no word for nothing, so 'none' takes away what `like` brought in."""
+
+
 class Parameters(BaseModel):
     """Base of every parameter object: frozen, and no key passes unread."""
 
@@ -184,15 +193,13 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
     if place is None:
         return ""
     field = place.model_fields[key]
-    meaning = [_words(place, key)]
+    meaning = [_first_sentence(docstrings(place).get(key))]
     remedy = "see the cases in cosserat/thesis/cases for examples"
     tables = _classes_in(field.annotation)
     for about in field.metadata:
         if isinstance(about, Quantity | Count):
-            equation = re.fullmatch(r"\d+(\.\d+){2}", about.source)
-            source = f"eq. ({about.source})" if equation else about.source
             letter = re.sub(r"\\(?:mathbf|bar|tilde)|[\\{}]", "", about.symbol)
-            meaning.append(" of ".join(filter(None, (letter, source))))
+            meaning.append(" of ".join(filter(None, (letter, cited(about.source)))))
             least = f"write a whole number, {about.at_least} or more" if isinstance(about, Count) else ""
             remedy = least or how_to_write(getattr(about, "unit", "1"))
     if tables:
@@ -207,18 +214,27 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
     return ", ".join(["", *filter(None, meaning)]) + f": {remedy}"
 
 
-def _words(owner: type[BaseModel], key: str) -> str:
-    """The first sentence of the text below a field in the source of its class, if there is one."""
-    for place in owner.__mro__:
-        if key not in inspect.get_annotations(place):
+def cited(source: str) -> str:
+    """Where something stands in the thesis, as a sentence has it: an equation by its number, else as given."""
+    return f"eq. ({source})" if re.fullmatch(r"\d+(\.\d+){2}", source) else source
+
+
+@functools.cache
+def docstrings(owner: type[BaseModel]) -> Mapping[str, str]:
+    """The text below each field in the source of its class, for those that have one; bases included."""
+    found: dict[str, str] = {}
+    for place in reversed(owner.__mro__):
+        if not (issubclass(place, BaseModel) and inspect.get_annotations(place)) or place is BaseModel:
             continue
         body = ast.parse(textwrap.dedent(inspect.getsource(place))).body[0]
         assert isinstance(body, ast.ClassDef)
         for field, below in itertools.pairwise(body.body):
-            named = isinstance(field, ast.AnnAssign) and ast.unparse(field.target) == key
-            if named and isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
-                return _first_sentence(str(below.value.value))
-    return ""
+            if not isinstance(field, ast.AnnAssign):
+                continue
+            found.pop(key := ast.unparse(field.target), "")
+            if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
+                found[key] = inspect.cleandoc(str(below.value.value))
+    return found
 
 
 def _first_sentence(text: str | None) -> str:

@@ -35,6 +35,12 @@ _KINDS = {
 }
 """What a number in a unit is; of the units without a word, the unit itself is said."""
 
+
+def what_is_in(unit: str) -> str:
+    """What a number in a unit is, such as "a length"; of units without a word, "a quantity"."""
+    return _KINDS.get(unit, "a quantity")
+
+
 _ALIKE = {"m^-1": "rad/m"}
 """Units that may be written for another, though pint's own rule, that an angle is a number, holds nowhere else."""
 
@@ -112,12 +118,35 @@ def _read_text(text: str, unit: str) -> float:
     except Exception:  # the unit parser raises errors of many kinds on text that is no unit
         raise refused("type", "whose unit is not known", _meant(rest, unit)) from None
     wanted = "" if unit == "1" else unit
-    if root not in (_root(wanted), _root(_ALIKE.get(unit, wanted))):
+    if not _alike(root, unit):
         why = f"in {rest}{_instead(root, unit)}" if rest else "in no unit at all"
         raise refused("unit", why, _meant(written, unit))
     if _units().Quantity(0.0, written).to(wanted).magnitude:
         raise refused("unit", f"in {rest}, whose zero is not zero {unit}")
     return float(read.to(wanted).magnitude)
+
+
+def is_read_as(written: str, unit: str) -> bool:
+    """Whether a number in a unit as someone writes it is read where a number in `unit` is asked for."""
+    root = _written_root(written)
+    return root is not None and _alike(root, unit)
+
+
+@functools.cache
+def _written_root(written: str) -> object:
+    """What a unit comes to as someone writes it; None if it is not known."""
+    try:
+        return _root(_as_pint_writes(_in_plain_characters(written)))
+    except Exception:  # the unit parser raises errors of many kinds on text that is no unit
+        return None
+
+
+def _alike(root: object, unit: str) -> bool:
+    """Whether a unit that comes to `root` may stand for `unit`."""
+    return root in (
+        _root("" if unit == "1" else unit),
+        _root(_ALIKE.get(unit, "" if unit == "1" else unit)),
+    )
 
 
 def _in_plain_characters(text: str) -> str:
@@ -144,6 +173,7 @@ def _as_pint_writes(unit: str) -> str:
     return unit
 
 
+@functools.cache
 def _root(unit: Any) -> object:
     """A unit in those that pint takes for the simplest, of which the radian is one."""
     return _units().Quantity(1.0, unit).to_root_units().units

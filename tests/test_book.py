@@ -1,14 +1,21 @@
 """The book: pages whose equations can be read, and a folder from which nothing is removed that is not of a book."""
 
+import html
 import re
 import shutil
 from pathlib import Path
 
+import jupytext
 import nbformat
 import pytest
+from conftest import ROOT
 
+import cosserat
+from cosserat.describe.keys import common_keys, keys
 from cosserat.errors import CosseratError, InputError
+from cosserat.publications import kinds
 from cosserat.thesis.book import page
+from cosserat.thesis.book.api import as_markup
 from cosserat.thesis.book.build import render
 
 pytestmark = pytest.mark.filterwarnings(
@@ -174,3 +181,92 @@ def test_a_book_that_cannot_be_built_leaves_the_old_one(notebooks, book, tmp_pat
     with pytest.raises(CosseratError, match="could not be built"):
         render([bad, notebooks[1]], book)
     assert contents(book) == before
+
+
+def test_the_page_of_keys_has_every_kind_under_its_own_heading():
+    text = (ROOT / "chapters" / "case_keys.py").read_text()
+    parts = re.findall(r"^# ## (.*?)\n.*?^page\.(.*?)$", text, flags=re.MULTILINE | re.DOTALL)
+    assert parts == [("every case", "common_keys()"), *((kind, f'keys("{kind}")') for kind in kinds())]
+
+
+def test_the_page_of_keys_has_an_address_for_every_key_and_all_it_says():
+    shown = page.common_keys().data + "".join(page.keys(kind).data for kind in kinds())
+    addresses = re.findall(r'id="([^"]+)"', shown)
+    assert len(addresses) == len(set(addresses))
+    assert len(addresses) == len(common_keys()) + sum(len(keys(kind)) for kind in kinds())
+    headings = {kind.replace(" ", "-") for kind in kinds()}
+    assert set(re.findall(r'href="#([^"]+)"', shown)) <= {*addresses, *headings}
+    assert {"rod-motion.rod.length", "crawl.crawler.material.young.compressible"} <= set(addresses)
+    text = html.unescape(re.sub(r"<[^>]+>", "", shown))
+    for kind in kinds():
+        for key in keys(kind):
+            assert key.path in text
+            assert " ".join(key.meaning.replace("`", "").split()) in text
+    assert r"\(\ell_0\), eq. (3.3.1)" in text
+    assert 'a table, a whole problem of kind <a href="#rod-statics">rod statics</a>; required' in shown
+
+
+@pytest.fixture(scope="module")
+def reference_page(tmp_path_factory):
+    """The page of the Python API as it is built, as text."""
+    folder = tmp_path_factory.mktemp("api")
+    notebook = jupytext.read(ROOT / "chapters" / "python_api.py")
+    notebook.metadata["language_info"] = {"name": "python", "pygments_lexer": "python3"}
+    index = "# Index\n\n```{toctree}\npython_api\ncase_keys\n```"
+    for name, cells in (
+        ("python_api", notebook.cells),
+        ("index", [nbformat.v4.new_markdown_cell(index)]),
+        ("case_keys", [nbformat.v4.new_markdown_cell("# Keys")]),
+    ):
+        nbformat.write(
+            nbformat.v4.new_notebook(cells=cells, metadata=notebook.metadata), folder / f"{name}.ipynb"
+        )
+    render(sorted(folder.glob("*.ipynb")), folder / "book")
+    article = (
+        (folder / "book" / "python_api.html").read_text().split("<article")[1].split("</article>")[0]
+    )
+    return " ".join(html.unescape(re.sub(r"<[^>]+>", "", article)).split())
+
+
+def test_the_page_of_the_api_has_every_public_name_with_its_docstring(reference_page):
+    for name in cosserat.__all__:
+        assert f"cosserat.{name}" in reference_page
+        first = getattr(cosserat, name).__doc__.strip().split("\n\n")[0]
+        assert " ".join(first.replace("`", "").split()).replace("'", "’")[:60] in reference_page.replace(
+            "'", "’"
+        )
+
+
+def test_the_page_of_the_api_shows_signatures_as_they_are_written(reference_page):
+    assert "cosserat.run( case: Case | str, *, result: str | Path | None = None," in reference_page
+    assert "class cosserat.rods.rod.Rod( *, energy=..., vertices, length, height," in reference_page
+    assert "couples: Array | None = None, ) → PublishedRod | ConsistentRod" in reference_page
+    assert "solve( name: str, run: Run = ALONE, ) → Solution" in reference_page
+    assert not re.search(
+        r"0x[0-9a-f]{6}|ForwardRef|ndarray\[|<function|model_config|Report nothing|factory|~",
+        reference_page,
+    )
+
+
+def test_docstrings_are_plain_text_with_terms_and_sections():
+    docstring = """The norm ||E|| of x_ * y.
+
+    length, width : of the rod,
+        both [m].  unit : of either.
+
+    Raises
+    ------
+    InputError : it is `wrong`.
+    """
+    lines = [line.removeprefix("    ") for line in docstring.split("\n")]
+    assert as_markup(lines) == [
+        r"The norm \|\|E\|\| of x\_ \* y.",
+        "",
+        "* ``length, width``: of the rod, both [m].",
+        "* ``unit``: of either.",
+        "",
+        "Raises:",
+        "",
+        "* ``InputError``: it is `wrong`.",
+        "",
+    ]

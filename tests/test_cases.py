@@ -170,15 +170,18 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
     [
         (
             'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
-            "'rod.height' is missing, H of section 3.5: write it with its unit, such as \"2.5 m\"; ",
+            "'rod.height' is missing, height of the section, in the plane of motion, H of section 3.5: write it "
+            'with its unit, such as "2.5 m"; ',
         ),
         (
             'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
-            "'rod.shear_correction' is missing, k of eq. (3.4.13): write a number, such as 0.3",
+            "'rod.shear_correction' is missing, factor of the shear stiffness k mu A, k of eq. (3.4.13): "
+            "write a number, such as 0.3",
         ),
         (
             'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
-            "'rod.vertices' is missing, N of eq. (3.3.1): write a whole number, 3 or more; ",
+            "'rod.vertices' is missing, number of vertices of the discrete rod, both ends counted, N of eq. (3.3.1): "
+            "write a whole number, 3 or more; ",
         ),
         (
             'kind = "rod statics"\nsupports = []',
@@ -186,15 +189,16 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
         ),
         (
             'like = "clamped_free"\nsupports = [{ fixed = ["x3"] }]',
-            "'supports.0.at' is missing: see the cases in cosserat/thesis/cases for examples",
+            "'supports.0.at' is missing, the vertex that is held: see the cases in cosserat/thesis/cases for examples",
         ),
         (
             'like = "clamped_free"\ngravity = "none"\nforces = [{ at = 1, force = "1 N" }]',
-            "'forces.0.along' is missing: write 'E3' or '-E3' or 'E2' or '-E2'",
+            "'forces.0.along' is missing, direction of the force: write 'E3' or '-E3' or 'E2' or '-E2'",
         ),
         (
             'kind = "crawl"\ncrawler.material.kind = "incompressible"',
-            "'crawler.material.young' is missing, E of eq. (2.6.17): write it with its unit, such as \"2.5 Pa\"",
+            "'crawler.material.young' is missing, young's modulus, E of eq. (2.6.17): write it "
+            'with its unit, such as "2.5 Pa"',
         ),
         (
             'kind = "crawl"\nloads.advancing = "1 Pa"',

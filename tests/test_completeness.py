@@ -35,6 +35,7 @@ ROOMS = (
     "problems",
     "studies",
     "cases",
+    "describe",
     "data",
     "runner",
     "figures",

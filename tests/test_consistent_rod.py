@@ -41,7 +41,7 @@ def small_rod(section="free", barrier=False, poisson=0.3, offset=0.0, displaceme
         stiffness,
         barrier=barrier,
         product=section == "incompressible",
-        offset=offset,
+        offsets=offset,
         displacements=displacements,
     )
 

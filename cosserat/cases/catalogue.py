@@ -34,9 +34,13 @@ class Case(Parameters):
     """One computation: a name, a title, where in the thesis it stands, and the problem itself."""
 
     name: Annotated[str, AfterValidator(_check_name)]
+    """What the case is called: the name of its table in a file, and of the file of its result."""
     title: str
+    """What it is, in a few words; its name, if not given."""
     source: str = ""
+    """Where it stands in the thesis, or comes from."""
     problem: SerializeAsAny[Problem]
+    """What is asked."""
 
     def vary(self, name: str, **changes: Any) -> Case:
         """A case of another name with parts of the problem changed: `case.vary("long", rod={"length": "10 m"})`.

@@ -15,10 +15,10 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Parameters, Quantity
+from cosserat.parameters import NONE_BY_WORD, Parameters, Quantity
 from cosserat.rods.directed_rod import Section, integrated_stiffnesses
 
 Array = NDArray[np.float64]
@@ -36,8 +36,11 @@ class Compressible(Parameters):
 
     kind: Literal["compressible"] = "compressible"
     young: Annotated[float, Quantity("Pa", "E", "2.6.3", above=0)] | None = None
+    """Young's modulus."""
     poisson: Annotated[float, Quantity("1", r"\nu", "2.6.6", above=-1, below=0.5)] | None = None
+    """Poisson's ratio; not within 1e-4 of -1, where the stiffness becomes singular."""
     bulk: Annotated[float, Quantity("Pa", r"\kappa", "2.6.15", above=0)] | None = None
+    """Bulk modulus."""
 
     @model_validator(mode="after")
     def _two_of_three(self) -> Self:
@@ -79,22 +82,26 @@ class Incompressible(Parameters):
 
     kind: Literal["incompressible"] = "incompressible"
     young: Annotated[float, Quantity("Pa", "E", "2.6.17", above=0)]
+    """Young's modulus."""
 
 
 class Crawler(Parameters):
     """A straight round body on the ground."""
 
     length: Annotated[float, Quantity("m", r"\ell_0", "2.3.4", above=0)]
+    """Length of the resting body."""
     radius: Annotated[float, Quantity("m", "R", "2.2.8", above=0)]
+    """Radius of the resting body."""
     material: Annotated[Compressible | Incompressible, Field(discriminator="kind")]
-    mass: Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None = None
-    density: Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None = None
-
-    @field_validator("mass", "density", mode="before")
-    @classmethod
-    def _none_at_all(cls, value: object) -> object:
-        """A file has no word for nothing: 'none' takes away what `like` brought in."""
-        return None if value == "none" else value
+    """What the body is made of."""
+    mass: Annotated[Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None, NONE_BY_WORD] = (
+        None
+    )
+    """Mass of the body, spread evenly; this or 'density' is given."""
+    density: Annotated[
+        Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None, NONE_BY_WORD
+    ] = None
+    """Mass per volume of the resting body; this or 'mass' is given."""
 
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
@@ -157,10 +164,16 @@ class Loads(Parameters):
     advancing: Annotated[float, Quantity("Pa", "p", "2.2.8")]
     """Pressure of the circular muscles."""
     gravity: Annotated[float, Quantity("m/s^2", "g", "2.2.18", at_least=0)] = 9.81
+    """Acceleration of free fall; the body lies on level ground."""
     contact: Contact = "weight"
+    """Ground reaction: rho_0 g, or rho_0 g / mu_3 as printed in eq. (2.2.20) (erratum E2.7)."""
     advancing_force: AdvancingForce | None = None
-    """By default as the section on the material has it: "none" if compressible, "continuous" if incompressible."""
+    """Force n in advancing regions: zero (section 2.3) or that of the anchoring regions beside them (section 2.4).
+
+    By default as the section on the material has it: "none" if compressible, "continuous" if incompressible.
+    """
     multiplier: Multiplier = "balanced"
+    """Advancing regions of the incompressible rod: lambda_c mu_1 mu_2 constant, or eq. (2.4.18) as printed (E2.5)."""
 
 
 @dataclass(frozen=True)

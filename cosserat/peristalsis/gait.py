@@ -52,11 +52,14 @@ class Gait(Parameters):
     time at which one track ends and another begins, the one that ends counts.
     """
 
-    phases: tuple[Annotated[float, Quantity("s", "t_p, t_s", "2.8", above=0)], ...]
+    phases: tuple[Annotated[float, Quantity("s", "t_p, t_s", "section 2.8", above=0)], ...]
+    """Durations of the phases of one stride; tracks count phases from 0 on."""
     gamma: tuple[Track, ...] = ()
+    """Tracks of the fronts gamma, each of points [phase, place]; a place is a share of the length from the rear."""
     eta: tuple[Track, ...] = ()
+    """Tracks of the fronts eta, each a list of points [phase, place]."""
     anchor: tuple[Track, ...]
-    """Where the body holds on; the tracks follow each other without gaps."""
+    """Tracks of the point that holds on to the ground, likewise; they follow each other without gaps."""
     at_rest: Muscle = "anchoring"
     """The load on the whole body while no front is on it."""
     clearance: Annotated[float, Quantity("1", "", "2.5.9", above=0, below=0.1)] = 1e-6

@@ -32,8 +32,9 @@ class CrawlerProblem(Problem):
     crawler: Crawler
     loads: Loads
     solver: Literal["banded", "collocation"] = "banded"
-    """"collocation" is the thesis's way, `scipy.integrate.solve_bvp`: the reference, and slower."""
+    """How an instant is solved: "collocation" is the thesis's way, `scipy.integrate.solve_bvp`, and slower."""
     collocation_tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-2)] = 1e-4
+    """Tolerance of "collocation"."""
     mesh: RegionSettings = RegionSettings()
     sections: Annotated[int, Count(at_least=2, at_most=100_001)] = 251
     """Equally spaced cross-sections at which results are stored."""
@@ -104,8 +105,11 @@ class Segment(Parameters):
     """Where a load acts, in shares of the reference length."""
 
     begin: Annotated[float, Quantity("1", r"\tilde{\gamma}", "2.3.14")]
+    """Where the region begins, counted from the rear end."""
     end: Annotated[float, Quantity("1", r"\tilde{\eta}", "2.3.14")]
+    """Where the region ends, counted from the rear end."""
     load: Muscle
+    """Which muscles act: longitudinal ones anchor, circular ones advance."""
 
 
 class Posture(CrawlerProblem):
@@ -113,6 +117,7 @@ class Posture(CrawlerProblem):
 
     kind: Literal["posture"] = "posture"
     regions: tuple[Segment, ...]
+    """Where which load acts; from the rear end to the front end, without gaps."""
 
     @model_validator(mode="after")
     def _cover_the_body(self) -> Self:
@@ -173,7 +178,9 @@ class Crawl(CrawlerProblem):
     thinned: ClassVar[Mapping[str, int]] = {"time": 40, "section": 20}
     gait: Gait
     strides: Annotated[int, Count(at_least=1, at_most=10_000)] = 3
+    """Number of strides."""
     step: Annotated[float, Quantity("s", "t_{step}", "2.5.9", above=0)]
+    """Longest time between two instants."""
 
     @model_validator(mode="after")
     def _is_possible(self) -> Self:

@@ -34,7 +34,9 @@ class Start(Parameters):
     amplitude: Annotated[float, Quantity("m")] = 0.0
     """Displacement of the tip in the first beam mode, twice A_1 of eq. (3.5.16)."""
     speed: Annotated[float, Quantity("m/s")] = 0.0
+    """Speed of the whole rod."""
     along: Direction = "E3"
+    """Direction of that speed."""
     spin: Annotated[float, Quantity("rad/s")] = 0.0
     """Rate of rotation about the first vertex, from E3 towards E2."""
 
@@ -48,6 +50,7 @@ class RodMotion(RodProblem):
     thinned: ClassVar[Mapping[str, int]] = {"time": 40}
     start: Start = Start()
     duration: Annotated[float, Quantity("s", above=0)]
+    """Time from the start to the end."""
     every: Annotated[float, Quantity("s", above=0)]
     """Time between two frames."""
     damping: Annotated[float, Quantity("1", r"\zeta", "section 3.5", at_least=0)] = 0.0

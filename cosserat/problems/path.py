@@ -30,7 +30,9 @@ class ArcSettings(Parameters):
     """How the path is followed; arcs are counted in radians of the fastest turning section, and shares of the load."""
 
     first: Annotated[float, Quantity("1", above=0)] = 0.05
+    """Length of the first arc."""
     longest: Annotated[float, Quantity("1", above=0)] = 0.3
+    """Length of the longest arc."""
     count: Annotated[int, Count(at_least=1, at_most=100_000)] = 500
     """Most arcs."""
     limit: Annotated[float, Quantity("1", above=1)] = 3.0
@@ -40,7 +42,10 @@ class ArcSettings(Parameters):
 
 
 class RodPath(RodProblem):
-    """All loads grow together from nothing; the path ends when they reach their full size, or after the last arc."""
+    """Equilibria along a path, as all loads grow together from nothing.
+
+    The path ends when they reach their full size, or after the last arc.
+    """
 
     kind: Literal["rod path"] = "rod path"
     newton: NewtonSettings = NewtonSettings()

@@ -123,6 +123,7 @@ class Constraint(Parameters):
     """A constraint at one vertex, as a case says it."""
 
     at: Vertex
+    """The vertex that is constrained."""
 
     @property
     def fixes(self) -> tuple[DofName, ...]:
@@ -151,6 +152,7 @@ class Support(Constraint):
     """Numbers of one vertex that keep their reference value."""
 
     fixed: tuple[DofName, ...]
+    """Degrees of freedom that keep their reference value: components of the position (x) and of the director (d)."""
 
     @property
     def fixes(self) -> tuple[DofName, ...]:
@@ -168,8 +170,11 @@ class PrescribedDisplacement(Constraint):
     """
 
     dof: DofName
+    """Which of its fixed degrees of freedom is moved."""
     by: Annotated[float, Quantity("m")]
+    """How far it is moved from its reference value; to and fro, the amplitude."""
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
+    """Frequency of moving to and fro; with zero it is moved once."""
 
     @property
     def moves(self) -> tuple[DofName, ...]:
@@ -193,7 +198,9 @@ class PrescribedRotation(Constraint):
     """
 
     by: Annotated[float, Quantity("rad")]
+    """Angle from E3 towards E2; to and fro, the amplitude."""
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
+    """Frequency of turning to and fro; with zero it is turned once."""
 
     @property
     def moves(self) -> tuple[DofName, ...]:

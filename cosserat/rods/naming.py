@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
 
 
-class _VertexName:
+class VertexName:
     """Annotation: 'first', 'last' or an index."""
 
     @staticmethod
@@ -34,7 +34,7 @@ class _VertexName:
         return core_schema.no_info_plain_validator_function(self.check)
 
 
-Vertex = Annotated[str | int, _VertexName()]
+Vertex = Annotated[str | int, VertexName()]
 Direction = Literal["E3", "-E3", "E2", "-E2"]
 DofName = Literal["x3", "x2", "d3", "d2"]
 

@@ -52,12 +52,18 @@ class RodProblem(Problem):
     """Keys of loads whose potential is there even where none is given, for its internal variables."""
     rod: Rod
     supports: tuple[Support, ...]
+    """What holds the rod; empty for a free one, which only a motion may be."""
     gravity: Gravity | None = None
     forces: tuple[PointForce, ...] = ()
+    """Dead forces, each at one vertex."""
     line_loads: tuple[LineLoad, ...] = ()
+    """Dead forces per length, each over a stretch of the rod."""
     couples: tuple[Couple, ...] = ()
+    """Moments, each on one section."""
     prescribed_displacements: tuple[PrescribedDisplacement, ...] = ()
+    """Fixed degrees of freedom that are moved."""
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()
+    """Fixed sections that are turned."""
 
     def loads_of(self, key: str) -> tuple[Load, ...]:
         """The loads of one kind."""

@@ -6,10 +6,10 @@ from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import field_validator, model_validator
+from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Count, OneOf, Parameters, Quantity
+from cosserat.parameters import NONE_BY_WORD, Count, OneOf, Parameters, Quantity
 from cosserat.rods.energies import ENERGIES, energy_named
 from cosserat.rods.energies.compliance import LateralConstraint
 from cosserat.rods.energies.energy import Energy
@@ -34,34 +34,39 @@ class Rod(Parameters):
     energy: Annotated[str, OneOf(ENERGIES)] = "published"
     """The thesis's energy (3.4.11) with its calibration, or the one that converges, of `rods.energies.reissner`."""
     vertices: Annotated[int, Count("N", "3.3.1", at_least=3)]
+    """Number of vertices of the discrete rod, both ends counted."""
     length: Annotated[float, Quantity("m", r"\ell_0", "3.3.1", above=0)]
+    """Length of the centreline in the reference configuration."""
     height: Annotated[float, Quantity("m", "H", "section 3.5", above=0)]
+    """Height of the section, in the plane of motion."""
     width: Annotated[float, Quantity("m", "W", "section 3.5", above=0)]
+    """Width of the section, across the plane of motion."""
     young: Annotated[float, Quantity("Pa", "E", "section 3.5", above=0)]
+    """Young's modulus."""
     poisson: Annotated[float, Quantity("1", r"\nu", "section 3.5", above=-1, below=0.5)]
+    """Poisson's ratio."""
     line_density: Annotated[float, Quantity("kg/m", r"\rho_0", "section 3.5", above=0)]
+    """Mass per length of the reference configuration."""
     shear_correction: Annotated[float, Quantity("1", "k", "3.4.13", above=0)]
+    """Factor of the shear stiffness k mu A; 5/6 for a rectangle."""
     stations: tuple[Station, ...] = ()
     """How width, height, modulus, Poisson's ratio and density vary along the rod."""
     centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
     """Height of the centreline above the lower surface, as a share of the section's; directors reach the upper one."""
     curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")] = 0.0
-    """Of the reference configuration, an arc that turns from E3 towards E2."""
-    calibration: Calibration | None = None
-    """Of the published energy, which cannot do without; the consistent one takes none."""
+    """Curvature of the reference configuration, an arc that turns from E3 towards E2."""
+    calibration: Annotated[Calibration | None, NONE_BY_WORD] = None
+    """Coefficients of the published energy, which cannot do without them; the consistent one takes none."""
     lateral_constraint: LateralConstraint = "free"
     """What the sections of the consistent rod may do in E1; the published one has no such choice."""
     barrier: bool = False
     """Whether the consistent rod resists collapse as Fig. 3.7 shows; equal to second order in the strains."""
     end_sections: EndSections = "full"
+    """Whether the end vertices of the published energy have full areas, or half of them, as eq. (3.4.10) is printed."""
     poisson_coupling: PoissonCoupling = "halved"
+    """Whether the last term of eq. (3.4.11) is halved, which the published c7 fits, or as printed (erratum E3.2)."""
     intrinsic_curvature: IntrinsicCurvature = "subtracted"
-
-    @field_validator("calibration", mode="before")
-    @classmethod
-    def _none_at_all(cls, value: object) -> object:
-        """A file has no word for nothing: 'none' takes away a calibration that `like` brought in."""
-        return None if value == "none" else value
+    """Whether the published energy measures bending from the reference, or from a straight rod, as printed (E3.24)."""
 
     @model_validator(mode="after")
     def _sound(self) -> Self:

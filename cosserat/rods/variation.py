@@ -22,12 +22,17 @@ class Station(Parameters):
     """
 
     at: Annotated[float, Quantity("m", r"\xi", "3.4.8", at_least=0)]
+    """Distance from the first vertex along the reference centreline."""
     width: Annotated[float, Quantity("1", above=0)] = 1.0
+    """Width of the section, as a share of the rod's."""
     height: Annotated[float, Quantity("1", above=0)] = 1.0
+    """Height of the section, as a share of the rod's."""
     young: Annotated[float, Quantity("1", above=0)] = 1.0
+    """Young's modulus, as a share of the rod's."""
     poisson: Annotated[float, Quantity("1")] = 1.0
+    """Poisson's ratio, as a share of the rod's."""
     density: Annotated[float, Quantity("1", above=0)] = 1.0
-    """Of mass per volume: the line density goes with this times the area."""
+    """Mass per volume, as a share of the rod's: the line density goes with this times the area."""
 
 
 class Shares(NamedTuple):

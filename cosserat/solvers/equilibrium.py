@@ -33,6 +33,7 @@ class NewtonSettings(Parameters):
     tolerance: Annotated[float, Quantity("1", above=0, below=1)] = 1e-10
     """Largest unbalanced force allowed, as a share of the largest load or reaction."""
     max_iterations: Annotated[int, Count(at_least=1)] = 50
+    """Most Newton iterations of an equilibrium."""
     load_increments: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
     """Equal steps in which the load is brought up."""
 

@@ -63,6 +63,7 @@ class RegionSettings(Parameters):
     tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-3)] = 1e-11
     """Largest correction of a converged answer."""
     max_iterations: Annotated[int, Count(at_least=1)] = 50
+    """Most Newton iterations of an instant."""
 
 
 @dataclass(frozen=True)

@@ -55,10 +55,15 @@ class CalibrationProcedure(Problem):
 
     kind: Literal["calibration"] = "calibration"
     meshes: tuple[Annotated[int, Count("N", "3.3.1", at_least=5)], ...]
+    """Numbers of vertices at which to calibrate."""
     hanging_bar: RodStatics
+    """The bar that hangs under its weight, Fig. 3.8(a)."""
     clamped_free: RodStatics
+    """The beam clamped at its first vertex, Fig. 3.8(b)."""
     clamped_clamped: RodStatics
+    """The beam clamped at both ends, Fig. 3.8(c)."""
     necking: RodStatics
+    """The bar pulled at both ends, Fig. 3.8(d)."""
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Fit every problem at every mesh, and measure the published coefficients there.

@@ -47,9 +47,13 @@ class Convergence(Problem):
 
     kind: Literal["convergence"] = "convergence"
     meshes: tuple[Annotated[int, Count("N", "3.3.1", at_least=5)], ...]
+    """Numbers of vertices; odd, so that a vertex stands at mid-span."""
     clamped_free: RodStatics
+    """A beam clamped at its first vertex, under its weight."""
     clamped_clamped: RodStatics
+    """A beam clamped at both ends, under its weight."""
     necking: RodStatics
+    """A bar pulled at both ends, its end sections held."""
     slender: RodStatics
     """A clamped rod, of which the elastica and the frequencies are asked."""
 

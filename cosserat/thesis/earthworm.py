@@ -86,8 +86,11 @@ class BodyMasses(Problem):
 
     kind: Literal["body masses"] = "body masses"
     worm: Crawl
+    """The worm that is scaled."""
     masses: tuple[Annotated[float, Quantity("kg", "m", "2.8.4", above=0)], ...]
+    """Body masses."""
     muscles: Muscles = "constant stress"
+    """Law by which force and pressure of the muscles follow the body mass."""
 
     @model_validator(mode="after")
     def _has_masses(self) -> Self:

@@ -30,10 +30,15 @@ class WormCalibration(Problem):
 
     kind: Literal["worm calibration"] = "worm calibration"
     worm: Crawl
+    """The worm whose E, D and p are fitted, from its own on."""
     mu_1_ratio: Annotated[float, Quantity("1", r"\mu_1", "2.8.6", above=0)]
+    """Radial stretch of segment 50, circular over longitudinal contraction."""
     mu_3_ratio: Annotated[float, Quantity("1", r"\mu_3", "2.8.6", above=0)]
+    """Axial stretch of segment 50, circular over longitudinal contraction."""
     p_longitudinal: Annotated[float, Quantity("Pa", "p_{coelom}", "2.8.8", above=0)]
+    """Coelomic pressure of segment 50 in longitudinal contraction."""
     p_circular: Annotated[float, Quantity("Pa", "p_{coelom}", "2.8.8", above=0)]
+    """Coelomic pressure of segment 50 in circular contraction."""
 
     @model_validator(mode="after")
     def _can_be_fitted(self) -> Self:

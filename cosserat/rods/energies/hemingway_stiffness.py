@@ -17,12 +17,19 @@ class Calibration(Parameters):
     """The calibration coefficients of eq. (3.4.13)."""
 
     c1: Annotated[float, Quantity("1", "c_1", "3.4.13", above=0)]
+    """Factor of the stretching stiffness of the edges."""
     c2: Annotated[float, Quantity("1", "c_2", "3.4.13", above=0)]
+    """Factor of the stretching stiffness of the sections."""
     c3: Annotated[float, Quantity("1", "c_3", "3.4.13", above=0)]
+    """Factor of the bending stiffness."""
     c4: Annotated[float, Quantity("1", "c_4", "3.4.13", above=0)]
+    """Factor of the shear stiffness."""
     c5: Annotated[float, Quantity("1", "c_5", "3.4.13", at_least=0)]
+    """Factor of the stiffness against shearing that changes along the rod."""
     c6: Annotated[float, Quantity("1", "c_6", "3.4.13", at_least=0)]
+    """Factor of the stiffness against section stretches that change along the rod."""
     c7: Annotated[float, Quantity("1", "c_7", "3.4.13")]
+    """Factor of the Poisson coupling of edges and sections."""
 
 
 class Stiffness(NamedTuple):

@@ -40,7 +40,9 @@ class Couple(Load):
     """A moment on one section, positive from E3 towards E2, that turns with it: it does the work of a couple."""
 
     at: Vertex
+    """The vertex whose section is turned."""
     moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
+    """Moment, positive from E3 towards E2."""
 
     @property
     def vertices(self) -> tuple[Vertex, ...]:

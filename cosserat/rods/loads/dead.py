@@ -43,7 +43,9 @@ class Gravity(DeadLoad):
     """The weight of the rod: its mass matrix times a uniform acceleration, which lumped is rho0 g L of section 3.5."""
 
     g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
+    """Acceleration of free fall."""
     along: Direction
+    """Direction in which things fall."""
 
     def on_dofs(self, body: LoadedRod) -> Array:
         """The same mass as in motion."""
@@ -56,8 +58,11 @@ class PointForce(DeadLoad):
     """A dead force on the centreline at one vertex."""
 
     at: Vertex
+    """The vertex that is pulled."""
     along: Direction
+    """Direction of the force."""
     force: Annotated[float, Quantity("N", "n", "section 3.5")]
+    """Size of the force; a negative one pulls the other way."""
 
     @property
     def vertices(self) -> tuple[Vertex, ...]:
@@ -75,10 +80,13 @@ class LineLoad(DeadLoad):
     """A dead force per length on the centreline, over a stretch of it."""
 
     along: Direction
+    """Direction of the load."""
     density: Annotated[float, Quantity("N/m")]
+    """Force per length of the reference centreline."""
     start: Annotated[float, Quantity("m", at_least=0)] = 0.0
+    """Where the load begins, counted along the reference centreline."""
     end: Annotated[float, Quantity("m", above=0)] | None = None
-    """The end of the rod, if not given."""
+    """Where the load ends; at the end of the rod, if not given."""
 
     def check(self, rod: Rod) -> None:
         """It begins before it ends, on the rod."""

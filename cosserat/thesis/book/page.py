@@ -18,7 +18,11 @@ import xarray as xr
 from IPython.display import HTML, Markdown
 
 from cosserat.data.dataset import load
+from cosserat.describe import keys as listing
+from cosserat.describe.keys import Key
+from cosserat.describe.text import need, type_of
 from cosserat.errors import InputError, OutOfToleranceError
+from cosserat.parameters import cited
 from cosserat.thesis.figures.catalogue import entry
 from cosserat.thesis.table.errata import Erratum, read_errata
 from cosserat.thesis.table.left_out import LeftOutList, read_left_out
@@ -115,6 +119,58 @@ def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
 def _mathematics(html: str) -> str:
     """What stands between dollars, as the book's other mathematics: MathJax leaves the dollars of an output alone."""
     return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)
+
+
+def common_keys() -> HTML:
+    """The keys that a case of any kind may have, as a list of definitions."""
+    return _definitions("every case", listing.common_keys())
+
+
+def keys(kind: str) -> HTML:
+    """Every key of a kind, as a list of definitions with an address each.
+
+    Raises
+    ------
+    InputError : there is no such kind.
+    """
+    return _definitions(kind, listing.keys(kind), f"<p>{_prose(listing.title(kind))}</p>")
+
+
+def _definitions(kind: str, found: Sequence[Key], before: str = "") -> HTML:
+    entries = []
+    for key in found:
+        address = anchor(kind, key)
+        where = f' where <code>kind = "{key.when}"</code>' if key.when and key.name != "kind" else ""
+        about = key.value.innermost.about
+        marks = (
+            [] if about is None else [f"${about.symbol}$" if about.symbol else "", cited(about.source)]
+        )
+        source = ", ".join(filter(None, marks))
+        entries.append(
+            f'<dt id="{address}"><a href="#{address}"><code>{key.path}</code></a>{where}</dt>'
+            f"<dd><p>{_linked(key)}; {escape(need(key))}</p><p>{_prose(key.meaning)}</p>"
+            + (f"<p>{_mathematics(escape(source))}</p>" if source else "")
+            + "</dd>"
+        )
+    return HTML(f'{before}<dl class="keys">{"".join(entries)}</dl>')
+
+
+def anchor(kind: str, key: Key) -> str:
+    """The address of a key on the page of all keys."""
+    words = ".".join(filter(None, (kind, key.path.replace("[]", ""), key.when)))
+    return words.replace(" ", "-")
+
+
+def _linked(key: Key) -> str:
+    """The type of a key; a whole problem leads to the keys of its kind."""
+    kind = key.value.problem
+    link = f'<a href="#{kind.replace(" ", "-")}">{kind}</a>'
+    return escape(type_of(key), quote=False).replace(f'"{kind}"', link) if kind else escape(type_of(key))
+
+
+def _prose(text: str) -> str:
+    """A docstring as a paragraph; what stands between backquotes is code."""
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(" ".join(text.split())))
 
 
 def errata(*standings: str) -> dict[str, Erratum]:

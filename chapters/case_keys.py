@@ -1,0 +1,81 @@
+# ---
+# jupyter:
+#   jupytext:
+#     formats: py:percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # What a case may say
+#
+# A case is a table of a TOML file. Its `kind` says which keys it has; here they are, as the classes that read them have
+# them. `cosserat describe` prints the same list, and `cosserat schema` gives it to editors. A quantity is a text with its
+# unit, such as `"2.5 mm"`; any unit of the same dimension is read. Ratios and whole numbers are written without quotation
+# marks. `forces[].at` is the key `at` of each table in the list `forces`. What has a letter in the thesis, such as $\ell_0$,
+# has it here with its equation or section.
+
+# %% tags=["remove-cell"]
+from cosserat.thesis.book import page
+
+# %% [markdown]
+# ## every case
+
+# %% tags=["remove-input"]
+page.common_keys()
+
+# %% [markdown]
+# ## rod statics
+
+# %% tags=["remove-input"]
+page.keys("rod statics")
+
+# %% [markdown]
+# ## rod motion
+
+# %% tags=["remove-input"]
+page.keys("rod motion")
+
+# %% [markdown]
+# ## rod path
+
+# %% tags=["remove-input"]
+page.keys("rod path")
+
+# %% [markdown]
+# ## calibration
+
+# %% tags=["remove-input"]
+page.keys("calibration")
+
+# %% [markdown]
+# ## convergence
+
+# %% tags=["remove-input"]
+page.keys("convergence")
+
+# %% [markdown]
+# ## posture
+
+# %% tags=["remove-input"]
+page.keys("posture")
+
+# %% [markdown]
+# ## crawl
+
+# %% tags=["remove-input"]
+page.keys("crawl")
+
+# %% [markdown]
+# ## body masses
+
+# %% tags=["remove-input"]
+page.keys("body masses")
+
+# %% [markdown]
+# ## worm calibration
+
+# %% tags=["remove-input"]
+page.keys("worm calibration")

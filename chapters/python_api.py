@@ -1,0 +1,149 @@
+# ---
+# jupyter:
+#   jupytext:
+#     formats: py:percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # The library from Python
+#
+# What one calls for a rod, a worm or a robot of one's own, with the signatures and docstrings of the library itself. The
+# keys of parameter classes are on the page [What a case may say](case_keys.ipynb); in Python their values may also be
+# plain numbers in SI units. The first names are those of `cosserat` itself.
+#
+# ## Cases and results
+#
+# ```{eval-rst}
+# .. autofunction:: cosserat.run
+#
+# .. autofunction:: cosserat.case
+#
+# .. autofunction:: cosserat.published
+#
+# .. autofunction:: cosserat.load_cases
+#
+# .. autoclass:: cosserat.Case
+#    :members:
+#
+# .. autofunction:: cosserat.save
+#
+# .. autofunction:: cosserat.load
+#
+# .. autofunction:: cosserat.case_of
+# ```
+#
+# ## Errors
+#
+# ```{eval-rst}
+# .. autoexception:: cosserat.CosseratError
+#
+# .. autoexception:: cosserat.InputError
+#
+# .. autoexception:: cosserat.UnsupportedRodError
+#
+# .. autoexception:: cosserat.NotConvergedError
+#
+# .. autoexception:: cosserat.errors.CrossingError
+#
+# .. autoexception:: cosserat.errors.UnstableError
+#
+# .. autoexception:: cosserat.errors.DivergedError
+#
+# .. autoexception:: cosserat.errors.OutOfReachError
+# ```
+#
+# ## Problems
+#
+# A problem is what a case asks; each kind is a class.
+#
+# ```{eval-rst}
+# .. autoclass:: cosserat.problem.Problem
+#    :members:
+#
+# .. autoclass:: cosserat.problem.Run
+#    :members:
+#
+# .. autoclass:: cosserat.solution.Solution
+#    :members:
+#
+# .. autoclass:: cosserat.rods.problem.RodProblem
+#    :members:
+#
+# .. autoclass:: cosserat.problems.static.RodStatics
+#    :members:
+#
+# .. autoclass:: cosserat.problems.motion.RodMotion
+#    :members:
+#
+# .. autoclass:: cosserat.problems.path.RodPath
+#    :members:
+#
+# .. autoclass:: cosserat.problems.crawl.Posture
+#    :members:
+#
+# .. autoclass:: cosserat.problems.crawl.Crawl
+#    :members:
+# ```
+#
+# ## Rods and crawlers
+#
+# ```{eval-rst}
+# .. autoclass:: cosserat.rods.rod.Rod
+#    :members:
+#
+# .. autoclass:: cosserat.rods.variation.Station
+#    :members:
+#
+# .. autoclass:: cosserat.rods.kinematics.Geometry
+#    :members:
+#
+# .. autofunction:: cosserat.rods.kinematics.strains
+#
+# .. autoclass:: cosserat.rods.kinematics.Strains
+#    :members:
+#
+# .. autoclass:: cosserat.peristalsis.crawler.Crawler
+#    :members:
+#
+# .. autoclass:: cosserat.peristalsis.gait.Gait
+#    :members:
+# ```
+#
+# ## Solvers
+#
+# They know nothing of rods: a body gives its energy, gradient and Hessian.
+#
+# ```{eval-rst}
+# .. autoclass:: cosserat.solvers.equilibrium.Loaded
+#    :members:
+#
+# .. autoclass:: cosserat.solvers.equilibrium.Equilibrium
+#    :members:
+#
+# .. autoclass:: cosserat.solvers.equilibrium.EquilibriumSolver
+#    :members:
+#
+# .. autofunction:: cosserat.solvers.incremental.solve_full_load
+#
+# .. autofunction:: cosserat.solvers.continuation.trace_path
+#
+# .. autoclass:: cosserat.solvers.continuation.ArcLengthSettings
+#    :members:
+#
+# .. autoclass:: cosserat.solvers.integrate.System
+#    :members:
+#
+# .. autoclass:: cosserat.solvers.integrate.State
+#    :members:
+#
+# .. autofunction:: cosserat.solvers.integrate.integrate
+#
+# .. autofunction:: cosserat.solvers.modes.modes
+#
+# .. autoclass:: cosserat.solvers.modes.Modes
+#    :members:
+# ```

@@ -1,0 +1,220 @@
+"""Every key that a case may have, with its type, unit, default, range and meaning, as the parameter classes have them.
+
+The text of `cosserat describe`, the schemas for editors and the page of the book are made from this list.
+"""
+
+from __future__ import annotations
+
+import functools
+import types
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from cosserat.cases.catalogue import Case
+from cosserat.errors import InputError
+from cosserat.parameters import NONE_BY_WORD, Count, OneOf, Quantity, docstrings, nearest
+from cosserat.problem import Problem
+from cosserat.publications import kinds
+from cosserat.rods.naming import VertexName
+
+Form = Literal["quantity", "count", "vertex", "word", "name", "text", "truth", "table", "list", "row"]
+
+
+@dataclass(frozen=True)
+class Value:
+    """What may be written at a key.
+
+    about : unit and range of a quantity or a count.
+    words : the words of which one is written.
+    tables : the classes of which one says what keys the table has; several differ in their `kind`.
+    items : of a list, what each item is; of a row, what stands at each place.
+    none : whether the word "none" takes the value away.
+    """
+
+    form: Form
+    about: Quantity | Count | None = None
+    words: tuple[str, ...] = ()
+    tables: tuple[type[BaseModel], ...] = ()
+    items: tuple[Value, ...] = ()
+    none: bool = False
+
+    @property
+    def innermost(self) -> Value:
+        """The value itself, or what the lists hold in the end."""
+        return self.items[0].innermost if self.form == "list" else self
+
+    @property
+    def problem(self) -> str:
+        """The kind, if it is a whole problem, whose keys are those of its kind; else empty."""
+        return _kind_of(self.tables[0]) if self.tables else ""
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key.
+
+    path : as a case file has it, dotted; "forces[].at" is a key of each table of a list.
+    when : the `kind` of the table in which it is a key, if there is a choice.
+    default : as it would be written in a case file; None if the key is required or stands for nothing when left out.
+    """
+
+    path: str
+    value: Value
+    required: bool
+    default: str | None
+    meaning: str
+    when: str = ""
+
+    @property
+    def name(self) -> str:
+        """The last part of the path."""
+        return self.path.rpartition(".")[2]
+
+    @property
+    def inside(self) -> str:
+        """What the paths of the keys inside it begin with, if it is a table or a list of tables."""
+        return f"{self.path}[]." if self.value.form == "list" else f"{self.path}."
+
+
+LIKE = Key(
+    "like",
+    Value("name"),
+    required=False,
+    default=None,
+    meaning="The case, or a list of cases, from which this one takes what it does not say itself.",
+)
+"""The key that every case may have and no class: the reader follows it."""
+
+
+@functools.cache
+def common_keys() -> tuple[Key, ...]:
+    """The keys that every case may have beside those of its kind."""
+    about = [
+        Key(name, Value("text"), required=False, default=None, meaning=docstrings(Case)[name])
+        for name in ("title", "source")
+    ]
+    return (*about, LIKE)
+
+
+@functools.cache
+def keys(kind: str) -> tuple[Key, ...]:
+    """The keys of one kind, in the order in which the classes declare them; `kind` is the first.
+
+    A table that is a whole problem is one key: the keys inside it are those of its own kind.
+
+    Raises
+    ------
+    InputError : there is no such kind.
+    """
+    if kind not in kinds():
+        raise InputError(f"there is no kind '{kind}'{nearest(kind, list(kinds()))}")
+    found = list(_keys(kinds()[kind].problem_class(), "", ""))
+    return tuple(sorted(found, key=lambda key: key.path != "kind"))
+
+
+def title(kind: str) -> str:
+    """What a kind is, in the first paragraph of its class."""
+    return _paragraph(kinds()[kind].problem_class())
+
+
+@functools.cache
+def _names() -> Mapping[type[Problem], str]:
+    return {kind.problem_class(): name for name, kind in kinds().items()}
+
+
+def _kind_of(owner: type[BaseModel]) -> str:
+    return _names()[owner] if issubclass(owner, Problem) else ""
+
+
+def _keys(owner: type[BaseModel], before: str, when: str) -> Iterator[Key]:
+    for name, field in owner.model_fields.items():
+        value = _value(_whole(field))
+        assert value is not None, f"{owner.__name__}.{name} can only be nothing"
+        key = Key(
+            f"{before}{name}",
+            value,
+            required=field.is_required() or (name == "kind" and bool(when or not before)),
+            default=None
+            if field.is_required() or field.default is None
+            else _written(field.default, value),
+            meaning=_meaning(owner, name, value),
+            when=when,
+        )
+        yield key
+        if value.problem:
+            continue
+        tables = value.innermost.tables
+        for table in tables:
+            chosen = str(table.model_fields["kind"].default) if len(tables) > 1 else when
+            yield from _keys(table, key.inside, chosen)
+
+
+def _whole(field: FieldInfo) -> Any:
+    """The annotation of a field as its class has it: pydantic takes it apart."""
+    return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+
+
+def _meaning(owner: type[BaseModel], name: str, value: Value) -> str:
+    """The text below a field; of a `kind`, of a table and of a list of tables without one, that of the class."""
+    if name in docstrings(owner):
+        return docstrings(owner)[name]
+    tables = (owner,) if name == "kind" else value.innermost.tables
+    return _paragraph(tables[0]) if len(tables) == 1 else ""
+
+
+def _paragraph(owner: type[BaseModel]) -> str:
+    return " ".join((owner.__doc__ or "").strip().split("\n\n")[0].split())
+
+
+def _value(annotation: Any) -> Value | None:
+    """What an annotation lets be written; None if that is nothing."""
+    about: list[Any] = []
+    while get_origin(annotation) is Annotated:
+        about += annotation.__metadata__
+        annotation = annotation.__origin__
+    none = NONE_BY_WORD in about
+    for mark in about:
+        if isinstance(mark, Quantity | Count):
+            return Value("quantity" if isinstance(mark, Quantity) else "count", mark, none=none)
+        if isinstance(mark, OneOf):
+            return Value("word", words=tuple(mark.registry))
+        if isinstance(mark, VertexName):
+            return Value("vertex")
+    origin, parts = get_origin(annotation), get_args(annotation)
+    if origin in (Union, types.UnionType):
+        found = [value for part in parts if (value := _value(part)) is not None]
+        if len(found) == 1:
+            return Value(**{**vars(found[0]), "none": none})
+        return Value(
+            "table", tables=tuple(table for value in found for table in value.tables), none=none
+        )
+    if origin is Literal:
+        return Value("word", words=parts)
+    if origin is tuple:
+        items = tuple(value for part in parts if part is not ... and (value := _value(part)) is not None)
+        return Value("list" if ... in parts else "row", items=items)
+    if annotation is types.NoneType:
+        return None
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return Value("table", tables=(annotation,))
+    return Value({str: "text", bool: "truth"}[annotation])  # type: ignore[arg-type]
+
+
+def _written(default: Any, value: Value) -> str:
+    """A default as a person would write it in a case file."""
+    if isinstance(default, BaseModel):
+        return "{}"
+    if value.form == "quantity":
+        assert isinstance(value.about, Quantity)
+        number = f"{default!r}".removesuffix(".0")
+        return number if value.about.unit == "1" else f'"{number} {value.about.unit}"'
+    if isinstance(default, bool):
+        return str(default).lower()
+    if isinstance(default, str):
+        return f'"{default}"'
+    assert isinstance(default, int) or default == ()
+    return "[]" if default == () else str(default)

@@ -1,0 +1,206 @@
+"""JSON Schemas of cases, draft 2020-12, from the list of keys: for editors that complete and check TOML files.
+
+Editors follow `anyOf` and `oneOf` but no conditions, and some see nothing of what stands beside a `$ref`; so each key
+has its own text, and what is shared stands in an `anyOf` of one.  What a schema cannot say is left to the reader: rules
+that join several keys, ranges of texts with units, what `like` brings in, and that 3.0 is no whole number.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Iterable
+from typing import Any
+
+from cosserat.describe.keys import LIKE, Key, Value, common_keys, keys, title
+from cosserat.describe.spellings import accepted, refused
+from cosserat.describe.text import need, thesis, type_of
+from cosserat.parameters import Count, Quantity
+from cosserat.publications import kinds, titles
+from cosserat.units import what_is_in
+
+Schema = dict[str, Any]
+_DRAFT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def as_written() -> Schema:
+    """The schema of a file of cases: tables by name, in which `like` may stand for whatever is left out."""
+    part = {"description": "A part to build on, which is read where it is used.", "type": "object"}
+    return {
+        "$schema": _DRAFT,
+        "title": "Cases of cosserat",
+        "type": "object",
+        "minProperties": 1,
+        "propertyNames": {"pattern": "^(?:_.*|[A-Za-z][A-Za-z0-9_-]*)$"},
+        "patternProperties": {"^_": part},
+        "additionalProperties": _case_of_any_kind(),
+        "$defs": _shared(whole=False),
+    }
+
+
+def merged() -> Schema:
+    """The schema of one case with everything that `like` brings in: its `kind` says which keys it has and needs."""
+    cases = [_case(kind, whole=True) for kind in kinds()]
+    return {
+        "$schema": _DRAFT,
+        "title": "A case of cosserat",
+        "oneOf": cases,
+        "$defs": _shared(whole=True),
+    }
+
+
+def _shared(*, whole: bool) -> Schema:
+    """Texts by their unit, and the problems that are parts of others."""
+    every = [key for kind in kinds() for key in keys(kind)]
+    about = [item.about for key in every for item in _scalars(key.value)]
+    texts = {
+        _word(what_is_in(unit)): {
+            "type": "string",
+            "pattern": accepted(unit),
+            "not": {"pattern": refused(unit)},
+        }
+        for unit in sorted({mark.unit for mark in about if isinstance(mark, Quantity)})
+    }
+    inner = sorted({key.value.problem for key in every} - {""})
+    return texts | {_word(kind): _problem(kind, whole=whole) for kind in inner}
+
+
+def _scalars(value: Value) -> Iterable[Value]:
+    return [found for item in value.items for found in _scalars(item)] if value.items else [value]
+
+
+def _word(text: str) -> str:
+    """The name of a shared schema, without blanks, which an address may not have."""
+    return text.removeprefix("a ").removeprefix("an ").replace(" ", "-")
+
+
+def _case(kind: str, *, whole: bool) -> Schema:
+    """A case of one kind; unless it is whole, tables right inside it may build on a case too."""
+    common = [key for key in common_keys() if not (whole and key.name == "like")]
+    nodes = {key.name: _node(key, (), whole=whole) for key in common}
+    table = _table(keys(kind), "", "", whole=whole, parts=not whole)
+    return {
+        "title": kind,
+        "description": title(kind),
+        **table,
+        "properties": nodes | table["properties"],
+    }
+
+
+def _case_of_any_kind() -> Schema:
+    """A case whose `kind` may come from `like`: every key of any kind, then which of them go together.
+
+    So an editor shows a key of several kinds once, and a fault where it is.
+    """
+    cases = {kind: _case(kind, whole=False)["properties"] for kind in kinds()}
+    names = dict.fromkeys(name for nodes in cases.values() for name in nodes)
+    alike = {name: [node for node in cases.values() if name in node] for name in names}
+    properties = {
+        name: _any(list({repr(nodes[name]): nodes[name] for nodes in having}.values()))
+        for name, having in alike.items()
+    }
+    together = [
+        {"title": kind, "properties": {"kind": {"const": kind}}, "propertyNames": {"enum": list(nodes)}}
+        for kind, nodes in cases.items()
+    ]
+    return {"type": "object", "properties": properties, "additionalProperties": False, "anyOf": together}
+
+
+def _problem(kind: str, *, whole: bool) -> Schema:
+    """A problem of one kind that is a part of another; its `kind` may be left out."""
+    table = _table(keys(kind), "", "", whole=whole, like=not whole)
+    if whole:
+        table["required"].remove("kind")
+    return table
+
+
+def _table(
+    found: tuple[Key, ...],
+    before: str,
+    when: str,
+    *,
+    whole: bool,
+    like: bool = False,
+    parts: bool = False,
+) -> Schema:
+    """The table of the keys whose paths are `before` and a name.
+
+    whole : no required key may be left out.  like, parts : the table, or the tables right inside it, may have a `like`.
+    """
+    own = [key for key in found if key.path == before + key.name and key.when == when]
+    nodes = {key.name: _node(key, found, whole=whole, like=parts) for key in own}
+    if like:
+        nodes[LIKE.name] = _node(LIKE, (), whole=whole)
+    needed = {"required": [key.name for key in own if key.required]} if whole else {}
+    return {"type": "object", "properties": nodes, "additionalProperties": False, **needed}
+
+
+def _node(key: Key, found: tuple[Key, ...], *, whole: bool, like: bool = False) -> Schema:
+    """What may be written at a key, with what an editor shows of it."""
+    value, inside = key.value, key.inside
+    described = ". ".join(
+        filter(None, (f"{type_of(key)}; {need(key)}", " ".join(key.meaning.split()), thesis(key)))
+    )
+    shown: Schema = {"description": described[0].upper() + described[1:]}
+    if key.default is not None:
+        shown["default"] = tomllib.loads(f"value = {key.default}")["value"]
+    if isinstance(value.innermost.about, Quantity) and value.form == "quantity":
+        shown["examples"] = [_example(value.innermost.about)]
+    if value.form == "table" and not value.problem:
+        choices = dict.fromkeys(k.when for k in found if k.path == inside + k.name)
+        form = _any([_table(found, inside, when, whole=whole, like=like) for when in choices])
+    elif value.form == "list" and value.items[0].tables:  # what `like` brings in is replaced as a whole
+        form = {"type": "array", "items": _table(found, inside, key.when, whole=True)}
+    else:
+        form = _form(value)
+    return shown | (_any([form, {"const": "none"}]) if value.none else form)
+
+
+def _any(forms: list[Schema]) -> Schema:
+    return forms[0] if len(forms) == 1 else {"anyOf": forms}
+
+
+def _example(about: Quantity) -> str | float:
+    return 0.3 if about.unit == "1" else f"2.5 {about.unit}"
+
+
+def _form(value: Value) -> Schema:
+    """What may be written, without what an editor shows."""
+    about = value.about
+    if isinstance(about, Quantity):
+        text = {"$ref": f"#/$defs/{_word(what_is_in(about.unit))}"}
+        return {"anyOf": [{"type": "number", **_limits(about)}, text] if about.unit == "1" else [text]}
+    if isinstance(about, Count):
+        return {"type": "integer", "minimum": about.at_least, "maximum": about.at_most}
+    if value.problem:
+        return {"anyOf": [{"$ref": f"#/$defs/{_word(value.problem)}"}]}
+    forms: dict[str, Schema] = {
+        "vertex": {"anyOf": [{"enum": ["first", "last"]}, {"type": "integer", "minimum": 0}]},
+        "word": {"enum": list(value.words)},
+        "name": {
+            "anyOf": [
+                {"enum": list(titles())},
+                {"type": "string"},
+                {"type": "array", "items": {"type": "string"}},
+            ]
+        },
+        "text": {"type": "string"},
+        "truth": {"type": "boolean"},
+        "list": {"type": "array", "items": _form(value.items[0]) if value.items else {}},
+        "row": {
+            "type": "array",
+            "prefixItems": [_form(item) for item in value.items],
+            "minItems": len(value.items),
+            "maxItems": len(value.items),
+        },
+    }
+    return forms[value.form]
+
+
+def _limits(about: Quantity) -> Schema:
+    bounds = {
+        "exclusiveMinimum": about.above,
+        "exclusiveMaximum": about.below,
+        "minimum": about.at_least,
+    }
+    return {name: bound for name, bound in bounds.items() if math.isfinite(bound)}

@@ -1,0 +1,110 @@
+"""What a case may say, as plain text of at most 100 columns: `cosserat describe`."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+
+from cosserat.describe.keys import Key, Value, common_keys, keys, title
+from cosserat.parameters import Count, Quantity, cited
+from cosserat.publications import kinds
+from cosserat.units import what_is_in
+
+WIDTH = 100
+"""Longest line."""
+
+
+def list_of_kinds() -> str:
+    """Every kind with what it is, a line each, and the keys that every case may have."""
+    width = max(map(len, kinds()))
+    lines = [f"{kind:<{width}}  {title(kind)}" for kind in kinds()]
+    return "\n".join(
+        [
+            *lines,
+            "",
+            "'cosserat describe KIND' lists the keys of a case of that kind.  Every case may also have:",
+            "",
+            *(paragraph(key) for key in common_keys()),
+        ]
+    )
+
+
+def list_of_keys(kind: str) -> str:
+    """Every key of a kind with its type, unit, range, default, meaning and source.
+
+    Raises
+    ------
+    InputError : there is no such kind.
+    """
+    found = keys(kind)
+    return "\n\n".join([f"{kind}: {title(kind)}", *(paragraph(key) for key in found)])
+
+
+def paragraph(key: Key) -> str:
+    """What a key is, in a few lines."""
+    where = f'   (where kind = "{key.when}")' if key.when and key.name != "kind" else ""
+    lines = [f"{type_of(key)}; {need(key)}", key.meaning, thesis(key)]
+    wrapped = [
+        textwrap.fill(" ".join(line.split()), WIDTH, initial_indent="    ", subsequent_indent="    ")
+        for line in lines
+        if line
+    ]
+    return "\n".join([key.path + where, *wrapped])
+
+
+def type_of(key: Key) -> str:
+    """What is written at a key, with unit and range."""
+    return _type(key.value) + (' or "none"' if key.value.none else "")
+
+
+def need(key: Key) -> str:
+    """Whether a key is required, and what counts if it is left out."""
+    if key.required:
+        return "required"
+    return "may be left out" if key.default in (None, "{}") else f"default {key.default}"
+
+
+def thesis(key: Key) -> str:
+    """Symbol and place in the thesis, if they are given."""
+    about = key.value.innermost.about
+    parts = [] if about is None else [about.symbol, cited(about.source)]
+    return f"Thesis: {', '.join(filter(None, parts))}" if any(parts) else ""
+
+
+def span(about: Quantity | Count) -> str:
+    """The range of a quantity in its SI unit, or of a count; empty if it has none."""
+    if isinstance(about, Count):
+        return f"from {about.at_least} to {about.at_most}"
+    bounds = (("above", about.above), ("at least", about.at_least), ("below", about.below))
+    return ", ".join(f"{words} {bound:g}" for words, bound in bounds if math.isfinite(bound))
+
+
+def _type(value: Value) -> str:
+    words = {
+        "count": "a whole number",
+        "vertex": '"first", "last" or the index of a vertex, counted from 0',
+        "name": "the name of a case, or a list of names",
+        "text": "a text",
+        "truth": "true or false",
+        "table": "a table",
+    }
+    if value.form == "quantity":
+        assert isinstance(value.about, Quantity)
+        unit = value.about.unit
+        words["quantity"] = what_is_in(unit) + ("" if unit == "1" else f" in {unit}")
+    if value.form == "word":
+        return _either([f'"{word}"' for word in value.words])
+    if value.form == "list":
+        return (
+            "a list of tables" if value.items[0].tables else f"a list, each item {_type(value.items[0])}"
+        )
+    if value.form == "row":
+        return f"[{', '.join(_type(item) for item in value.items)}]"
+    if value.problem:
+        return f'a table, a whole problem of kind "{value.problem}"'
+    limits = span(value.about) if value.about else ""
+    return words[value.form] + (f" ({limits})" if limits else "")
+
+
+def _either(words: list[str]) -> str:
+    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))

@@ -1,0 +1,274 @@
+"""What a case may say: the list of keys agrees with the classes, and what it says is what the reader does."""
+
+import math
+import re
+import tomllib
+from typing import Annotated, Literal, get_args, get_origin
+
+import pytest
+from pydantic import BaseModel, TypeAdapter
+from pydantic_core import PydanticUndefined
+
+from cosserat.cases import catalogue
+from cosserat.cli import main
+from cosserat.describe import keys as listing
+from cosserat.describe.keys import keys
+from cosserat.describe.text import list_of_keys, type_of
+from cosserat.errors import InputError
+from cosserat.parameters import FROM_FILE, Count, Quantity
+from cosserat.problem import Problem
+from cosserat.publications import kinds, published_tables
+
+KINDS = list(kinds())
+
+
+def classes_in(annotation):
+    """Parameter classes that an annotation names, and whether each stands in a list."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [(annotation, False)]
+    inside = [found for part in get_args(annotation) for found in classes_in(part)]
+    return [(owner, listed or get_origin(annotation) is tuple) for owner, listed in inside]
+
+
+def walk(owner, before=""):
+    """Path and field of every key, by way of the classes alone; whole problems are not entered."""
+    for name, field in owner.model_fields.items():
+        yield before + name, field
+        for inner, listed in classes_in(field.annotation):
+            if not issubclass(inner, Problem):
+                yield from walk(inner, f"{before}{name}[]." if listed else f"{before}{name}.")
+
+
+def fields(kind):
+    """Paths and fields of a kind, that of its word first."""
+    found = walk(kinds()[kind].problem_class())
+    return sorted(found, key=lambda pair: pair[0] != "kind")
+
+
+def whole(field):
+    """The annotation of a field with what pydantic took out of it."""
+    return Annotated[field.annotation, *field.metadata, None]
+
+
+def marks(annotation):
+    """Every Quantity and Count in an annotation."""
+    found = annotation.__metadata__ if get_origin(annotation) is Annotated else ()
+    inner = [mark for part in get_args(annotation) for mark in marks(part)]
+    return [mark for mark in found if isinstance(mark, Quantity | Count)] + inner
+
+
+def limits(mark):
+    """How a range is written."""
+    if isinstance(mark, Count):
+        return f"(from {mark.at_least} to {mark.at_most})"
+    parts = [("above", mark.above), ("at least", mark.at_least), ("below", mark.below)]
+    said = ", ".join(f"{words} {end:g}" for words, end in parts if math.isfinite(end))
+    return f"({said})" if said else ""
+
+
+def printed(kind):
+    """The paths of a printed kind, each with its lines."""
+    blocks = [block.split("\n") for block in list_of_keys(kind).split("\n\n")[1:]]
+    return [(lines[0].split()[0], " ".join(line.strip() for line in lines[1:])) for lines in blocks]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_keys_printed_are_the_fields_of_the_classes(kind):
+    declared = [path for path, _ in fields(kind)]
+    assert [path for path, _ in printed(kind)] == declared == [key.path for key in keys(kind)]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_key_has_a_meaning_and_every_quantity_a_unit_that_has_a_word(kind):
+    for key in keys(kind):
+        assert re.fullmatch(r"(?s)[A-Z\"].*\.", key.meaning), key.path
+        assert "a quantity" not in type_of(key), key.path
+
+
+def test_a_field_without_a_meaning_is_noticed(monkeypatch):
+    known = listing.docstrings
+    monkeypatch.setattr(
+        listing,
+        "docstrings",
+        lambda owner: {k: v for k, v in known(owner).items() if k != "young"},
+    )
+    found = listing.keys.__wrapped__("rod path")
+    assert [key.path for key in found if not key.meaning] == ["rod.young", "rod.stations[].young"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_units_words_and_symbols_in_the_text_are_those_of_the_classes(kind):
+    for (path, text), (_, field) in zip(printed(kind), fields(kind), strict=True):
+        for mark in marks(whole(field)):
+            if isinstance(mark, Quantity) and mark.unit != "1":
+                assert re.search(rf" in {re.escape(mark.unit)}(?: \(|;| or )", text), path
+            assert limits(mark) in text.split(";")[0], path
+            if mark.symbol and "[" not in text.split(";")[0]:
+                assert f"Thesis: {mark.symbol}" in text, path
+        for part in (field.annotation, *get_args(field.annotation)):
+            if get_origin(part) is Literal:
+                assert tuple(re.findall(r'"([^"]*)"', text))[: len(get_args(part))] == get_args(part)
+        assert ("; required" in text) == (field.is_required() or path.endswith("kind")), path
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_default_as_printed_is_read_as_the_default_of_the_class(kind):
+    for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
+        if field.default is PydanticUndefined or field.default is None:
+            assert key.default is None, path
+        else:
+            written = tomllib.loads(f"value = {key.default}")["value"]
+            read = TypeAdapter(whole(field)).validate_python(written, context=FROM_FILE)
+            assert read == field.default, path
+
+
+# Cases that have something at every key with a range, of which one is then moved to the ends of its range.
+BASES = {
+    "rod statics": """
+        like = ["elastica", "_loads"]
+        rod = { energy = "published", calibration = { c1 = 1, c2 = 1, c3 = 1, c4 = 1, c5 = 1, c6 = 1, c7 = 1 } }
+    """,
+    "rod path": 'like = ["elastica", "_loads"]\nkind = "rod path"',
+    "rod motion": 'like = ["vibration_c4_20", "_loads"]',
+    "calibration": 'like = "calibration"',
+    "convergence": 'like = "convergence"',
+    "posture": 'like = "worm_at_rest"',
+    "crawl": 'like = "soft_robot"',
+    "body masses": 'like = "worm_masses"',
+    "worm calibration": 'like = "worm_calibration"',
+}
+LOADS = """
+[_loads]
+gravity = { g = "9.81 m/s^2", along = "-E2" }
+line_loads = [{ along = "E2", density = "1 N/m", start = "0 m" }]
+forces = [{ at = "last", along = "E2", force = "1 N" }]
+couples = [{ at = 1, moment = "1 N*m" }]
+rod.stations = [{ at = "0 m" }]
+supports = [{ at = "first", fixed = ["x3", "x2"] }, { at = "last", fixed = ["d3", "d2"] }]
+prescribed_displacements = [{ at = "first", dof = "x2", by = "1 cm" }]
+prescribed_rotations = [{ at = "last", by = "1 deg" }]
+"""
+"""One rule at a time: only loads that bear any number of vertices and any length."""
+
+
+def base(kind):
+    """The merged table of the case of a kind."""
+    tables = published_tables() | tomllib.loads(LOADS) | {"it": tomllib.loads(BASES[kind])}
+    return catalogue._inherit("it", tables, ())
+
+
+def put(table, path, value):
+    """A copy of a table with a value at a path: in the first of several tables, as the first of several numbers."""
+    head, _, rest = path.partition(".")
+    name = head.removesuffix("[]")
+    old = table.get(name)
+    if not rest:
+        return table | {name: first(old, value) if isinstance(old, list) else value}
+    if head.endswith("[]"):
+        return table | {name: [put(old[0], rest, value), *old[1:]]}
+    return table | {name: put(old or {}, rest, value)}
+
+
+def first(items, value):
+    head = first(items[0], value) if isinstance(items[0], list) else value
+    return [head, *items[1:]]
+
+
+def ends(about):
+    """Just inside and just outside of each end of a range, in SI."""
+    if isinstance(about, Count):
+        return [(about.at_least, about.at_least - 1), (about.at_most, about.at_most + 1)]
+    near = 1e-9
+    found = [(about.at_least, about.at_least - near * max(abs(about.at_least), near))]
+    found += [(end + side * near, end) for end, side in ((about.above, 1), (about.below, -1))]
+    return [pair for pair in found if math.isfinite(pair[0])]
+
+
+def said(table):
+    """What the reader says of a table; nothing if it takes it."""
+    try:
+        catalogue._read_problem(dict(table), "it", units_required=True)
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+MATERIALS = {
+    "compressible": {"kind": "compressible", "young": "10 kPa", "poisson": 0.3},
+    "incompressible": {"kind": "incompressible", "young": "2 kPa"},
+}
+# Just inside of its range, a key may break a rule that joins several keys, which has a sentence of its own.
+JOINED = {
+    "rod.calibration": "is missing",  # of a path, whose rod has none
+    "crawler.radius": "length / radius",
+    "crawler.material.poisson": "has a Poisson's ratio",
+    "crawler.material.bulk": "give two of young, poisson and bulk",
+    "crawler.mass": "give one of them",
+    "crawler.density": "give one of them",
+    "meshes": "must be odd",
+    "gait.eta": "gamma and eta cross",
+    "step": "more than 100000 instants",
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
+    case = base(kind)
+    assert said(case) == ""
+    for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
+        if key.when:
+            case = put(case, "crawler.material", MATERIALS[key.when])
+        for mark in marks(whole(field))[:1]:
+            unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit
+            plain = re.escape(path).replace(r"\[\]", r"\.0")
+            refused = rf"'{plain}(\.0)*' is .*; it must be (above|below|at least|at most) "
+            for inside, outside in ends(mark):
+                within, beyond = (f"{x!r} {unit}" if unit else x for x in (inside, outside))
+                assert re.search(refused, said(put(case, path, beyond))), (path, beyond)
+                answer = said(put(case, path, within))
+                joined = JOINED.get(path) or JOINED.get(path.rpartition(".")[0])
+                assert not answer or (joined and joined in answer), (path, within, answer)
+
+
+def test_kinds_and_common_keys_are_listed_without_a_kind(capsys):
+    assert main(["describe"]) == 0
+    lines = capsys.readouterr().out.split("\n")
+    assert [re.split(r" {2,}", line)[0] for line in lines[: len(KINDS)]] == KINDS
+    assert all(re.fullmatch(r"\S.* {2,}[A-Z].*\.", line) for line in lines[: len(KINDS)])
+    assert [line for line in lines if re.fullmatch(r"\w+", line)] == ["title", "source", "like"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kind_is_described_in_a_hundred_columns_of_plain_text(kind, capsys):
+    assert main(["describe", *kind.split()]) == 0
+    text = capsys.readouterr().out
+    assert text == list_of_keys(kind) + "\n"
+    assert max(map(len, text.split("\n"))) <= 100
+    assert "\t" not in text
+
+
+def test_a_key_reads_so():
+    """Written by hand, as a person would say it."""
+    said_of = dict(printed("rod motion"))
+    assert said_of["rod.length"] == (
+        "a length in m (above 0); required Length of the centreline in the reference configuration. "
+        r"Thesis: \ell_0, eq. (3.3.1)"
+    )
+    assert said_of["start.speed"] == 'a speed in m/s; default "0 m/s" Speed of the whole rod.'
+    assert said_of["rod.barrier"].startswith("true or false; default false ")
+    assert said_of["rod.calibration"].startswith('a table or "none"; may be left out ')
+    assert said_of["supports[].at"].startswith(
+        '"first", "last" or the index of a vertex, counted from 0; req'
+    )
+    assert said_of["supports"].startswith("a list of tables; required ")
+    assert said_of["rod.vertices"].startswith("a whole number (from 3 to 20000000); required ")
+
+
+def test_an_unknown_kind_is_answered_with_the_nearest(capsys):
+    assert main(["describe", "rod", "static"]) == 2
+    assert (
+        capsys.readouterr().err
+        == "cosserat: there is no kind 'rod static'; did you mean 'rod statics'?\n"
+    )
+    assert main(["describe", "spring"]) == 2
+    assert capsys.readouterr().err.endswith("; known are: " + ", ".join(KINDS) + "\n")
