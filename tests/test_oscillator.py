@@ -1,16 +1,16 @@
 """The implicit method on an oscillator, which is no rod: a drag takes energy at its own rate, resolved or not."""
 
-import functools
-
 import numpy as np
 import pytest
-from numba import cfunc, njit
+from numba import njit
 
 from cosserat.solvers import integrate
-from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, STRAINS, Potential
+from cosserat.solvers.potential import GRADIENT, HESSIAN, STRAINS, Potential
 from cosserat.solvers.system import FixedDofs, FlatSpace, MechanicalSystem
 
 
+@njit
+@njit
 def spring(q, after, data, history, strains, task, gradient, band, skew, terms):
     """Half the stiffness times the square of the only DOF."""
     stiffness, x, end = data.view(np.float64)[0], q[0], q[0]
@@ -27,16 +27,8 @@ def spring(q, after, data, history, strains, task, gradient, band, skew, terms):
     return terms[0]
 
 
-@functools.cache
-def compiled():
-    return cfunc(KERNEL)(spring)
-
-
-evaluate = njit(KERNEL)(spring)
-
-
 def oscillator(omega, damping_rate):
-    energy = Potential(evaluate, compiled, np.array([omega**2]), ("spring",), 0, strains=(1, 1))
+    energy = Potential(spring, np.array([omega**2]), ("spring",), 0, strains=(1, 1))
     return MechanicalSystem(
         energy,
         (),
