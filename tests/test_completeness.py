@@ -192,7 +192,7 @@ def test_the_solver_knows_nothing_of_positions_and_directors(file):
     ],
 )
 def test_a_layout_planted_in_a_solver_is_noticed(planted):
-    for file in (PACKAGE / "solvers" / "incremental.py", PACKAGE / "solvers" / "rigid.py"):
+    for file in (PACKAGE / "solvers" / "incremental.py", PACKAGE / "solvers" / "banded.py"):
         assert len(layouts_in(file.read_text() + "\n" + planted)) >= 1, planted
 
 
