@@ -98,12 +98,24 @@
 # .. autoclass:: cosserat.rods.variation.Station
 #    :members:
 #
-# .. autoclass:: cosserat.rods.kinematics.Geometry
+# .. autoclass:: cosserat.rods.kinematics.Kinematics
 #    :members:
 #
-# .. autofunction:: cosserat.rods.kinematics.strains
+# .. autoclass:: cosserat.rods.energies.energy.Energy
+#    :members:
 #
-# .. autoclass:: cosserat.rods.kinematics.Strains
+# .. autoclass:: cosserat.rods.loads.load.Load
+#    :members:
+#
+# .. autoclass:: cosserat.rods.constraints.Constraint
+#    :members:
+#
+# .. autoclass:: cosserat.rods.reference.Geometry
+#    :members:
+#
+# .. autofunction:: cosserat.rods.reference.strains
+#
+# .. autoclass:: cosserat.rods.reference.Strains
 #    :members:
 #
 # .. autoclass:: cosserat.peristalsis.crawler.Crawler
@@ -115,10 +127,23 @@
 #
 # ## Solvers
 #
-# They know nothing of rods: a body gives its energy, gradient and Hessian.
+# They know nothing of rods: a body and its loads give their energy, gradient and Hessian, and one object, the system,
+# goes to statics, paths, motion and modes alike.
 #
 # ```{eval-rst}
-# .. autoclass:: cosserat.solvers.equilibrium.Loaded
+# .. autoclass:: cosserat.solvers.potential.Potential
+#    :members:
+#
+# .. autodata:: cosserat.solvers.potential.KERNEL
+#    :no-value:
+#
+# .. autoclass:: cosserat.solvers.system.MechanicalSystem
+#    :members:
+#
+# .. autoclass:: cosserat.solvers.system.Constraints
+#    :members:
+#
+# .. autoclass:: cosserat.solvers.system.ConfigurationSpace
 #    :members:
 #
 # .. autoclass:: cosserat.solvers.equilibrium.Equilibrium
@@ -132,9 +157,6 @@
 # .. autofunction:: cosserat.solvers.continuation.trace_path
 #
 # .. autoclass:: cosserat.solvers.continuation.ArcLengthSettings
-#    :members:
-#
-# .. autoclass:: cosserat.solvers.integrate.System
 #    :members:
 #
 # .. autoclass:: cosserat.solvers.integrate.State

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from cosserat.solution import Solution
-    from cosserat.solvers.equilibrium import Equilibrium
 
 
 class CosseratError(Exception):
@@ -45,12 +44,12 @@ class NotConvergedError(CosseratError):
     ----------
     iterations : iterations done before giving up.
     residual, tolerance : the largest unbalanced force and the one that was allowed [N].
-    state : the last equilibrium that was found, or None; its `factor` is the fraction of the load it stands under.
+    state : the last `Equilibrium` that was found, or None; its `factor` is the fraction of the load it stands under.
     reached : the last equilibrium or the points of the path up to there, or None, as the problem would have given them.
     dataset : the same as a Dataset, where the case was run by `cosserat.run`.
     """
 
-    state: Equilibrium | None = None
+    state: Any = None
     reached: Solution | None = None
     dataset: xr.Dataset | None = None
 

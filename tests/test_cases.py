@@ -189,7 +189,7 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
         ),
         (
             'like = "clamped_free"\nsupports = [{ fixed = ["x3"] }]',
-            "'supports.0.at' is missing, the vertex that is held: see the cases in cosserat/thesis/cases for examples",
+            "'supports.0.at' is missing, the vertex that is constrained: see the cases in cosserat/thesis/cases ",
         ),
         (
             'like = "clamped_free"\ngravity = "none"\nforces = [{ at = 1, force = "1 N" }]',

@@ -10,7 +10,6 @@ from cosserat.solvers.system import FixedDofs, FlatSpace, MechanicalSystem
 
 
 @njit
-@njit
 def spring(q, after, data, history, strains, task, gradient, band, skew, terms):
     """Half the stiffness times the square of the only DOF."""
     stiffness, x, end = data.view(np.float64)[0], q[0], q[0]

@@ -104,40 +104,6 @@ def negative_eigenvalues(band: Band) -> int:
     return count
 
 
-@njit(cache=True)
-def cholesky(band: Band) -> bool:
-    """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive."""
-    n, width = band.shape
-    for j in range(n):
-        if not band[j, 0] > 0.0:
-            return False
-        inverse = 1 / np.sqrt(band[j, 0])
-        band[j, 0] = inverse
-        last = min(width, n - j)
-        for k in range(1, last):
-            band[j, k] *= inverse
-        for k in range(1, last):
-            factor = band[j, k]
-            for m in range(k, last):
-                band[j + k, m - k] -= factor * band[j, m]
-    return True
-
-
-@njit(cache=True)
-def substitute(factor: Band, x: Vector) -> None:
-    """Overwrite a right-hand side with the solution."""
-    n, width = factor.shape
-    for j in range(n):
-        x[j] *= factor[j, 0]
-        for k in range(1, min(width, n - j)):
-            x[j + k] -= factor[j, k] * x[j]
-    for j in range(n - 1, -1, -1):
-        total = x[j]
-        for k in range(1, min(width, n - j)):
-            total -= factor[j, k] * x[j + k]
-        x[j] = total * factor[j, 0]
-
-
 def solve_positive(band: Band, right: Vector) -> Vector | None:
     """Solve H x = right by Cholesky's factorisation; None where H is not positive definite."""
     _, x, info = dpbsv(band.T, right, lower=1)

@@ -23,9 +23,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from cosserat.solvers.banded import Band, Mask, Vector, cholesky, multiply, substitute, uncouple
+from cosserat.solvers.banded import Band, Mask, Vector
 from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, STRAINS
-from cosserat.solvers.rigid import deforming_part
 from cosserat.solvers.step import CORRECTED, UNCORRECTED, Bodies, Room, Run
 
 Fields = NDArray[np.float64]
@@ -42,6 +41,108 @@ _PATIENCE = (
 _TINY = float(np.finfo(float).tiny)
 STALL = 1e4  # corrections that no longer shrink are rounding if they are below this multiple of it
 _EPS = float(np.finfo(float).eps)
+_RIGID = 0.1  # share of a step below which what deforms is too little to bear sigma
+
+
+@njit(cache=True)
+def _multiply(band: Band, x: Vector, y: Vector) -> None:
+    """Overwrite y with H x."""
+    n, width = band.shape
+    y[:] = 0.0
+    for j in range(n):
+        y[j] += band[j, 0] * x[j]
+        for k in range(1, min(width, n - j)):
+            y[j + k] += band[j, k] * x[j]
+            y[j] += band[j, k] * x[j + k]
+
+
+@njit(cache=True)
+def _uncouple(band: Band, constrained: Mask) -> None:
+    """Make what couples the constrained DOFs zero in place, of a symmetric or skew-symmetric matrix."""
+    n, width = band.shape
+    for j in range(n):
+        for k in range(1, min(width, n - j)):
+            if constrained[j] or constrained[j + k]:
+                band[j, k] = 0.0
+
+
+@njit(cache=True)
+def _cholesky(band: Band) -> bool:
+    """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive."""
+    n, width = band.shape
+    for j in range(n):
+        if not band[j, 0] > 0.0:
+            return False
+        inverse = 1 / np.sqrt(band[j, 0])
+        band[j, 0] = inverse
+        last = min(width, n - j)
+        for k in range(1, last):
+            band[j, k] *= inverse
+        for k in range(1, last):
+            factor = band[j, k]
+            for m in range(k, last):
+                band[j + k, m - k] -= factor * band[j, m]
+    return True
+
+
+@njit(cache=True)
+def _substitute(factor: Band, x: Vector) -> None:
+    """Overwrite a right-hand side with the solution."""
+    n, width = factor.shape
+    for j in range(n):
+        x[j] *= factor[j, 0]
+        for k in range(1, min(width, n - j)):
+            x[j + k] -= factor[j, k] * x[j]
+    for j in range(n - 1, -1, -1):
+        total = x[j]
+        for k in range(1, min(width, n - j)):
+            total -= factor[j, k] * x[j + k]
+        x[j] = total * factor[j, 0]
+
+
+@njit(cache=True)
+def _remove(part: Vector, x: Vector) -> None:
+    """Make x orthogonal to part."""
+    share, size = 0.0, 0.0
+    for i in range(x.size):
+        share += part[i] * x[i]
+        size += part[i] * part[i]
+    for i in range(x.size):
+        x[i] -= share / size * part[i]
+
+
+@njit(cache=True)
+def _deforming_part(
+    change: Vector, middle: Vector, translations: Fields, rotations: Fields, z: Vector
+) -> bool:
+    """z: a change less its rigid part at the midpoint, the change itself where no translations are free.
+
+    rotations : (d (d - 1) / 2, n) is overwritten.  DOFs are components of vectors of a space of dimension d, the number
+    of translations.  True where hardly anything is left.
+    """
+    z[:] = change
+    dimension = translations.shape[0]
+    if dimension == 0:
+        return False
+    number = 0
+    for a in range(dimension):
+        for b in range(a + 1, dimension):
+            spin = rotations[number]
+            spin[:] = 0.0
+            for i in range(0, change.size, dimension):
+                spin[i + a], spin[i + b] = -middle[i + b], middle[i + a]
+            for _ in range(2):  # twice: far from the origin a rotation is nearly a translation
+                for k in range(dimension):
+                    _remove(translations[k], spin)
+                for k in range(number):
+                    _remove(rotations[k], spin)
+            number += 1
+    for _ in range(2):
+        for k in range(dimension):
+            _remove(translations[k], z)
+        for k in range(number):
+            _remove(rotations[k], z)
+    return bool((z * z).sum() < _RIGID**2 * (change * change).sum())
 
 
 @njit(cache=True)
@@ -55,7 +156,7 @@ def _step_matrix(band: Band, mass: Band, inertia: float, constrained: Mask) -> f
             band[j, k] *= 0.5
         for k in range(mass.shape[1]):
             band[j, k] += inertia * mass[j, k]
-    uncouple(band, constrained)
+    _uncouple(band, constrained)
     return stiffest
 
 
@@ -83,20 +184,20 @@ def _decay(
 ) -> None:
     """Take a drag's share off the momenta of the free DOFs; exchanged: what it takes, and what the supports give."""
     n = v.size
-    multiply(mass, v, work)
+    _multiply(mass, v, work)
     before, loss = 0.0, work.copy()
     for i in range(n):
         before += v[i] * work[i] / 2
         loss[i] = 0.0 if constrained[i] else -share * work[i]
-    substitute(factor, loss)
+    _substitute(factor, loss)
     for i in range(n):
         v[i] += loss[i]
-    multiply(mass, loss, work)
+    _multiply(mass, loss, work)
     given = 0.0
     for i in range(n):
         if constrained[i]:
             given += v[i] * work[i]
-    multiply(mass, v, work)
+    _multiply(mass, v, work)
     now = 0.0
     for i in range(n):
         now += v[i] * work[i] / 2
@@ -188,7 +289,7 @@ def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
         room.earliest,
         room.pull,
     )
-    multiply(run.mass, v, pull)
+    _multiply(run.mass, v, pull)
     for i in range(v.size):
         pull[i] = load[i] + 2 / h * pull[i]
         guess = h * v[i] if done < 2 or turning else 2 * earlier[i] - earliest[i]
@@ -210,7 +311,7 @@ def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector) -> bool:
         _loads(bodies, UNCORRECTED, middle, end, HESSIAN, gradient, factor)
     memory[_STIFFEST] = _step_matrix(factor, run.mass, 2 / run.h**2, run.constrained)
     memory[_FRESH], memory[_JUDGED] = 1.0, 0.0
-    return cholesky(factor)
+    return _cholesky(factor)
 
 
 @njit(cache=True)
@@ -226,7 +327,7 @@ def _meet_energy(
     blur: float,
 ) -> None:
     """Add to the gradient what makes the work of the forces the change of energy."""
-    rigid = deforming_part(change, middle, translations, rotations, z)
+    rigid = _deforming_part(change, middle, translations, rotations, z)
     if rigid:
         z[:] = gradient
     sigma = _sigma(change, gradient, z, before, after, blur)
@@ -265,7 +366,7 @@ def _unbalance(
 @njit(cache=True)
 def _correct(factor: Band, force: Vector, change: Vector) -> tuple[float, float]:
     """Correct the change of the step; the largest correction and the largest change."""
-    substitute(factor, force)
+    _substitute(factor, force)
     size = farthest = 0.0
     for i in range(change.size):
         change[i] += force[i]
@@ -324,7 +425,7 @@ def _solve_step(
         if bodies.loaded:
             _loads(bodies, UNCORRECTED, middle, end, GRADIENT, gradient, none)
         _accelerate(change, moved, rates, done, run.h, gained)
-        multiply(mass, gained, product)
+        _multiply(mass, gained, product)
         _unbalance(constrained, pull, inertia, product, gradient, force)
         sized = size
         size, farthest = _correct(factor, force, change)
@@ -371,8 +472,8 @@ def integrate_steps(
     steps = run.places.shape[0] - 1
     fraction = 1 - np.exp(-run.damping_rate * run.h / 2)
     if run.damping_rate > 0.0:
-        uncouple(room.mass_factor, run.constrained)
-        cholesky(room.mass_factor)
+        _uncouple(room.mass_factor, run.constrained)
+        _cholesky(room.mass_factor)
     before = _started(bodies, q, room.gradient, room.factor)
     for done in range(steps):
         if run.damping_rate > 0.0:
