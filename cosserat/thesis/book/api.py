@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import re
 from typing import TYPE_CHECKING, Any
@@ -72,5 +73,6 @@ def _short(signature: str) -> str:
 
 def _skips(_: Sphinx, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
     """Leave out what is no method: the keys of parameter classes stand on a page of their own."""
-    called = inspect.isroutine(thing) and thing.__name__ == name
-    return None if called or isinstance(thing, property | classmethod) else True
+    described = isinstance(thing, property | classmethod | functools.cached_property)
+    called = inspect.isroutine(thing) and getattr(thing, "__name__", "") == name
+    return None if called or described else True
