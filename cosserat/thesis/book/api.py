@@ -67,7 +67,7 @@ def _signature(
 def _short(signature: str) -> str:
     """Arrays as "NDArray[float64]", and other types and functions by their names."""
     signature = signature.replace("<factory>", "...")
-    signature = re.sub(r"TypeAliasForwardRef\('(\w+)'\)|<function (\w+)>", r"\1\2", signature)
+    signature = re.sub(r"(?:TypeAlias)?ForwardRef\('(\w+)'[^)]*\)|<function (\w+)>", r"\1\2", signature)
     return re.sub(r"~?(?:\w+\.)*ndarray\[.*?dtype\[~?(?:\w+\.)*(\w+)\]\]", r"NDArray[\1]", signature)
 
 
