@@ -45,7 +45,7 @@ class Couple(Load):
     """Moment, positive from E3 towards E2."""
 
     @property
-    def vertices(self) -> tuple[Vertex, ...]:
+    def vertices(self) -> tuple[str | int, ...]:
         """Where it acts."""
         return (self.at,)
 

@@ -65,7 +65,7 @@ class PointForce(DeadLoad):
     """Size of the force; a negative one pulls the other way."""
 
     @property
-    def vertices(self) -> tuple[Vertex, ...]:
+    def vertices(self) -> tuple[str | int, ...]:
         """Where it acts."""
         return (self.at,)
 

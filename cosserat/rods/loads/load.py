@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.parameters import Parameters
-from cosserat.rods.naming import Vertex
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.solvers.potential import Potential
@@ -52,7 +51,7 @@ class Load(Parameters):
     """A load of one kind: its parameters, and the potential of all loads of that kind."""
 
     @property
-    def vertices(self) -> tuple[Vertex, ...]:
+    def vertices(self) -> tuple[str | int, ...]:
         """The vertices that it names."""
         return ()
 
