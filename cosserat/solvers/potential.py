@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from cosserat.solvers.banded import NO_BAND, Band, Vector
 
-Strains = NDArray[np.float64]
+Bytes = NDArray[np.uint8]
 
 ENERGY, GRADIENT, HESSIAN, STRAINS, COMMIT = range(5)
 """What a kernel is asked for."""
@@ -94,7 +94,7 @@ class Potential:
         return self.half_bandwidth < 0
 
     @property
-    def data(self) -> NDArray[np.uint8]:
+    def data(self) -> Bytes:
         """The constants as bytes."""
         return self.constants.view(np.uint8)
 

@@ -17,6 +17,9 @@ _TERM = re.compile(r"(\w[\w, ]*) : (.*)")
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Connect the functions of this module; Sphinx calls this."""
+    from sphinx.util.inspect import TypeAliasForwardRef
+
+    setattr(TypeAliasForwardRef, "__repr__", lambda alias: alias.name)  # noqa: B010 - a name, also of a property
     app.connect("autodoc-process-docstring", _set_lines)
     app.connect("autodoc-process-signature", _signature)
     app.connect("autodoc-skip-member", _skips)
