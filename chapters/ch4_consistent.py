@@ -51,14 +51,14 @@ import numpy as np
 
 import cosserat
 from cosserat.exact import elastica
-from cosserat.rods.energies import reissner
+from cosserat.rods.energies import reissner_kernel
 from cosserat.solvers import continuation
 from cosserat.studies.calibration import beam_of
 from cosserat.thesis.book import page
 from cosserat.thesis.table import readouts
 
 # %% tags=["remove-input"]
-page.excerpt(reissner.assemble, "wide = (end_a", "if measuring")
+page.excerpt(reissner_kernel.assemble, "wide = (end_a", "if measuring")
 
 # %% [markdown]
 # A section may be free to contract in $\mathbf{E}_1$ (`lateral_constraint = "free"`: then $\Lambda = E\nu/(1-\nu^2)$, a pulled bar answers with

@@ -22,6 +22,8 @@ RENAMED = {"unknown": "dof", "refused_increments": "cutbacks", "branchings": "br
 """Old name of a variable, a dimension or a statistic -> its new name."""
 EXEMPT = ("source", "parameters")
 RELATIVE = 1e-9
+REMAINDERS = ("residual_N", "rounding_N", "tolerance_N", "judged_kinetic_J", "unresolved_kinetic_J")
+"""Statistics that are round-off, or follow it; the counts of iterations, cutbacks and steps may not change."""
 
 
 def changes(old: xr.Dataset, new: xr.Dataset, *, bits: bool) -> list[tuple[str, float, bool]]:
@@ -49,11 +51,12 @@ def changes(old: xr.Dataset, new: xr.Dataset, *, bits: bool) -> list[tuple[str, 
             found.append((str(name), 0.0, list(before.to_numpy()) == list(after.to_numpy())))
         if str(name) not in RENAMED.values() and dict(before.attrs) != dict(after.attrs):
             found.append((f"attributes of {name}", np.inf, False))
-    if "solver" in old.attrs:
-        statistics = json.loads(old.attrs["solver"])
-        renamed = {RENAMED.get(key, key): value for key, value in statistics.items()}
-        old.attrs["solver"] = json.dumps(renamed, sort_keys=True)
-    for key in sorted((set(old.attrs) | set(new.attrs)) - set(EXEMPT)):
+    before_run, after_run = (json.loads(data.attrs.get("solver", "{}")) for data in (old, new))
+    for key in sorted({RENAMED.get(key, key) for key in before_run} | set(after_run)):
+        was = {RENAMED.get(name, name): value for name, value in before_run.items()}.get(key)
+        same = was == after_run.get(key) or (not bits and key in REMAINDERS)
+        found.append((f"statistic {key}: {was} -> {after_run.get(key)}", 0.0 if same else np.inf, same))
+    for key in sorted((set(old.attrs) | set(new.attrs)) - set(EXEMPT) - {"solver"}):
         if old.attrs.get(key) != new.attrs.get(key):
             found.append((f"attribute {key}", np.inf, False))
     return found

@@ -11,7 +11,7 @@ from cosserat.cli import main
 from cosserat.errors import InputError
 from cosserat.exact import beams, elastica
 from cosserat.problems.static import RodStatics
-from cosserat.rods.energies import reissner_reference
+from cosserat.rods.energies import reissner
 from cosserat.rods.energies.compliance import stiffnesses
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.reference import Geometry
@@ -36,7 +36,7 @@ def small_rod(section="free", barrier=False, poisson=0.3, offset=0.0, displaceme
         shear_correction=5 / 6,
         lateral_constraint=section,
     )
-    return geometry, reissner_reference.potential(
+    return geometry, reissner.potential(
         geometry,
         stiffness,
         barrier=barrier,

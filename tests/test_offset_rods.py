@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import cosserat
-from cosserat.rods.energies.reissner_reference import centre_edges
+from cosserat.rods.energies.reissner import centre_edges
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.reference import edge_shear
 from cosserat.solvers.potential import GRADIENT, HESSIAN, STRAINS

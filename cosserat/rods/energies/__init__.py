@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 ENERGIES = {
     "published": "cosserat.rods.energies.hemingway:Hemingway",
-    "consistent": "cosserat.rods.energies.reissner_reference:Reissner",
+    "consistent": "cosserat.rods.energies.reissner:Reissner",
 }
 """Energies by the word that a case names in `rod.energy`."""
 

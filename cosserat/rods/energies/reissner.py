@@ -1,296 +1,169 @@
-"""A directed rod that converges: Reissner's measures between directors, coefficients from E, nu and the section alone.
-
-An edge e of reference length h is measured in the frame of the director m half-way between those of its ends:
-
-    axial stretch   a = (e x m) / h,      shear   g = e . m / h,      turning   T = angle from one director to the next,
-
-and each vertex has the stretch lambda = |d| / |D| of its section.  The energy is
-
-    Pi = sum over edges    h [ 2 mu A (a - 1)^2 + Lambda A (a - 1 + mean of lambda - 1)^2 + k mu A g^2 ] / 2
-                           + [ EI T^2 + mu I (difference of lambda)^2 ] / (2 h)
-       + sum over vertices L 2 mu A (lambda - 1)^2 / 2
-
-less the measures of the reference.  Where the centreline misses the area centres, edges run between those, at
-x plus a share of d: stretching and bending then couple as they do in (1.2.93).  The share, Y02 where the height is
-constant, belongs to the edge: edges that meet at a step of the height end at different points of its director.  The
-volumetric part sits on the edges, where it cannot lock; Lambda is Lame's first constant in plane strain, and
-E nu / (1 - nu^2) where the section is free in E1.  In an incompressible section Lambda is a penalty, on a times the
-mean of lambda less 1: the area in the plane itself, not its linear part.
-
-Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, and t = (sin b, -cos b),
-    h a = e . t,   h g = e . m,   d(h a)/db = h g,   d(h g)/db = -h a.
-"""
+"""The energy that converges: Reissner's measures between directors; its kernel stands in `reissner_kernel`."""
 
 from __future__ import annotations
 
-import numpy as np
-from numba import njit
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
-from cosserat.solvers.banded import Band, Vector
-from cosserat.solvers.potential import GRADIENT, HESSIAN, STRAINS
+import numpy as np
+from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError
+
+from cosserat.rods.energies import compliance, reissner_kernel
+from cosserat.rods.energies.compliance import EdgeStiffnesses, LateralConstraint
+from cosserat.rods.energies.energy import Energy
+from cosserat.rods.energies.reissner_kernel import TERMS, VERTEX
+from cosserat.rods.reference import Geometry, edge_shear, unwrapped_angles
+from cosserat.rods.variation import edge_masses
+from cosserat.solution import Field
+from cosserat.solvers.potential import Potential
+
+if TYPE_CHECKING:
+    from cosserat.rods.rod import Rod
 
 Array = NDArray[np.float64]
 
-TERMS = (
-    "axial stretching",
-    "cross-section stretching",
-    "bending",
-    "shearing",
-    "volume",
-    "cross-section stretch gradients",
-)
-"""The parts of the energy, in the order of `energy_terms`."""
-
-VERTEX = np.dtype(
-    [
-        # of the edge after the vertex, zero at the last one
-        ("edge", "f8"),  # length along the area centres [m]
-        ("axial", "f8"),  # h a of the reference [m]
-        ("slide", "f8"),  # h g of the reference [m]
-        ("turn", "f8"),  # T of the reference [rad]
-        ("k_axial", "f8"),  # 2 mu A [N]
-        ("k_volume", "f8"),  # Lambda A [N]
-        ("k_shear", "f8"),  # k mu A [N]
-        ("k_bending", "f8"),  # EI [N m^2]
-        ("k_stretch_gradient", "f8"),  # mu I [N m^2]
-        ("low", "f8"),  # its first end from the vertex, in directors of that [1]
-        ("high", "f8"),  # its second end from the next vertex, in directors of that [1]
-        # of the vertex
-        ("director", "f8"),  # |D| [m]
-        ("voronoi", "f8"),  # L [m]
-        ("k_section", "f8"),  # 2 mu A [N]
-        # what is added to the DOFs: zero, or the reference where these are displacements [m]
-        ("edge_3", "f8"),
-        ("edge_2", "f8"),
-        ("director_3", "f8"),
-        ("director_2", "f8"),
-        # choices; those of the first vertex count
-        ("barrier", "f8"),  # one with the barriers of Fig. 3.7
-        ("product", "?"),  # whether the volume is the product of the stretches, not their sum
-    ],
-    align=True,
-)
-"""What the kernel reads of each vertex and of the edge after it."""
-STRAIN, SLIDING, TURNING, STRETCH = range(4)
-"""Columns of the measures: of edge K the axial strain, the shear and the turning; of vertex K the section stretch."""
+_STIFF = 5.0  # Lambda over 2 mu from which on a volume is stiff: Poisson's ratio 0.45 in plane strain
 
 
-@njit(cache=True)
-def _stretch_energy(s: float, barrier: float) -> tuple[float, float, float]:
-    """(s - 1)^2, or with a barrier (s^2 - s + 1/s - 1) / 2 of Fig. 3.7(a): equal to second order; two derivatives."""
-    u = s - 1
-    if barrier == 0.0:
-        return u * u, 2 * u, 2.0
-    return u * u * (1 + 1 / s) / 2, u * (2 * s * s + s + 1) / (2 * s * s), 1 + 1 / s**3
+class Reissner(Energy):
+    """The convergent energy: it takes the compliances of its edges and I about the area centres."""
+
+    options = ("lateral_constraint", "barrier")
+    far = True
+
+    def check(self, rod: Rod) -> None:
+        """An incompressible section has a Poisson's ratio near one half."""
+        least = min(rod.poisson_ratios)
+        if rod.lateral_constraint == "incompressible" and least < compliance.INCOMPRESSIBLE:
+            raise PydanticCustomError(
+                "section",
+                f"has lateral_constraint = 'incompressible' and 'poisson' = {least:g}; it must be "
+                f"{compliance.INCOMPRESSIBLE} or more",
+            )
+
+    def potential(self, rod: Rod, geometry: Geometry, *, displacements: bool = False) -> Potential:
+        """Reissner's measures between directors, and section stretches."""
+        stiffness = compliance.stiffnesses(
+            rod.stations,
+            geometry.arc_length,
+            area=rod.area,
+            second_moment=rod.area * rod.height**2 / 12,
+            young=rod.young,
+            poisson=rod.poisson,
+            shear_correction=rod.shear_correction,
+            lateral_constraint=rod.lateral_constraint,
+            offset=(0.5 - rod.centreline) * rod.height,
+            curvature=rod.curvature,
+        )
+        heights = rod.height_fractions()
+        return potential(
+            geometry,
+            stiffness,
+            barrier=rod.barrier,
+            product=rod.lateral_constraint == "incompressible",
+            offsets=rod.Y02 * (stiffness.axis / np.stack([heights[:-1], heights[1:]])),
+            displacements=displacements,
+        )
+
+    def mass(self, rod: Rod, geometry: Geometry) -> Array:
+        """The mean of lumped masses and of those that straight edges have, shape (4 N, 7).
+
+        Y02 and Y22 are those of the sections along an edge, in directors of the vertices.
+        """
+        arc, heights = geometry.arc_length, rod.height_fractions()
+        edges = [edge_masses(rod.stations, rod.line_density, arc, power) for power in range(3)]
+        own = [np.append(edge.before, 0.0) + np.insert(edge.after, 0, 0.0) for edge in edges]
+        m0, m1, m2 = own[0], rod.Y02 * own[1] / heights, rod.Y22 * own[2] / heights**2
+        low, high = heights[:-1], heights[1:]
+        n0, n1, n2 = (edge.shared for edge in edges)
+        between = [[n0, rod.Y02 * n1 / high], [rod.Y02 * n1 / low, rod.Y22 * n2 / (low * high)]]
+        return self.kinematics.mass_band(np.array([[m0, m1], [m1, m2]]), np.array(between))
+
+    def fields(
+        self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float
+    ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
+        """Shear angles of the edges and the parts of the energy, that of the couples included."""
+        constants = self.potential(rod, geometry).constants
+        edges = centre_edges(constants, vectors[:, 0], vectors[:, 1])
+        return {"part": (*TERMS, "couples")}, {
+            "shear": (("edge",), edge_shear(edges, vectors[:, 1])),
+            "energy_parts": (("part",), np.append(terms, couples)),
+        }
+
+    def shaped(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
+        """A volume that hardly changes would set off vibrations of its own: the edges keep theirs."""
+        constants = self.potential(rod, geometry).constants
+        stiff = constants["k_volume"] > _STIFF * constants["k_axial"]
+        return keeping_volume(geometry, x, d, rod.lateral_constraint) if stiff.any() else d
 
 
-@njit(cache=True)
-def _bending_energy(turn: float, barrier: float) -> tuple[float, float, float]:
-    """T^2, or with a barrier 4 tan(T/2)^2 of Fig. 3.7(b), and two derivatives: equal to second order."""
-    if barrier == 0.0:
-        return turn * turn, 2 * turn, 2.0
-    t = np.tan(turn / 2)
-    s = 1 + t * t
-    return 4 * t * t, 4 * t * s, 2 * s * (s + 2 * t * t)
+def potential(
+    geometry: Geometry,
+    stiffness: EdgeStiffnesses,
+    *,
+    barrier: bool,
+    product: bool,
+    offsets: Array | float = 0.0,
+    displacements: bool = False,
+) -> Potential:
+    """The energy of given stiffnesses.
+
+    barrier : with those of Fig. 3.7.  product : the volume is the product of the stretches, not their sum.
+    offsets : (2, N - 1) of each edge's area centres from the centreline at its two vertices, in directors of those, or
+        one for all; edges run from one area centre to the next, and the second moment is about them.
+    displacements : DOFs are displacements, whose rounding on fine meshes is far less than that of positions.
+    """
+    rod = np.zeros(geometry.X.shape[0], VERTEX)
+    rod["low"][:-1], rod["high"][:-1] = np.broadcast_to(offsets, (2, rod.size - 1))
+    e, turn = centre_edges(rod, geometry.X, geometry.D), np.diff(unwrapped_angles(geometry.D))
+    b = unwrapped_angles(geometry.D)[:-1] + turn / 2
+    edges = {
+        "edge": np.linalg.norm(np.diff(geometry.X, axis=0), axis=1) * stiffness.length,
+        "axial": e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b),
+        "slide": e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b),
+        "turn": turn,
+        "k_axial": stiffness.axial,
+        "k_volume": stiffness.volume,
+        "k_shear": stiffness.shear,
+        "k_bending": stiffness.bending,
+        "k_stretch_gradient": stiffness.stretch_gradient,
+    }
+    for name, values in edges.items():
+        rod[name][:-1] = values
+    rod["director"], rod["voronoi"] = geometry.director_length, geometry.voronoi_length
+    rod["k_section"] = stiffness.section
+    rod["barrier"], rod["product"] = float(barrier), product
+    if displacements:
+        rod["edge_3"][:-1], rod["edge_2"][:-1] = e.T
+        rod["director_3"], rod["director_2"] = geometry.D.T
+    return Potential(
+        evaluate=reissner_kernel.assemble,
+        constants=rod,
+        terms=TERMS,
+        half_bandwidth=7,  # two neighbouring vertices
+        strains=(rod.size, 4),
+    )
 
 
-@njit(cache=True)
-def _curve(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
-    """Add sum over k of w_k v_k v_k + c b + b c, b the last row of v, to the block of eight DOFs from p on."""
-    for j in range(8):
-        for i in range(j, 8):
-            total = c[i] * v[5, j] + c[j] * v[5, i]
-            for k in range(6):
-                total += w[k] * v[k, i] * v[k, j]
-            band[p + j, i - j] += total
+def centre_edges(constants: NDArray[np.void], x: Array, d: Array) -> Array:
+    """Edges between area centres, (N - 1, 2) [m], of vertices and directors (N, 2) [m]."""
+    low, high = constants["low"][:-1, None], constants["high"][:-1, None]
+    edges: Array = (x[1:] + high * d[1:]) - (x[:-1] + low * d[:-1])
+    return edges
 
 
-@njit(cache=True)
-def _pair(band: Band, p: int, u: Array, v: Array, w: float) -> None:
-    """Add w (u v + v u) to the block of eight DOFs from p on."""
-    for j in range(8):
-        for i in range(j, 8):
-            band[p + j, i - j] += w * (u[i] * v[j] + u[j] * v[i])
+def keeping_volume(
+    geometry: Geometry, x: Array, d: Array, lateral_constraint: LateralConstraint
+) -> Array:
+    """Directors of the same directions, (N, 2) [m], so long that each edge keeps its volume; the first is not scaled.
 
-
-@njit(cache=True)
-def _turn(band: Band, p: int, n0: float, n1: float, across: float, twist: float) -> None:
-    """Add across n' n' - twist (n n' + n' n), n' = (-n1, n0), to the block of a director from unknown p on."""
-    band[p, 0] += across * n1 * n1 + 2 * twist * n0 * n1
-    band[p, 1] += -across * n0 * n1 - twist * (n0 * n0 - n1 * n1)
-    band[p + 1, 0] += across * n0 * n0 - 2 * twist * n0 * n1
-
-
-@njit(cache=True, error_model="numpy")
-def _measured(
-    e0: float, e1: float, n0: float, n1: float, p0: float, p1: float
-) -> tuple[float, float, float, float, float]:
-    """h a, h g and the turning of an edge e between two directions, and the direction m between them."""
-    s0, s1 = n0 + p0, n1 + p1
-    both = np.sqrt(s0 * s0 + s1 * s1)
-    m0, m1 = s0 / both, s1 / both
-    return e0 * m1 - e1 * m0, e0 * m0 + e1 * m1, np.arctan2(n0 * p1 - n1 * p0, n0 * p0 + n1 * p1), m0, m1
-
-
-@njit(cache=True)
-def _volume(strain: float, wide: float, product: bool) -> float:
-    """Change of volume of an edge by its axial strain and the mean stretch of its sections."""
-    return (1 + strain) * wide - 1 if product else strain + wide - 1
-
-
-@njit(cache=True, error_model="numpy")
-def assemble(
-    q: Vector,
-    after: Vector,
-    data: NDArray[np.uint8],
-    history: Vector,
-    strains: Array,
-    task: int,
-    gradient: Vector,
-    band: Band,
-    skew: Band,
-    terms: Array,
-) -> float:
-    """The energy and its parts, as `solvers.potential.KERNEL` says."""
-    rod = data.view(VERTEX)
-    terms[:] = 0.0
-    moving, measuring, curving = after.size > 0, task == STRAINS, task == HESSIAN
-    deriving = curving or task == GRADIENT
-    barrier, product = rod[0].barrier, rod[0].product
-    # of the vertex before: direction, length and stretch; at the end of a step; and the stretch that stresses go by
-    n0 = n1 = r_a = a0 = a1 = end_a = used_a = 0.0
-    v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
-    for K in range(rod.shape[0]):
-        p, J, D = 4 * K, K - 1, rod[K].director
-        p0, p1 = q[p + 2] + rod[K].director_3, q[p + 3] + rod[K].director_2
-        r_b = np.sqrt(p0 * p0 + p1 * p1)
-        if not r_b > 0.0:
-            return np.inf
-        p0, p1 = p0 / r_b, p1 / r_b
-        b0, b1, used_b = p0, p1, r_b / D
-        end_b = used_b
-        if moving:
-            b0, b1 = after[p + 2] + rod[K].director_3, after[p + 3] + rod[K].director_2
-            size = np.sqrt(b0 * b0 + b1 * b1)
-            if not size > 0.0:
-                return np.inf
-            b0, b1, end_b = b0 / size, b1 / size, size / D
-            used_b = (strains[K, STRETCH] + end_b) / 2
-        if measuring:
-            strains[K, STRETCH] = end_b
-        terms[1] += rod[K].k_section / 2 * rod[K].voronoi * _stretch_energy(end_b, barrier)[0]
-        W_rb = W_rr = 0.0
-        W_turn = 0.0
-        if deriving:
-            _, first, second = _stretch_energy(used_b, barrier)
-            W_rb = rod[K].k_section / 2 * rod[K].voronoi * first / D
-            W_rr = rod[K].k_section / 2 * rod[K].voronoi * second / D**2
-        if K > 0:
-            E, D_a, low, high = rod[J].edge, rod[J].director, rod[J].low, rod[J].high
-            e0, e1 = q[p] - q[p - 4] + rod[J].edge_3, q[p + 1] - q[p - 3] + rod[J].edge_2
-            e0 += high * (q[p + 2] - q[p - 2]) + (high - low) * q[p - 2]
-            e1 += high * (q[p + 3] - q[p - 1]) + (high - low) * q[p - 1]
-            A, G, T, m0, m1 = _measured(e0, e1, n0, n1, p0, p1)
-            if not A > 0.0:
-                return np.inf
-            strain, slide, turn = (A - rod[J].axial) / E, (G - rod[J].slide) / E, T
-            if moving:
-                e0, e1 = (
-                    after[p] - after[p - 4] + rod[J].edge_3,
-                    after[p + 1] - after[p - 3] + rod[J].edge_2,
-                )
-                e0 += high * (after[p + 2] - after[p - 2]) + (high - low) * after[p - 2]
-                e1 += high * (after[p + 3] - after[p - 1]) + (high - low) * after[p - 1]
-                A_end, G_end, turn, _, _ = _measured(e0, e1, a0, a1, b0, b1)
-                if not A_end > 0.0:
-                    return np.inf
-                strain, slide = (A_end - rod[J].axial) / E, (G_end - rod[J].slide) / E
-            wide = (end_a + end_b) / 2
-            volume, jump = _volume(strain, wide, product), end_b - end_a
-            terms[0] += rod[J].k_axial / 2 * E * _stretch_energy(1 + strain, barrier)[0]
-            terms[4] += rod[J].k_volume / 2 * E * volume * volume
-            terms[3] += rod[J].k_shear / 2 * E * slide * slide
-            terms[2] += rod[J].k_bending / (2 * E) * _bending_energy(turn - rod[J].turn, barrier)[0]
-            terms[5] += rod[J].k_stretch_gradient / (2 * E) * jump * jump
-            if measuring:
-                strains[J, STRAIN], strains[J, SLIDING], strains[J, TURNING] = strain, slide, turn
-            if deriving:
-                least = -np.inf
-                if moving:  # stresses are those of the mean of both ends
-                    old, old_wide = (
-                        strains[J, STRAIN],
-                        (strains[J, STRETCH] + strains[K, STRETCH]) / 2,
-                    )
-                    old_volume = _volume(old, old_wide, product)
-                    if curving:  # but pressure and least tension are those of the start
-                        least, volume = _stretch_energy(1 + old, barrier)[1], old_volume
-                    volume, strain = (old_volume + volume) / 2, (old + strain) / 2
-                    slide, turn = (strains[J, SLIDING] + slide) / 2, (strains[J, TURNING] + turn) / 2
-                    wide, jump = (used_a + used_b) / 2, used_b - used_a
-                by_axial, by_wide = (wide, 1 + strain) if product else (1.0, 1.0)
-                _, first, w_axial = _stretch_energy(1 + strain, barrier)
-                _, bent_first, bent_second = _bending_energy(turn - rod[J].turn, barrier)
-                pressure = rod[J].k_volume * volume
-                W_A = rod[J].k_axial / 2 * max(first, least) + pressure * by_axial
-                W_G = rod[J].k_shear * slide
-                W_T = rod[J].k_bending / (2 * E) * bent_first
-                W_wide = pressure * E / 2 * by_wide
-                W_ra = (W_wide - rod[J].k_stretch_gradient / E * jump) / D_a
-                W_rb += (W_wide + rod[J].k_stretch_gradient / E * jump) / D
-                W_b = W_A * G - W_G * A
-                f0, f1 = W_A * m1 + W_G * m0, -W_A * m0 + W_G * m1
-                turn_a = (W_b / 2 - W_T) / r_a
-                W_turn += W_b / 2 + W_T
-                gradient[p - 4] -= f0
-                gradient[p - 3] -= f1
-                gradient[p - 2] += W_ra * n0 - turn_a * n1
-                gradient[p - 1] += W_ra * n1 + turn_a * n0
-                gradient[p] += f0
-                gradient[p + 1] += f1
-                gradient[p - 2] -= low * f0
-                gradient[p - 1] -= low * f1
-                gradient[p + 2] += high * f0
-                gradient[p + 3] += high * f1
-            if curving:
-                # gradients by (x, d) of both vertices: A, G, T, volume E, jump, b
-                v[0, 0], v[0, 1], v[0, 4], v[0, 5] = -m1, m0, m1, -m0
-                v[1, 0], v[1, 1], v[1, 4], v[1, 5] = -m0, -m1, m0, m1
-                v[2, 2], v[2, 3], v[2, 6], v[2, 7] = n1 / r_a, -n0 / r_a, -p1 / r_b, p0 / r_b
-                v[4, 2], v[4, 3], v[4, 6], v[4, 7] = -n0 / D_a, -n1 / D_a, p0 / D, p1 / D
-                for i in range(8):
-                    if i % 4 > 1:
-                        v[5, i] = v[2, i] / 2 if i > 3 else -v[2, i] / 2
-                        share = high if i > 3 else low
-                        v[0, i] = G * v[5, i] + share * v[0, i - 2]
-                        v[1, i] = -A * v[5, i] + share * v[1, i - 2]
-                        widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
-                    v[3, i] = by_axial * v[0, i] + by_wide * E * widening[i]
-                w[0], w[1], w[2] = (
-                    rod[J].k_axial / 2 * w_axial / E,
-                    rod[J].k_shear / E,
-                    rod[J].k_bending / (2 * E) * bent_second,
-                )
-                w[3], w[4], w[5] = (
-                    rod[J].k_volume / E,
-                    rod[J].k_stretch_gradient / E,
-                    -W_A * A - W_G * G,
-                )
-                c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
-                c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
-                c[2], c[3], c[6], c[7] = -low * c0, -low * c1, high * c0, high * c1
-                _curve(band, p - 4, v, w, c)
-                if product:
-                    _pair(band, p - 4, v[0], widening, pressure)
-                _turn(band, p - 2, n0, n1, W_ra / r_a, turn_a / r_a)
-        if deriving:
-            gradient[p + 2] += W_rb * p0 - W_turn / r_b * p1
-            gradient[p + 3] += W_rb * p1 + W_turn / r_b * p0
-        if curving:
-            band[p + 2, 0] += W_rr * p0 * p0
-            band[p + 2, 1] += W_rr * p0 * p1
-            band[p + 3, 0] += W_rr * p1 * p1
-            _turn(band, p + 2, p0, p1, W_rb / r_b, W_turn / r_b**2)
-        n0, n1, r_a, a0, a1, end_a, used_a = p0, p1, r_b, b0, b1, end_b, used_b
-    total: float = terms.sum()
-    return total
+    A volume that hardly changes would otherwise set off vibrations of its own at the start of a motion.
+    """
+    unit = d / np.linalg.norm(d, axis=1)[:, None]
+    m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)
+    axial = (e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0]) / np.linalg.norm(m, axis=1) / geometry.edge_length
+    wide = np.ones(axial.size + 1)
+    for K, a in enumerate(axial):
+        wide[K + 1] = 2 * (1 / a if lateral_constraint == "incompressible" else 2 - a) - wide[K]
+    directors: Array = (geometry.director_length * wide)[:, None] * unit
+    return directors
