@@ -105,17 +105,6 @@ def integrate_implicitly(
     return State(q, v, tuple(history), state.time + count * h, *exchanged.tolist()), count
 
 
-def _check_positions(system: MechanicalSystem, state: State, name: str) -> None:
-    """Raise InputError where compiled steps would take displacements for positions."""
-    still = system.space.rigid_motions(np.zeros_like(state.q))[system.space.dimension :]
-    free = not system.constrained.any()
-    if any(p.origin is not None for p in system.potentials) or (free and still.any()):
-        raise InputError(
-            f"{name}: the method 'implicit' moves positions, and these degrees of freedom are displacements; "
-            "take a configuration space whose degrees of freedom are positions"
-        )
-
-
 def _role(potential: Potential) -> int:
     """What a step makes of a potential."""
     if potential.linear:
@@ -135,3 +124,14 @@ def _prescribed(
         place, rate, _ = system.constraints.at_time(start + number * h)
         path[:, number] = place[moved], rate[moved]
     return moved, path[0], path[1]
+
+
+def _check_positions(system: MechanicalSystem, state: State, name: str) -> None:
+    """Raise InputError where compiled steps would take displacements for positions."""
+    still = system.space.rigid_motions(np.zeros_like(state.q))[system.space.dimension :]
+    free = not system.constrained.any()
+    if any(p.origin is not None for p in system.potentials) or (free and still.any()):
+        raise InputError(
+            f"{name}: the method 'implicit' moves positions, and these degrees of freedom are displacements; "
+            "take a configuration space whose degrees of freedom are positions"
+        )
