@@ -147,6 +147,11 @@ class SpatialRod:
         return (h[1:] + h[:-1]) / 2
 
     @property
+    def masses(self):
+        """Of positions and directors (N, 3)."""
+        return self.parts[:, None] * np.array([1.0, *np.square(self.radii)])
+
+    @property
     def stiffness(self):
         """Per length, by the name of the strain."""
         I1, I2 = np.square(self.radii)
@@ -180,8 +185,7 @@ class SpatialRod:
         """The rod under loads."""
         mask = np.zeros(self.at_rest.size, bool)
         mask[self.held] = True
-        inertia = np.diag([1.0, *np.square(self.radii)])
-        mass = SPATIAL.mass_band(self.parts, np.zeros(self.edges.size), inertia)
+        mass = np.repeat(self.masses.ravel(), 3)[:, None]
         q = self.at_rest.ravel()
         space = RodSpace(SPATIAL, q, displacements=False, rounded=np.zeros_like(q))
         return MechanicalSystem(self.energy(), loads, FixedDofs(mask), space, mass)
@@ -194,8 +198,9 @@ class SpatialRod:
 
     def angular_momentum(self, q, v):
         """About the origin, (3,)."""
-        weights = self.parts[:, None] * np.array([1.0, *np.square(self.radii)])
-        return (weights[..., None] * np.cross(q.reshape(-1, 3, 3), v.reshape(-1, 3, 3))).sum(axis=(0, 1))
+        return (self.masses[..., None] * np.cross(q.reshape(-1, 3, 3), v.reshape(-1, 3, 3))).sum(
+            axis=(0, 1)
+        )
 
 
 def straight(vertices, length=1.0, *, clamped=False, **more):
