@@ -313,8 +313,8 @@ class Tangent:
     def negative(self) -> int:
         """How many eigenvalues are negative; where there is a skew part, one if the determinant is.
 
-        So a load without a potential loses its stability where the body could stay at rest elsewhere nearby.  That it
-        may flutter before is for a motion to show.
+        Under a load without a potential a body diverges where the determinant changes its sign.  It may flutter
+        before, which only a motion shows.
         """
         if not self.skew.size:
             return negative_eigenvalues(self.band)
