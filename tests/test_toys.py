@@ -13,6 +13,7 @@ from cosserat.errors import InputError
 from cosserat.kinds import KINDS, Kind
 from cosserat.parameters import Parameters
 from cosserat.problem import ALONE, Problem
+from cosserat.problems.checkpoints import CheckpointedRun, resumed
 from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
 from cosserat.publications import kinds
@@ -23,7 +24,7 @@ from cosserat.rods.kinematics import Kinematics
 from cosserat.rods.loads.load import Load
 from cosserat.rods.problem import CONSTRAINTS, LOADS
 from cosserat.solution import Solution
-from cosserat.solvers.potential import GRADIENT, HESSIAN, STRAINS, Potential
+from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, STRAINS, Potential
 
 CLAMP = {"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}
 
@@ -287,6 +288,50 @@ def test_its_work_is_the_change_of_energy_and_not_corrected_away(pushes):
         energy = moved["kinetic_energy"] + moved["strain_energy"]
         missing.append(abs(energy[-1] - energy[0] - work) / abs(work))
     assert missing[-1] < 1e-9  # exactly what the midpoint rule gives
+
+
+def test_small_motions_under_it_are_not_called_vibrations(pushes):
+    table = cosserat.case("elastica").problem.model_dump() | {"kind": "pushed statics", "forces": []}
+    table["pushes"] = [{"force": 1e-6}]
+    with pytest.raises(InputError, match="a load has no potential"):
+        PushedStatics.read(table, "pushed", units_required=False).modes(1)
+
+
+@njit(cache=True)
+def counter(q, after, data, history, strains, task, gradient, band, skew, terms):
+    """No force; counts accepted states."""
+    if task == COMMIT:
+        history[0] += 1
+    else:
+        terms[0] = 0.0
+    return 0.0
+
+
+class Counter(Load):
+    """Remembers how many states were accepted."""
+
+    @classmethod
+    def potential(cls, loads, body):
+        return Potential(counter, np.zeros(1, [("none", "f8")]), ("counter",), -1, history=np.zeros(1))
+
+
+class CountedMotion(RodMotion):
+    kind: str = "counted motion"
+    counters: tuple[Counter, ...] = ()
+
+
+def test_what_a_load_remembers_is_kept_from_one_part_of_a_run_to_the_next(monkeypatch):
+    monkeypatch.setitem(LOADS, "counters", Counter)
+    table = cosserat.case("vibration_consistent").problem.model_dump() | {"kind": "counted motion"}
+    table |= {"duration": 0.01, "every": 0.005, "integrator": {"step": 5e-4}, "counters": [{}]}
+    problem = CountedMotion.read(table, "counted", units_required=False)
+    run = CheckpointedRun.of(problem, "counted")
+    part, state, stopped = run.part(0, problem.begin())
+    assert stopped is None
+    again = resumed(part, run.system)
+    assert state.history[-1] == 1 + 20  # the start and every step
+    for one, other in zip(state.history, again.history, strict=True):
+        np.testing.assert_array_equal(one, other)
 
 
 # ---------------------------------------------------------------- a constraint: a vertex that is led along a circle

@@ -15,7 +15,7 @@ import numpy as np
 
 from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.solvers.banded import Vector, absolute_product, negative_eigenvalues
+from cosserat.solvers.banded import Vector, absolute_product
 from cosserat.solvers.indefinite import lowest_eigenvector
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
@@ -46,7 +46,7 @@ class Equilibrium:
     reaction : (n,) force that holds each constrained DOF [N].
     residual, tolerance : largest unbalanced force and the one that was allowed [N].
     rounding : largest force that rounding can cause; no residual can be asked to be below it [N].
-    negative : how many eigenvalues of the Hessian, or of its symmetric part, are negative.
+    negative : how many eigenvalues of the Hessian are negative, as `Tangent.negative` says.
     """
 
     q: Vector
@@ -61,7 +61,7 @@ class Equilibrium:
 
     @property
     def stable(self) -> bool:
-        """Whether the potential has a minimum there."""
+        """Whether the potential has a minimum there, if there is one."""
         return self.negative == 0
 
 
@@ -160,7 +160,7 @@ class EquilibriumSolver:
             self.residual,
             self.tolerance,
             rounding,
-            0 if positive else negative_eigenvalues(self.tangent.band),
+            0 if positive else self.tangent.negative(),
         )
 
     def _polished_once(

@@ -13,7 +13,7 @@ from numba import types as numba_types
 from numba.core.errors import NumbaExperimentalFeatureWarning
 from numpy.typing import NDArray
 
-from cosserat.errors import NotConvergedError
+from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import Vector
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
@@ -60,8 +60,10 @@ def integrate_implicitly(
 
     Raises
     ------
+    InputError : the DOFs are displacements where the method needs positions.
     NotConvergedError : a step found no solution.
     """
+    _check_positions(system, state, name)
     count = step_count(duration, settings)
     h, n = duration / count, state.q.size
     met = [k for k, p in enumerate(system.potentials) if not p.linear or p.history.size]
@@ -86,7 +88,7 @@ def integrate_implicitly(
         *_prescribed(system, state.time, h, count),
     )
     vectors = [np.zeros(n) for _ in range(12)]
-    bands = [rotations, np.empty((n, system.half_bandwidth + 1)), mass.copy()]
+    bands = [rotations, np.empty((n, max(width, system.half_bandwidth + 1))), mass.copy()]
     room = Room._make([*vectors, *bands])
     q, v, exchanged = state.q.copy(), state.v.copy(), np.array([state.dissipated, state.driven])
     with warnings.catch_warnings():  # Numba calls functions that are handed over an experiment
@@ -138,3 +140,14 @@ def _prescribed(
         place, rate, _ = system.constraints.at_time(start + number * h)
         path[:, number] = place[moved], rate[moved]
     return moved, path[0], path[1]
+
+
+def _check_positions(system: MechanicalSystem, state: State, name: str) -> None:
+    """Raise InputError where compiled steps would take displacements for positions."""
+    still = system.space.rigid_motions(np.zeros_like(state.q))[system.space.dimension :]
+    free = not system.constrained.any()
+    if any(p.origin is not None for p in system.potentials) or (free and still.any()):
+        raise InputError(
+            f"{name}: the method 'implicit' moves positions, and these degrees of freedom are displacements; "
+            "take a configuration space whose degrees of freedom are positions"
+        )

@@ -10,11 +10,11 @@ from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector, solve_positive
 _SHIFTS = tuple(2.0**k for k in range(-40, 12))  # shares of the largest diagonal entry, tried in turn
 
 
-def solve_any(band: Band, right: Vector, skew: Band = NO_BAND) -> Vector | None:
+def solve_any(band: Band, right: Vector, skew: Band = NO_BAND) -> tuple[Vector | None, float]:
     """Solve with a symmetric band that need not be positive, for one or, as columns, several right-hand sides.
 
     skew : the part below the diagonal of a skew-symmetric matrix to be added; without rows there is none.
-    None where the matrix is singular.
+    Returns the solution and the sign of the determinant; None and zero where the matrix is singular.
     """
     n, width = band.shape[0], band.shape[1] - 1
     general = np.zeros((3 * width + 1, n), order="F")
@@ -26,9 +26,11 @@ def solve_any(band: Band, right: Vector, skew: Band = NO_BAND) -> Vector | None:
             general[2 * width - k, k:] -= skew[: n - k, k]
     factors, pivots, info = dgbtrf(general, width, width, overwrite_ab=1)
     if info != 0:
-        return None
+        return None, 0.0
     x, _ = dgbtrs(factors, width, width, right, pivots)
-    return np.asarray(x)
+    exchanges = np.count_nonzero(pivots != np.arange(n))
+    sign = (-1.0) ** exchanges * float(np.prod(np.sign(factors[2 * width])))
+    return np.asarray(x), sign
 
 
 def _made_positive(band: Band, right: Vector) -> tuple[Band, Vector | None]:

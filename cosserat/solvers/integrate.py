@@ -180,16 +180,9 @@ def free_matrices(
 
 
 def _sparse(band: Band) -> dia_array:
-    from scipy.sparse import dia_array
+    from scipy.sparse import dia_array, tril
 
     n, width = band.shape
-    offsets = range(min(width, n))
-    lower = dia_array(
-        (np.array([band[:, k] for k in offsets]), [-k for k in offsets]), shape=(n, n)
-    ).tocsr()
-    return (
-        lower
-        + dia_array(
-            (np.array([np.roll(band[:, k], k) for k in offsets[1:]]), offsets[1:]), shape=(n, n)
-        ).tocsr()
-    )
+    below = range(min(width, n))
+    lower = dia_array((band.T[: len(below)], [-k for k in below]), shape=(n, n)).tocsr()
+    return lower + tril(lower, -1).T

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from cosserat.errors import UnstableError
+from cosserat.errors import InputError, UnstableError
 from cosserat.solvers.banded import Band, Vector, band_product, negative_eigenvalues
 from cosserat.solvers.integrate import free_matrices
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
@@ -51,7 +51,13 @@ def modes(
     Raises
     ------
     UnstableError : some small motions about q grow.
+    InputError : a load has no potential, so that the Hessian is not symmetric.
     """
+    if not system.symmetric:
+        raise InputError(
+            f"{name}: a load has no potential, so that small motions need not be vibrations; leave it out, or see with "
+            "kind = 'rod motion' how they grow or fade"
+        )
     stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q, history))
     if anchored:
         rounding, growing = 0.0, _count_unstable(system, q, history)

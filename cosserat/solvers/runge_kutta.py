@@ -38,28 +38,29 @@ def adaptive(
     ------
     DivergedError : it stopped.
     """
-    from scipy.integrate import solve_ivp
+    from scipy.integrate import RK45
 
     size = np.concatenate([np.abs(state.q), np.full(state.v.size, float(np.abs(state.v).max()))])
     allowed = np.full(size.size + 2, settings.tolerance * max(float(size.max()), 1e-300))
     allowed[-2:] = np.inf  # the books follow the motion
     rate = _Rates(system)
     rate.history = state.history
-    done = solve_ivp(
+    method = RK45(
         rate,
-        (state.time, state.time + duration),
+        state.time,
         _packed(state),
-        method="RK45",
+        state.time + duration,
         max_step=settings.step,
         rtol=settings.tolerance,
         atol=allowed,
     )
-    if not done.success:
-        raise DivergedError(f"{name}: the explicit integrator stopped ({done.message}); {REMEDY}")
-    end = state.time + duration
-    for y in done.y.T:  # every step, so that no turn is missed
-        state = _accepted(system, state, end, y)
-    return state, int(done.nfev)
+    while method.status == "running":
+        message = method.step()
+        if method.status == "failed":
+            raise DivergedError(f"{name}: the explicit integrator stopped ({message}); {REMEDY}")
+        state = _accepted(system, state, method.t, method.y)
+        rate.history = state.history
+    return state, int(method.nfev)
 
 
 def _packed(state: State) -> Vector:

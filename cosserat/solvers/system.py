@@ -20,6 +20,7 @@ from cosserat.solvers.banded import (
     Vector,
     band_product,
     constrain,
+    negative_eigenvalues,
     skew_product,
     solve_positive,
     uncouple,
@@ -302,9 +303,19 @@ class Tangent:
     def solve(self, right: Vector, *, positive: bool = False) -> Vector | None:
         """Solve with the Hessian for one or, as columns, several right-hand sides.
 
-        None where it is singular or, with `positive`, where its symmetric part is not positive.
+        None where it is singular or, with `positive`, where `negative` is not zero.
         """
-        if not positive:
-            return solve_any(self.band, right, self.skew)
-        step = solve_positive(self.band, right)
-        return step if step is None or not self.skew.size else solve_any(self.band, right, self.skew)
+        if positive and not self.skew.size:
+            return solve_positive(self.band, right)
+        step, sign = solve_any(self.band, right, self.skew)
+        return None if positive and sign < 0 else step
+
+    def negative(self) -> int:
+        """How many eigenvalues are negative; where there is a skew part, one if the determinant is.
+
+        Under a load without a potential a body diverges where the determinant changes its sign.  It may flutter
+        before, which only a motion shows.
+        """
+        if not self.skew.size:
+            return negative_eigenvalues(self.band)
+        return int(solve_any(self.band, self.gradient, self.skew)[1] < 0)
