@@ -115,9 +115,8 @@ def _solution(rod: Rod, geometry: Geometry, point: Equilibrium, solver: Equilibr
     x, d = vectors[:, 0], vectors[:, 1]
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
-    terms = system.internal.energy_terms(point.q)
     coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
-    more, own = rod.strain_energy.fields(rod, geometry, vectors, terms, coupled)
+    more, own = rod.strain_energy.fields(rod, geometry, system.internal, point.q, coupled)
     labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs} | more
     vector, force = ("vertex", "axis"), ("vertex", "dof")
     fields: dict[str, Field] = own | {

@@ -46,10 +46,14 @@ class Kinematics:
         """Flat DOFs (..., N m d), or a mask of them, as vectors, (..., N, m, d)."""
         return q.reshape(*q.shape[:-1], -1, len(self.vectors), len(self.axes))
 
-    def parts(self, q: Array) -> tuple[Array, Array]:
-        """Edges (N - 1, d) and directors (N (m - 1), d) at flat DOFs."""
+    def parts(self, q: Array) -> Array:
+        """Edges, then directors, at flat DOFs: (N - 1 + N (m - 1), d)."""
         vectors = self.split(q)
-        return np.diff(vectors[:, 0], axis=0), vectors[:, 1:].reshape(-1, self.dimension)
+        count, m, d = vectors.shape
+        parts = np.empty((m * count - 1, d))
+        np.subtract(vectors[1:, 0], vectors[:-1, 0], out=parts[: count - 1])
+        parts[count - 1 :].reshape(count, m - 1, d)[:] = vectors[:, 1:]
+        return parts
 
     def rigid_motions(self, q: Array) -> Array:
         """Velocities that deform nothing, at flat DOFs: shape (d + d (d - 1) / 2, N m d).

@@ -44,10 +44,10 @@ class RodSpace:
     def scale(self) -> Vector:
         """Lengths of edges and directors, and what is added to the DOFs: stretches are rounded as fractions of them."""
         sizes = np.empty_like(self.kinematics.split(self.at_rest))
-        edges, directors = self.kinematics.parts(self.at_rest)
-        length = _lengths(edges)
-        sizes[:, 0] = np.append(length, length[-1])[:, None]
-        sizes[:, 1:] = _lengths(directors).reshape(sizes.shape[0], -1, 1)
+        length = _lengths(self.kinematics.parts(self.at_rest))
+        count = sizes.shape[0] - 1
+        sizes[:-1, 0], sizes[-1, 0] = length[:count, None], length[count - 1]
+        sizes[:, 1:] = length[count:].reshape(count + 1, -1, 1)
         scale: Vector = np.maximum(sizes.ravel(), np.abs(self.rounded))
         return scale
 
@@ -68,8 +68,7 @@ class RodSpace:
 
     def rates(self, q: Vector, change: Vector) -> Array:
         """How fast edges and directors rotate [rad] and stretch as the DOFs change, (parts, 2) in the plane."""
-        vectors = np.vstack(self.kinematics.parts(self.placed(q)))
-        rates = np.vstack(self.kinematics.parts(change))
+        vectors, rates = self.kinematics.parts(self.placed(q)), self.kinematics.parts(change)
         return np.column_stack([rotation_rates(vectors, rates), stretch_rates(vectors, rates)])
 
     def predicted(
@@ -80,7 +79,7 @@ class RodSpace:
         Edges that rotate do not meet the supports any more; what is missing is spread along the rod between them.
         """
         at = self.kinematics.split(self.placed(q))
-        vectors = np.vstack(self.kinematics.parts(self.placed(q)))
+        vectors = self.kinematics.parts(self.placed(q))
         vectors = rotated((1 + moved[:, -1:]) * vectors, moved[:, :-1])
         count = at.shape[0] - 1
         x = at[0, 0] + np.vstack([np.zeros(self.dimension), np.cumsum(vectors[:count], axis=0)])

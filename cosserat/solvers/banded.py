@@ -65,6 +65,20 @@ def multiply(band: Band, x: Vector, y: Vector) -> None:
 
 
 @njit(cache=True)
+def largest_product(band: Band, x: Vector, scale: Vector) -> float:
+    """The largest entry of |H| max(|x|, scale)."""
+    n, width = band.shape
+    y, size = np.zeros(n), np.maximum(np.abs(x), scale)
+    for j in range(n):
+        y[j] += abs(band[j, 0]) * size[j]
+        for k in range(1, min(width, n - j)):
+            entry = abs(band[j, k])
+            y[j + k] += entry * size[j]
+            y[j] += entry * size[j + k]
+    return float(y.max())
+
+
+@njit(cache=True)
 def band_product(band: Band, x: Vector) -> Vector:
     """H x, shape (n,)."""
     y = np.empty(x.size)

@@ -319,9 +319,9 @@ def _corrected(
         q = system.prescribe(q, factor)
         if not system.assemble(q, point.history, factor, tangent):
             return None
-        unbalanced, residual = solver.unbalanced()
+        unbalanced, residual, reaction = solver.unbalanced()
         rounding = solver.rounding(q)
-        scale = max(abs(factor) * float(system.load_scale.max()), solver.reaction())
+        scale = max(abs(factor) * system.load_sizes[0], reaction)
         tolerance = max(solver.settings.tolerance * scale, rounding)
         rate = system.rate(factor, tangent)
         tangent.constrain(constrained)

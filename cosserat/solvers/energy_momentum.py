@@ -250,22 +250,21 @@ def _loads(
 
 
 @njit(cache=True)
-def _commit(bodies: Bodies, q: Vector, room: Room) -> None:
+def _commit(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> None:
     """Overwrite the internal variables by those at q, an accepted state."""
-    for k in range(len(bodies.kernels)):
-        if bodies.history[k].size > 0:
-            bodies.kernels[k](
-                q,
-                q[:0],
-                bodies.constants[k],
-                bodies.history[k],
-                bodies.strains[k],
-                COMMIT,
-                room.gradient,
-                room.factor,
-                room.factor[:0],
-                bodies.terms[k],
-            )
+    for k in bodies.counted:
+        bodies.kernels[k](
+            q,
+            q[:0],
+            bodies.constants[k],
+            bodies.history[k],
+            bodies.strains[k],
+            COMMIT,
+            gradient,
+            band,
+            band[:0],
+            bodies.terms[k],
+        )
 
 
 @njit(cache=True)
@@ -484,7 +483,7 @@ def integrate_steps(
         _accept(run, room, q, v, exchanged, done)
         if run.damping_rate > 0.0:
             _decay(v, run.mass, room.mass_factor, run.constrained, fraction, room.product, exchanged)
-        _commit(bodies, q, room)
+        _commit(bodies, q, room.gradient, room.factor)
         before = _started(bodies, q, room.gradient, room.factor)
         if not np.isfinite(before):
             return done

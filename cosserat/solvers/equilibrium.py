@@ -12,10 +12,11 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
+from numba import njit
 
 from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.solvers.banded import Vector, absolute_product
+from cosserat.solvers.banded import Mask, Vector, absolute_product, largest_product
 from cosserat.solvers.indefinite import lowest_eigenvector
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
@@ -108,18 +109,18 @@ class EquilibriumSolver:
         allowed = self.settings.tolerance if fraction is None else fraction
         system, tangent = self.system, self.tangent
         q = system.prescribe(q, factor)
-        load = abs(factor) * float(system.load_scale.max())
+        load, total = (abs(factor) * size for size in system.load_sizes)
         largest, last = 0.0, np.inf
         for iteration in range(self.settings.max_iterations + 1):
             if not system.assemble(q, history, factor, tangent):
                 return None
-            unbalanced, residual = self.unbalanced()
+            unbalanced, residual, reaction = self.unbalanced()
             largest = max(largest, residual)
             rounding = self.rounding(q)
-            scale = max(load, self.reaction(), largest * (load == 0))
+            scale = max(load, reaction, largest * (load == 0))
             tolerance = max(allowed * scale, rounding)
             self.residual, self.tolerance = residual, tolerance
-            if load > 0 and rounding > _BLUR * max(scale, abs(factor) * float(system.load_scale.sum())):
+            if load > 0 and rounding > _BLUR * max(scale, total):
                 if iteration > 0:
                     return None  # a step went astray, to where everything is stiff
                 raise self._drowned_in_round_off(rounding)
@@ -138,14 +139,10 @@ class EquilibriumSolver:
             self.iterations += 1
         return None
 
-    def unbalanced(self) -> tuple[Vector, float]:
-        """Unbalanced forces (n,) by the tangent assembled last, and the largest [N]."""
-        forces = np.where(self.system.constrained, 0.0, -self.tangent.gradient)
-        return forces, float(np.abs(forces).max())
-
-    def reaction(self) -> float:
-        """Largest force on a constrained DOF by the tangent assembled last [N]."""
-        return float(np.abs(self.tangent.gradient[self.system.constrained]).max(initial=0.0))
+    def unbalanced(self) -> tuple[Vector, float, float]:
+        """Unbalanced forces (n,) by the tangent assembled last, the largest, and the largest reaction [N]."""
+        forces = np.empty_like(self.tangent.gradient)
+        return forces, *_balance(self.tangent.gradient, self.system.constrained, forces)
 
     def accepted(
         self, q: Vector, factor: float, history: History, rounding: float, *, positive: bool = False
@@ -172,7 +169,7 @@ class EquilibriumSolver:
         """
         point = self.accepted(q, factor, history, rounding, positive=True)
         self.system.assemble(q + step, history, factor, self.tangent)
-        _, nearer = self.unbalanced()
+        _, nearer, _ = self.unbalanced()
         if not nearer <= max(point.residual, rounding):
             return point
         return replace(
@@ -185,7 +182,7 @@ class EquilibriumSolver:
 
     def check_round_off(self, point: Equilibrium) -> None:
         """Raise NotConvergedError if no support moves and rounding makes forces that drown the full load."""
-        load = float(self.system.load_scale.sum())
+        _, load = self.system.load_sizes
         if point.rounding > _BLUR * load > 0 and not self.system.prescribed_rate(1.0).any():
             raise self._drowned_in_round_off(point.rounding)
 
@@ -200,8 +197,7 @@ class EquilibriumSolver:
 
     def rounding(self, q: Vector) -> float:
         """Largest force that rounding can cause, by the Hessian assembled last [N]."""
-        size = np.maximum(np.abs(q), self.system.space.scale)
-        return _EPS * float(absolute_product(self.tangent.band, size).max())
+        return _EPS * float(largest_product(self.tangent.band, q, self.system.space.scale))
 
     def buckling_direction(self, before: Equilibrium, after: Equilibrium) -> tuple[Vector, bool]:
         """The softest motion of a stable body that is about to buckle, and whether its side is decided.
@@ -247,7 +243,7 @@ class EquilibriumSolver:
         q, last = point.q, np.inf
         for _ in range(_POLISH):
             self.system.assemble(q, point.history, point.factor, self.tangent)
-            unbalanced, residual = self.unbalanced()
+            unbalanced, residual, _ = self.unbalanced()
             self.tangent.constrain(self.system.constrained)
             step = self.tangent.solve(unbalanced, positive=True)
             if step is None or residual >= last:
@@ -273,6 +269,20 @@ class EquilibriumSolver:
         )
         error.state = last
         return error
+
+
+@njit(cache=True)
+def _balance(gradient: Vector, constrained: Mask, forces: Vector) -> tuple[float, float]:
+    """Overwrite what is unbalanced; the largest of it, not a number where one is not, and of the reactions."""
+    residual = reaction = 0.0
+    for i in range(gradient.size):
+        forces[i] = 0.0 if constrained[i] else -gradient[i]
+        size = abs(gradient[i])
+        if constrained[i]:
+            reaction = max(reaction, size)
+        elif size > residual or np.isnan(size):
+            residual = size
+    return residual, reaction
 
 
 def stalled(residual: float, last: float, rounding: float) -> bool:

@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 import functools
-import warnings
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numba import njit
 from numba import types as numba_types
-from numba.core.errors import NumbaExperimentalFeatureWarning
 from numpy.typing import NDArray
 
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import Vector
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
-from cosserat.solvers.potential import KERNEL, NOTHING, Potential, handed_over
+from cosserat.solvers.potential import KERNEL, NOTHING, Potential
 from cosserat.solvers.step import CORRECTED, COUNTED, UNCORRECTED, Bodies, Room, Run
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
-_PLACES = 4  # for potentials, of compiled steps; where there are more, steps are compiled anew
+_PLACES = 3  # for potentials, of compiled steps; where there are more, steps are compiled anew
 types: Any = numba_types  # which says nothing of its own types
 
 
@@ -32,25 +30,18 @@ def _compiled_steps(count: int) -> Callable[..., int]:
     vector, matrix, mask = types.float64[::1], types.float64[:, ::1], types.boolean[::1]
     whole = types.int64[::1]
     each = (types.FunctionType(KERNEL), types.uint8[::1], vector, matrix, vector)
-    bodies = types.NamedTuple(
-        (*(types.UniTuple(one, count) for one in each), whole, types.boolean), Bodies
-    )
-    given = (
-        matrix,
-        vector,
-        mask,
-        matrix,
-        types.float64,
-        types.float64,
-        types.int64[::1],
-        matrix,
-        matrix,
-    )
+    several = [types.UniTuple(one, count) for one in each]
+    bodies = types.NamedTuple((*several, whole, types.boolean, whole), Bodies)
+    number = types.float64
+    given = (matrix, vector, mask, matrix, number, number, whole, matrix, matrix)
     run = types.NamedTuple(given, Run)
     room = types.NamedTuple((*(vector,) * 12, matrix, matrix, matrix), Room)
     signature = types.int64(bodies, run, room, vector, vector, vector)
-    compiled: Callable[..., int] = njit(signature, cache=True)(integrate_steps)
-    return compiled
+    (compiled,) = njit(signature, cache=True)(integrate_steps).overloads.values()
+    steps: Callable[..., int] = (
+        compiled.entry_point
+    )  # types are known; to find them anew takes a millisecond a call
+    return steps
 
 
 def integrate_implicitly(
@@ -91,9 +82,7 @@ def integrate_implicitly(
     bands = [rotations, np.empty((n, max(width, system.half_bandwidth + 1))), mass.copy()]
     room = Room._make([*vectors, *bands])
     q, v, exchanged = state.q.copy(), state.v.copy(), np.array([state.dissipated, state.driven])
-    with warnings.catch_warnings():  # Numba calls functions that are handed over an experiment
-        warnings.simplefilter("ignore", NumbaExperimentalFeatureWarning)
-        done = _compiled_steps(len(bodies.kernels))(bodies, run, room, q, v, exchanged)
+    done = _compiled_steps(len(bodies.kernels))(bodies, run, room, q, v, exchanged)
     if done < count:
         raise NotConvergedError(
             f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
@@ -111,13 +100,14 @@ def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
     empty = places - len(potentials)
     given = [*potentials, *potentials[:1] * empty]
     return Bodies(
-        tuple(handed_over(p.evaluate) for p in given),
+        tuple(p.evaluate for p in given),
         tuple(p.data for p in given),
         tuple(history + [NOTHING] * empty),
         tuple(np.zeros(p.strains) for p in given),
         tuple(np.empty(len(p.terms)) for p in given),
         np.array([_role(p) for p in potentials] + [COUNTED] * empty),
         any(_role(p) != COUNTED for p in potentials[1:]),
+        np.flatnonzero([p.history.size > 0 for p in potentials]),
     )
 
 

@@ -7,12 +7,12 @@ time step replaces by their means over its two ends.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
-from numba import cfunc, types
+from numba import types
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import NO_BAND, Band, Vector
@@ -55,16 +55,6 @@ NOTHING = np.empty(0)
 _NO_STRAINS = np.empty((0, 0))
 
 
-@functools.cache
-def handed_over(kernel: Callable[..., float]) -> object:
-    """A kernel as a function that compiled solvers can be handed; made once in a process, in a tenth of a second."""
-
-    def called(q, after, constants, history, strains, task, gradient, band, skew, terms):  # type: ignore[no-untyped-def]
-        return kernel(q, after, constants, history, strains, task, gradient, band, skew, terms)
-
-    return cfunc(KERNEL)(called)
-
-
 @dataclass(frozen=True)
 class Potential:
     """A potential of n DOFs.
@@ -93,7 +83,7 @@ class Potential:
         """Whether its gradient is the same everywhere."""
         return self.half_bandwidth < 0
 
-    @property
+    @cached_property
     def data(self) -> Bytes:
         """The constants as bytes."""
         return self.constants.view(np.uint8)

@@ -22,6 +22,7 @@ class Bodies(NamedTuple):
 
     kernels, constants, history, strains, terms : what `solvers.potential.KERNEL` says.
     role : (k,) one of the roles above.  loaded : whether some load is not linear.
+    counted : which of them have internal variables.
     """
 
     kernels: Any
@@ -31,6 +32,7 @@ class Bodies(NamedTuple):
     terms: Any
     role: NDArray[np.int64]
     loaded: bool
+    counted: NDArray[np.int64]
 
 
 class Run(NamedTuple):

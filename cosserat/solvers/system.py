@@ -198,14 +198,14 @@ class MechanicalSystem:
         return -gradient
 
     @cached_property
-    def load_scale(self) -> Vector:
-        """Size of all loads at the reference, (n,) [N]: the scale of what counts as balanced."""
+    def load_sizes(self) -> tuple[float, float]:
+        """The largest force and the sum of all forces of the loads at the reference [N]."""
         size = np.zeros(self.constrained.size)
         for load in self.external:
             gradient = np.zeros_like(size)
             load.add_gradient(self.space.reference, load.history, gradient)
             size += np.abs(gradient)
-        return size
+        return float(size.max()), float(size.sum())
 
     def unloaded(self) -> MechanicalSystem:
         """The same body without loads."""
@@ -227,7 +227,7 @@ class MechanicalSystem:
         """Overwrite the tangent at q under a factor of the loads; False where a potential is not defined there."""
         tangent.clear()
         energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
-        tangent.load_gradient -= self.dead_load
+        np.negative(self.dead_load, out=tangent.load_gradient)
         for load, own in zip(self.external, history[1:], strict=True):
             if not load.linear:
                 energy += load.add(q, own, tangent.load_gradient, tangent.load_band, tangent.load_skew)
@@ -275,11 +275,14 @@ class Tangent:
         self.skew, self.load_skew = np.empty((lopsided, width)), np.empty((lopsided, own))
 
     def clear(self) -> None:
-        """Set everything to zero."""
-        for array in (self.gradient, self.band, self.skew):
-            array.fill(0.0)
-        for array in (self.load_gradient, self.load_band, self.load_skew):
-            array.fill(0.0)
+        """Set everything to zero but the gradient of the loads."""
+        self.gradient.fill(0.0)
+        self.band.fill(0.0)
+        if self.skew.size:
+            self.skew.fill(0.0)
+        if self.load_band.size:
+            self.load_band.fill(0.0)
+            self.load_skew.fill(0.0)
 
     def add_load(self, factor: float) -> None:
         """Add a factor of what the loads have."""

@@ -51,12 +51,11 @@ class Energy(ABC):
         """The mass matrix as a symmetric band, (n, w)."""
 
     def fields(
-        self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float
+        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: float
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Labels and fields that only this energy has, of a state.
 
-        vectors : (N, m, 2) the vectors of every vertex [m].  terms : the parts of the energy there [J].
-        couples : energy of the couples [J].
+        potential : of displacements.  u : (n,) displacements [m].  couples : energy of the couples [J].
         """
         return {}, {}
 

@@ -68,9 +68,10 @@ class Hemingway(Energy):
         return self.kinematics.mass_band(np.array([[m, rod.Y02 * m], [rod.Y02 * m, rod.Y22 * m]]))[:, :3]
 
     def fields(
-        self, rod: Rod, geometry: Geometry, vectors: Array, terms: Array, couples: float
+        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: float
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Shear angles and the seven terms."""
+        vectors, terms = rod.vectors(geometry, u), potential.energy_terms(u)
         theta = strains(geometry, vectors[:, 0], vectors[:, 1]).theta
         return {"term": TERMS}, {"theta": (("vertex",), theta), "energy": (("term",), terms)}
 
