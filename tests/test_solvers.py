@@ -443,7 +443,7 @@ def test_a_sliding_mass_comes_to_rest_where_its_anchor_is_left(method, parts):
 ASSEMBLED = """\
             if not system.assemble(q, history, factor, tangent):
                 return None
-            unbalanced, residual = self.unbalanced()
+            unbalanced, residual, reaction = self.unbalanced()
             largest"""
 
 

@@ -258,9 +258,9 @@ def bent(monkeypatch, system_class=None):
     residuals, original = [], EquilibriumSolver.unbalanced
 
     def noted(self):
-        forces, residual = original(self)
+        forces, residual, reaction = original(self)
         residuals.append(residual)
-        return forces, residual
+        return forces, residual, reaction
 
     with monkeypatch.context() as patch:
         patch.setattr(EquilibriumSolver, "unbalanced", noted)
