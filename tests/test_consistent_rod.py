@@ -5,6 +5,8 @@ import pytest
 from conftest import assembled, differentiated
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.optimize import brentq
+from scipy.special import ellipk
 
 import cosserat
 from cosserat.cli import main
@@ -532,6 +534,25 @@ def test_the_published_rod_has_no_section_and_no_path():
 
     with pytest.raises(InputError, match="needs rod.energy = 'consistent'"):
         RodPath.read(table, "x", units_required=False)
+
+
+@pytest.mark.parametrize("increments", [1, 5, 10, 20, 37])
+def test_the_end_of_the_load_comes_before_a_crossing_beyond_it(increments):
+    """A column between a clamp and a guide at twice its critical load: four quarters of a hinged elastica."""
+    posed = cosserat.case("elastica").problem
+    critical = 4 * np.pi**2 * posed.rod.young * posed.rod.second_moment / posed.rod.length**2
+    table = posed.model_dump() | {
+        "supports": [*CLAMP, {"at": "last", "fixed": ["x2", "d3", "d2"]}],
+        "forces": [
+            {"at": "last", "along": "-E3", "force": 2 * critical},
+            {"at": 20, "along": "E2", "force": 1e-6 * critical},
+        ],
+        "newton": {"load_increments": increments},
+    }
+    found = RodStatics.read(table, "column", units_required=False).solve("column")
+    modulus = brentq(lambda m: (2 * ellipk(m) / np.pi) ** 2 - 2, 0.1, 0.99)
+    assert found["x"][20, 1] == pytest.approx(np.sqrt(modulus) / ellipk(modulus), rel=5e-3)
+    assert not found.warnings
 
 
 def test_a_million_vertices():

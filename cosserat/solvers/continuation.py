@@ -76,6 +76,8 @@ def trace_path(
             ds /= 2
             continue
         effort = solver.iterations - before
+        if across is not None and (across[0].factor - arc.until) * (point.factor - arc.until) < 0:
+            found, across = across[0], None  # the path ends before the crossing
         if across is not None:
             motion, decided = solver.buckling_direction(*across)
             if decided or left < arc.branches:
@@ -112,8 +114,9 @@ def trace_path(
 def _returned(solver: EquilibriumSolver, origin: Equilibrium, last: Equilibrium) -> NotConvergedError:
     """The error of a branch that comes back to its beginning."""
     return solver.stopped(
-        f"the path comes back to {origin.factor:.4g} of the load, where it branched off; set "
-        "arc.branch = 'stay', or add a small load that breaks the symmetry",
+        f"the path comes back to {origin.factor:.4g} of the load, where it branched off: nothing stable leads on from "
+        "there, and a body under more load jumps; lessen the load, add a small one that breaks the symmetry, or see the "
+        "path that stays with kind = 'rod path' and arc.branch = 'stay'",
         last,
     )
 
