@@ -410,7 +410,7 @@ def test_a_path_that_is_given_up_keeps_its_points_on_request(tmp_path, capsys):
     )
     command = ["run", "far", "--file", str(tmp_path / "my.toml"), "-o", str(tmp_path / "far.nc")]
     assert main(command) == 1
-    assert "beyond 'arc.limit' = 1.1; raise it" in capsys.readouterr().err
+    assert "beyond the limit of 1.1; raise 'arc.limit'" in capsys.readouterr().err
     assert not (tmp_path / "far.nc").exists()
     assert main([*command, "--keep-last"]) == 1
     assert "what was reached, -1.0" in capsys.readouterr().err
@@ -553,6 +553,22 @@ def test_the_end_of_the_load_comes_before_a_crossing_beyond_it(increments):
     modulus = brentq(lambda m: (2 * ellipk(m) / np.pi) ** 2 - 2, 0.1, 0.99)
     assert found["x"][20, 1] == pytest.approx(np.sqrt(modulus) / ellipk(modulus), rel=5e-3)
     assert not found.warnings
+
+
+@pytest.mark.parametrize("increments", [1, 10, 30])
+def test_a_tiny_load_is_not_refused_because_its_first_increment_is_tinier(increments):
+    """Between hinges that do not move: P L^3 / 48 EI + P L / 4 kGA, whatever the number of increments."""
+    posed = cosserat.case("elastica").problem
+    beam = beam_of(posed)
+    force = 1e-6 * beam.bending_stiffness / beam.length**2
+    hinges = [{"at": at, "fixed": ["x3", "x2"]} for at in ("first", "last")]
+    found = posed.replace(
+        supports=hinges,
+        forces=[{"at": 20, "along": "E2", "force": force}],
+        newton={"load_increments": increments},
+    ).solve("beam")
+    right = force * (beam.length**3 / 48 / beam.bending_stiffness)
+    assert found["u"][20, 1] == pytest.approx(right, rel=2e-3)
 
 
 def test_a_million_vertices():

@@ -77,6 +77,7 @@ class RodPath(RodProblem):
         system = self.system(geometry)
         check_supports(self.rod, geometry, system.constrained, name)
         solver = EquilibriumSolver(system, self.newton, name)
+        solver.limit_remedy = "raise 'arc.limit'"
         solver.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
         arc = ArcLengthSettings(
             self.arc.first,

@@ -127,7 +127,7 @@ def _check_limit(
     """Raise NotConvergedError where the path goes beyond its limit."""
     if abs(found.factor) > arc.limit:
         raise solver.stopped(
-            f"the path goes to {found.factor:.4g} of the load, beyond 'arc.limit' = {arc.limit:g}; raise it",
+            f"the path goes to {found.factor:.4g} of the load, beyond the limit of {arc.limit:g}; {solver.limit_remedy}",
             point,
         )
 

@@ -80,6 +80,7 @@ class EquilibriumSolver:
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
         self.residual = self.tolerance = np.inf  # of the last attempt
+        self.limit_remedy = "a body under the load jumps, to where no path from here leads; lessen it, or see kind = 'rod path'"
         self.remedy = (
             "try a smaller load or more 'newton.max_iterations', see where the path goes with kind = 'rod path', and "
             "check supports and loads"
@@ -109,7 +110,8 @@ class EquilibriumSolver:
         allowed = self.settings.tolerance if fraction is None else fraction
         system, tangent = self.system, self.tangent
         q = system.prescribe(q, factor)
-        load, total = (abs(factor) * size for size in system.load_sizes)
+        largest_load, total = system.load_sizes
+        load = abs(factor) * largest_load
         largest, last = 0.0, np.inf
         for iteration in range(self.settings.max_iterations + 1):
             if not system.assemble(q, history, factor, tangent):

@@ -40,8 +40,10 @@ def solve_full_load(solver: EquilibriumSolver) -> Equilibrium:
         last = point
         for last in trace_path(solver, point, arc):
             solver.passed_limit_load |= not last.stable
-    if last.factor != 1.0 or not last.stable:
+    if last.factor != 1.0:
         raise solver.failure(point.factor, 1.0, last)
+    if not last.stable:
+        raise solver.stopped(f"the load leads to an unstable equilibrium; {solver.limit_remedy}", last)
     return last
 
 
