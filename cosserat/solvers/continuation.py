@@ -76,8 +76,6 @@ def trace_path(
             ds /= 2
             continue
         effort = solver.iterations - before
-        if across is not None and (across[0].factor - arc.until) * (point.factor - arc.until) < 0:
-            found, across = across[0], None  # the path ends before the crossing
         if across is not None:
             motion, decided = solver.buckling_direction(*across)
             if decided or left < arc.branches:
@@ -115,8 +113,8 @@ def _returned(solver: EquilibriumSolver, origin: Equilibrium, last: Equilibrium)
     """The error of a branch that comes back to its beginning."""
     return solver.stopped(
         f"the path comes back to {origin.factor:.4g} of the load, where it branched off: nothing stable leads on from "
-        "there, and a body under more load jumps; lessen the load, add a small one that breaks the symmetry, or see the "
-        "path that stays with kind = 'rod path' and arc.branch = 'stay'",
+        "there, and a body under more load jumps; lessen the load, add a small one that breaks the symmetry, or see "
+        "the path that stays with kind = 'rod path' and arc.branch = 'stay'",
         last,
     )
 
@@ -127,7 +125,8 @@ def _check_limit(
     """Raise NotConvergedError where the path goes beyond its limit."""
     if abs(found.factor) > arc.limit:
         raise solver.stopped(
-            f"the path goes to {found.factor:.4g} of the load, beyond the limit of {arc.limit:g}; {solver.limit_remedy}",
+            f"the path goes to {found.factor:.4g} of the load, beyond the limit of {arc.limit:g}; "
+            + solver.limit_remedy,
             point,
         )
 
@@ -153,7 +152,14 @@ def _next_or_bifurcation(
         return (across[1], direction, ds), across
     found, ahead, ds = further
     crosses = found.negative != point.negative and ahead[1] * direction[1] > 0
-    return further, _locate_bifurcation(solver, point, direction, ds, arc) if crosses else None
+    if not crosses:
+        return further, None
+    across = _locate_bifurcation(solver, point, direction, ds, arc)
+    if (across[0].factor - arc.until) * (
+        point.factor - arc.until
+    ) < 0:  # the path ends before the crossing
+        return (across[0], ahead, ds), None
+    return further, across
 
 
 def _at_end(
