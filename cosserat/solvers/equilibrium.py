@@ -80,7 +80,7 @@ class EquilibriumSolver:
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
         self.residual = self.tolerance = np.inf  # of the last attempt
-        self.limit_remedy = "a body under the load jumps, to where no path from here leads; lessen it, or see kind = 'rod path'"
+        self.limit_remedy = "the body jumps to where no path leads from here; lessen the load, or see kind = 'rod path'"
         self.remedy = (
             "try a smaller load or more 'newton.max_iterations', see where the path goes with kind = 'rod path', and "
             "check supports and loads"
