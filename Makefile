@@ -20,7 +20,7 @@ all: environment
 test: environment
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	@$(BIN)/mypy & types=$$!; $(BIN)/pytest -m "not workflow" --numprocesses=2 --dist=loadfile; tests=$$?; \
+	@$(BIN)/mypy & types=$$!; $(BIN)/pytest -m "not workflow" --numprocesses=2 --dist=worksteal; tests=$$?; \
 	  wait $$types || { echo "mypy found errors, above" >&2; exit 1; }; exit $$tests
 
 test-workflow: environment
