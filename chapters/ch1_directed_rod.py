@@ -309,7 +309,7 @@ assert max(apart) < 1e-12
 assert all(abs(found[name, "after"][1] - found[name, "before"][1]) > 1 for name in turns)
 
 # %% tags=["remove-input"]
-page.say(
+page.text(
     f"The two states differ by {max(apart):.0e} at most. The multipliers do not agree and need not: the second "
     "contains a part of the energy's own force."
 )

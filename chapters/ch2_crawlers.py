@@ -197,7 +197,7 @@ for name, what in (("worm", "$t_p/2$"), ("worm_early", "$t_p/3$")):
     run = page.data(name)
     back = np.maximum.accumulate(run.along.to_numpy()) - run.along.to_numpy()
     case = cosserat.case(name).problem
-    thin = len(case.thin_anchors()), len(case.gait.moments(case.step))
+    thin = len(case.thin_anchors()), len(case.gait.instants(case.step))
     lines.append(
         (
             what,

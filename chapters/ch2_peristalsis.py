@@ -245,7 +245,7 @@ by_gap = np.polyfit(np.log(2 * gaps), np.log(small), 1)[0]
 by_load = np.polyfit(np.log(shares), np.log(limit), 1)[0]
 assert abs(by_gap - 1) < 0.01
 assert abs(by_load - 2) < 0.01
-page.say(
+page.text(
     f"Under a millionth of the loads the two rods differ by {small[0] / (2 * gaps[0]) / 1e-6:.2f} $(1 - 2\\nu)$ times that "
     f"share of the loads, with a measured order of {by_gap:.2f} in $1 - 2\\nu$. With $\\nu$ at the limit they do not meet: "
     f"what remains grows as the power {by_load:.2f} of the load, because the sum of the stretches and their product differ by "

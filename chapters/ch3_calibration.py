@@ -73,7 +73,7 @@ for name in ("clamped_free", "clamped_clamped", "necking"):
 # %% tags=["remove-input"]
 least = run.necking_directions[0, -1].to_numpy()
 assert (least > 0).all()
-page.say(
+page.text(
     f"Along it $c_2$ and $c_7$ grow together, {least[0]:.2f} and {least[2]:.2f}, and $c_6$ with them, {least[1]:.2f}: "
     "the curve holds two numbers, how far the sections contract far from the end and how fast they come to that, and "
     "three coefficients make them (the balance is derived below)."
@@ -144,7 +144,7 @@ page.source(beams.clamped_free_tip_of_published_rod)
 # %% tags=["remove-input"]
 last, step = float(run.clamped_free_published[-1]), float(np.diff(run.clamped_free_published)[-1])
 assert abs(last + step - limit(run)) < 2e-3
-page.say(
+page.text(
     f"The clamped-free tip tends to {limit(run):.4f} of Timoshenko's by this formula; extrapolated from the two finest "
     f"meshes above it is {last + step:.4f}."
 )
@@ -175,6 +175,6 @@ derived = (
 )
 c6 = run.necking_coefficients.sel(section_coefficient="c6")
 assert abs(float(c6[-1]) / derived - 1) < 0.02
-page.say(
+page.text(
     f"Fitted $c_6$: {float(c6[0]):.2f} at $N = 20$, {float(c6[-1]):.2f} at $N = 320$; derived: {derived:.2f}."
 )

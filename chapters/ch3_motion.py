@@ -146,7 +146,7 @@ found, bernoulli = beam.modes(4).angular_frequency, beams.first_frequency(beam_o
 assert abs(found[0] / bernoulli - 1) < 0.1
 fine = beam.replace(rod=beam.rod.replace(vertices=10 * beam.rod.vertices)).modes(1).angular_frequency[0]
 assert fine < bernoulli < found[0]
-page.say(
+page.text(
     f"By (3.5.15) the first of them would be {bernoulli:.1f} rad/s; it is {found[0]:.1f} rad/s with {beam.rod.vertices} "
     f"vertices and {fine:.1f} rad/s with ten times as many. The published energy bends at interior vertices only, which leaves "
     "half an edge at the clamp stiff; that wanes under refinement, and the hinge of the chapter on the calibration remains."
@@ -200,7 +200,7 @@ assert tips[0] < 0.02 * tips[1]
 assert slow[0] < 5e-3 * slow[1]
 
 # %% tags=["remove-input"]
-page.say(
+page.text(
     f"Of the start's energy {energy[0] / energy.sum():.0%} is in the first mode and {energy[stiff] / energy.sum():.0%} in a "
     f"single one of {every.angular_frequency[stiff]:,.0f} rad/s, "
     f"{2 * np.pi / every.angular_frequency[stiff] * 1e6:.0f} µs a period, while the implicit step is "

@@ -138,7 +138,7 @@ sags = [cosserat.run(low).u.sel(axis="E2")[-1].item(), uniform]
 body = low.problem.rod
 stiffer = 1 + 12 * (0.5 - body.centreline) ** 2
 assert abs(stiffer * sags[0] / sags[1] - 1) < 0.1
-page.say(
+page.text(
     f"With its centreline at {body.centreline:g} of the height the clamped-free beam sags {sags[0] / sags[1]:.2f} times as "
     f"far as with the centreline in the middle, since $I$ is {stiffer:.2f} times as large. The consistent rod couples both, and "
     "sags the same."

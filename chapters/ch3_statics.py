@@ -249,7 +249,7 @@ bar = page.data("hanging_bar")
 computed, exact = readouts.hanging_bar_curve(bar)
 at_clamp = (bar.mu_edge[0].item() - 1) * 20 / 19.5
 assert abs((computed[-1] / exact[-1] - 1) / (at_clamp / 2) - 1) < 0.01
-page.say(
+page.text(
     f"Tip over analytic less one: {computed[-1] / exact[-1] - 1:.3g}; half the strain at the clamp: {at_clamp / 2:.3g}."
 )
 
@@ -333,8 +333,8 @@ for shear, k in (("", "5/6"), ("_k_1", "1")):
             readouts.at_midspan(readouts.clamped_clamped_curve(both, two)),
         )
         directors = (
-            readouts.largest_share(readouts.clamped_free_directors(free, one)),
-            readouts.largest_share(readouts.clamped_clamped_directors(both, two)),
+            readouts.largest_relative_deviation(readouts.clamped_free_directors(free, one)),
+            readouts.largest_relative_deviation(readouts.clamped_clamped_directors(both, two)),
         )
         ratios = [f"{reading.measured / reading.expected:.4f}" for reading in readings]
         lines.append([k, areas, *ratios, *(f"{100 * share.measured:.1f} %" for share in directors)])
@@ -360,7 +360,7 @@ page.table(
 rod = page.data("clamped_free").pipe(case_of).problem.rod
 stiff = rod.strain_energy.stiffness(rod, rod.geometry())
 layer = np.sqrt(stiff.k5[0] / stiff.k4[1])
-page.say(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f} m long.")
+page.text(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f} m long.")
 
 # %% [markdown]
 # ### Necking
@@ -409,7 +409,7 @@ for name, factor in (("necking", 0.5), ("necking_printed", 1.0)):
     theory[name] = (1 + nu) * (1 - 2 * nu) / (1 - nu) * r / (1 - r**2) / nu
     measured = readouts.at_midspan(readouts.necking_curve(page.data(name)))
     assert abs(measured.measured / measured.expected / theory[name] - 1) < 1e-3
-page.say(
+page.text(
     f"Mid-span over eq. (3.5.8): {theory['necking']:.3f} with half the coupling, {theory['necking_printed']:.3f} with the "
     f"printed one; the printed energy is indefinite where $c_7 \\nu / (1 - \\nu) > 1$, beyond "
     f"$\\nu = {1 / (1 + c7):.3f}$."

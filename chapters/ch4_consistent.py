@@ -152,7 +152,7 @@ print(
 )
 
 # %% tags=["remove-cell"]
-assert readouts.buckling_share(page.data("column_path")).max() > 1.5
+assert readouts.buckling_load_ratio(page.data("column_path")).max() > 1.5
 
 # %% [markdown]
 # ## It moves
@@ -175,12 +175,12 @@ page.figure(
 lines = []
 for side in (1e-1, 1e-2, 1e-3, 1e-4):
     slender = cosserat.case("elastica").problem
-    posed = slender.replace(rod=slender.rod.replace(height=side, width=side, vertices=21))
-    beam = beam_of(posed)
+    problem = slender.replace(rod=slender.rod.replace(height=side, width=side, vertices=21))
+    beam = beam_of(problem)
     unit = beam.bending_stiffness / beam.length**2
-    posed = posed.replace(forces=({"at": "last", "along": "E2", "force": unit},))
+    problem = problem.replace(forces=({"at": "last", "along": "E2", "force": unit},))
     exact, _ = elastica.shearable_tip(1.0, beam.axial_stiffness / unit, beam.shear_stiffness / unit)
-    lines.append((f"{side:g}", f"{abs(posed.solve('thin')['u'][-1, 1] / exact - 1):.1e}"))
+    lines.append((f"{side:g}", f"{abs(problem.solve('thin')['u'][-1, 1] / exact - 1):.1e}"))
 page.table(lines, ("thickness over length", "error of the tip across"))
 
 # %% tags=["remove-input"]

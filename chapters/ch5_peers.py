@@ -58,7 +58,7 @@ page.table(
 )
 
 # %% tags=["remove-input"]
-page.say(
+page.text(
     f"Measured last on {dates}, processor {processors}; medians of {runs} runs, while up to {load:.1f} processes wanted "
     "the machine. "
     + ("That is a **busy machine**: compare ranges, not medians. " if load > 2 else "")

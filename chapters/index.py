@@ -51,7 +51,7 @@ page.figure(
 )
 
 # %% tags=["remove-input"]
-page.say(f"**The results table today:** {check(read_report(page.results() / 'report.csv'))}.")
+page.text(f"**The results table today:** {check(read_report(page.results() / 'report.csv'))}.")
 
 # %% [markdown]
 # ## Put in your own rod

@@ -31,7 +31,7 @@ from cosserat.thesis.table.tolerances import read_report
 
 report = read_report(page.results() / "report.csv")
 attempted = [row for row in report if row["standing"] != "not attempted"]
-page.say("\n\n".join(summary(report).splitlines()))
+page.text("\n\n".join(summary(report).splitlines()))
 
 # %% tags=["remove-input"]
 lines = [
@@ -90,7 +90,7 @@ assert sum(not change.unseen for change in changes()) > 50
 
 # %% tags=["remove-input"]
 later = [row for row in report if row["standing"] == "not attempted"]
-shown = page.say("Nothing: every row is attempted.")
+shown = page.text("Nothing: every row is attempted.")
 if later:
     shown = page.table(
         [[row[name] for name in ("id", "where", "quantity", "published", "why")] for row in later],

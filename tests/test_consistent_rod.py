@@ -411,7 +411,7 @@ def test_a_path_that_is_given_up_keeps_its_points_on_request(tmp_path, capsys):
     assert "beyond 'arc.limit' = 1.1; raise it" in capsys.readouterr().err
     assert not (tmp_path / "far.nc").exists()
     assert main([*command, "--keep-last"]) == 1
-    assert "what was reached, -1.0" in capsys.readouterr().err
+    assert "the part reached, -1.0" in capsys.readouterr().err
     path = cosserat.load(tmp_path / "far.nc")
     assert path.sizes["point"] > 50
     assert path.load_factor.min() > -1.1

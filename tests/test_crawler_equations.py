@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import cosserat
 from cosserat.peristalsis.crawler import Compressible, Crawler, Groups, Incompressible
-from cosserat.peristalsis.instant import Instant, Region
+from cosserat.peristalsis.instant import InstantProblem, Region
 from cosserat.rods.constrained_rod import INCOMPRESSIBLE
 from cosserat.rods.directed_rod import Section, integrated_stiffnesses, internal_forces, strain_energy
 from cosserat.solvers.regions import RegionSettings
@@ -163,7 +163,7 @@ def test_the_lowest_line_stays_on_the_ground_and_the_centreline_is_as_long_as_it
     """(2.5.1)-(2.5.4) of a solved instant: x' = R mu_1', and x', z' together are mu_3 long."""
     regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
     fine = RegionSettings(elements=12, degree=10)
-    profile, _ = Instant(problem.crawler, problem.loads, regions, "test").solve(fine, None)
+    profile, _ = InstantProblem(problem.crawler, problem.loads, regions, "test").solve(fine, None)
     body, z = problem.crawler, np.linspace(0, 1, 20_001)
     stored = problem.replace(sections=z.size).fields(
         [profile], [problem.length_along(profile)], [regions]
@@ -184,13 +184,13 @@ def test_the_lowest_line_stays_on_the_ground_and_the_centreline_is_as_long_as_it
 def test_the_contact_force_goes_on_through_both_junctions():
     """(2.4.14) at gamma, (2.4.15) at eta: lambda_c mu_1 mu_2 is -delta on either side of each."""
     regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
-    posed = Instant(WORM.crawler, WORM.loads, regions, "test")
-    profile, _ = posed.solve(RegionSettings(), None)
+    problem = InstantProblem(WORM.crawler, WORM.loads, regions, "test")
+    profile, _ = problem.solve(RegionSettings(), None)
     force = profile.multiplier * profile.mu.prod(axis=2)
-    np.testing.assert_allclose(force, -posed.groups.force, rtol=1e-12)
+    np.testing.assert_allclose(force, -problem.groups.force, rtol=1e-12)
     at = np.array([0.3 - 1e-9, 0.3 + 1e-9, 0.7 - 1e-9, 0.7 + 1e-9])
     mu, _, _, multiplier = profile.at(at)
-    np.testing.assert_allclose(multiplier * mu.prod(axis=1), -posed.groups.force, rtol=1e-12)
+    np.testing.assert_allclose(multiplier * mu.prod(axis=1), -problem.groups.force, rtol=1e-12)
 
 
 def test_fronts_of_the_soft_robot_are_those_of_2_7():

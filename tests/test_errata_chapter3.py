@@ -482,8 +482,8 @@ def test_E3_25_the_same_beam_is_nearer_in_every_reading_of_areas_and_shear_corre
             assert abs(low - by_formula) < abs(high - by_formula)
             for c4, exact in ((2, low), (20, high)):
                 rod = {"end_sections": ends, "shear_correction": k}
-                posed = cosserat.case(f"vibration_c4_{c4}").vary("x", rod=rod).problem
-                found = np.pi / posed.modes(1).angular_frequency[0]
+                problem = cosserat.case(f"vibration_c4_{c4}").vary("x", rod=rod).problem
+                found = np.pi / problem.modes(1).angular_frequency[0]
                 assert found == pytest.approx(exact, rel=1e-8)
     assert half_period(2, 5 / 6, 0.5) == pytest.approx(0.0318, abs=5e-5)
     assert half_period(20, 5 / 6, 0.5) == pytest.approx(0.0300, abs=5e-5)

@@ -229,7 +229,7 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
     for factor, directions in ((1.2, "1 direction,"), (12.0, "2 directions")):
         straight = solver.correct(system.space.reference, factor, system.history).q
         with pytest.raises(UnstableError, match=f"the column: .* unstable in {directions}"):
-            modes(system, straight, 1, "the column", anchored=True)
+            modes(system, straight, 1, "the column", supported=True)
 
 
 def test_damping_of_a_free_rod_is_a_share_of_that_of_its_first_bending():
@@ -525,8 +525,12 @@ def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
     )
     steps, vertices = 80, 20  # a frame is 10 ms, one step 0.125 ms
     monkeypatch.setattr(checkpoints, "WORK_PER_PART", steps * vertices / 6.5)
-    course = CheckpointedRun.of(case.problem, "beam")
-    assert (course.substeps_per_frame, course.stops_per_part, course.parts) == (7, 1, 21)
+    checkpointed = CheckpointedRun.of(case.problem, "beam")
+    assert (checkpointed.substeps_per_frame, checkpointed.stops_per_part, checkpointed.parts) == (
+        7,
+        1,
+        21,
+    )
     whole = cosserat.run(case)
     np.testing.assert_allclose(whole.time, [0.0, 0.01, 0.02, 0.03], rtol=1e-15)
     cosserat.save(whole, tmp_path / "whole.nc")
@@ -556,11 +560,11 @@ def test_parts_hold_as_much_work_whatever_the_method(method, vertices, step, ste
     """Of a run of 20 s with a frame every 5 s, which is longer than a part may be: half a million vertices stepped."""
     integrator = {"method": method, "step": step}
     case = BEAM.vary("long", rod={"vertices": vertices}, duration=20, every=5, integrator=integrator)
-    course = CheckpointedRun.of(case.problem, "long")
-    outcome, _, stopped = course.part(0, case.problem.begin())
+    checkpointed = CheckpointedRun.of(case.problem, "long")
+    outcome, _, stopped = checkpointed.part(0, case.problem.begin())
     assert stopped is None
     assert outcome.statistics["steps"] == steps
-    assert course.parts * steps * step == pytest.approx(20)
+    assert checkpointed.parts * steps * step == pytest.approx(20)
 
 
 def _once(stop, part):
