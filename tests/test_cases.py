@@ -180,7 +180,7 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
         ),
         (
             'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
-            "'rod.vertices' is missing, number of vertices of the discrete rod, both ends counted, N of eq. (3.3.1): "
+            "'rod.vertices' is missing, number of vertices of the discrete rod, both ends included, N of eq. (3.3.1): "
             "write a whole number, 3 or more; ",
         ),
         (

@@ -351,16 +351,14 @@ def test_a_branch_that_comes_back_to_its_beginning_says_so():
         for along, force in zip(("E3", "E2"), push.tolist(), strict=True)
     ]
     tilting = cosserat.case("arch_path").vary("tilting", forces=forces)
-    with pytest.raises(
-        cosserat.NotConvergedError, match=r"comes back to 0\.23\d* of the load, where it"
-    ):
+    with pytest.raises(cosserat.NotConvergedError, match=r"returns to 0\.23\d* of the load, where it"):
         cosserat.run(tilting)
     upright = cosserat.run(tilting.vary("upright", arc={"branch": "stay"}))
     assert upright.load_factor[-1] == 1
     nudged = [
         {**force, "force": force["force"] * (1 + 1e-7 * (force["along"] == "E2"))} for force in forces
     ]
-    with pytest.raises(cosserat.NotConvergedError, match=r"comes back to 0\.23\d* of the load"):
+    with pytest.raises(cosserat.NotConvergedError, match=r"returns to 0\.23\d* of the load"):
         cosserat.run(tilting.vary("nudged", forces=nudged, arc={"branch": "stay"}))
 
 
@@ -510,7 +508,7 @@ def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
     [
         (
             {"calibration": {"c1": 1, "c2": 1, "c3": 1, "c4": 1, "c5": 1, "c6": 1, "c7": 1}},
-            "has 'calibration', which only energy = 'published' knows; leave it out",
+            "has 'calibration', which only energy = 'published' takes; leave it out",
         ),
         ({"energy": "published"}, "needs a calibration"),
         ({"lateral_constraint": "incompressible"}, "'poisson' = 0; it must be 0.49 or more"),
@@ -524,7 +522,7 @@ def test_bad_input(changes, sentence):
 
 
 def test_the_published_rod_has_no_section_and_no_path():
-    with pytest.raises(InputError, match="which only energy = 'consistent' knows"):
+    with pytest.raises(InputError, match="which only energy = 'consistent' takes"):
         cosserat.case("clamped_free").vary("x", rod={"lateral_constraint": "plane strain"})
     table = cosserat.case("clamped_free").problem.model_dump() | {"kind": "rod path"}
     table.pop("newton")
@@ -619,7 +617,7 @@ def test_a_path_that_ends_early_says_so():
     assert '"load_factor_reached": 0.' in path.attrs["solver"]
     from cosserat.data.dataset import effort
 
-    assert "raise 'arc.count' to go on" in effort(path)
+    assert "raise 'arc.count' to continue" in effort(path)
 
 
 def test_shear_is_that_of_the_edges():

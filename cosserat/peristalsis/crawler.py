@@ -180,9 +180,10 @@ class Loads(Parameters):
 
 @dataclass(frozen=True)
 class Groups:
-    """The dimensionless parameters of eqs. (2.3.4), (2.3.8) and (2.4.9); i and delta only where incompressible.
+    """The dimensionless parameters of eqs. (2.3.4), (2.3.8) and (2.4.9).
 
-    g : k_S l_0^2 / k_G, or i : k_I l_0^2 / k_G.  p : k_P / k_S.  d : D / k_S, or delta : D l_0^2 / k_G.
+    stiffness : g = k_S l_0^2 / k_G, or i = k_I l_0^2 / k_G if incompressible.  p : k_P / k_S.
+    force : d = D / k_S, or delta = D l_0^2 / k_G if incompressible.
     c : p pi R^2 l_0^2 / k_G.  m : R rho_0 g l_0^2 / k_G.
     """
 

@@ -1,7 +1,7 @@
 """One instant of a crawler: anchoring and advancing loads in consecutive regions, and the stretches they cause.
 
 Conditions, the same for both solvers: stretches and their slopes (hence m^alpha) are continuous where regions meet,
-slopes vanish at the ends (2.3.13), and `Loads.advancing_force` gives n in advancing regions.
+slopes vanish at the ends (2.3.13), and `crawler.Loads.advancing_force` gives n in advancing regions.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ WORK_PER_PART = 5e5
 """Work limit of one part, in vertex-steps: about 1 s at 2 us each (`cosserat speed`)."""
 
 _COST = {"implicit": (0.0, 1.0), "rk4": (30.0, 0.5), "rk45": (300.0, 2.0)}
-"""a, b : a step costs as much as an implicit one of a + b N vertices; for "rk45", the longest stable step."""
+"""(a, b): a step costs as much as an implicit one of a + b N vertices; for "rk45", the longest stable step."""
 
 
 @dataclass(frozen=True)
@@ -172,7 +172,7 @@ class CheckpointedRun:
             yield (
                 f"unresolved modes: {100 * unresolved / kinetic:.2g} % of the kinetic energy is in modes too fast "
                 f"for the step of {self.step:.3g} s (omega h > 1), which keep their energy but not their phase; take a "
-                "shorter 'integrator.step' if they matter, or a start that does not excite them"
+                "shorter 'integrator.step' if they matter, or a start that does not set them off"
             )
 
     def _too_fast(self, whole: Solution) -> Iterator[str]:

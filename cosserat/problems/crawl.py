@@ -222,8 +222,8 @@ class Crawl(CrawlerProblem):
         runs = [list(run) for thin, run in itertools.groupby(times, found.__contains__) if thin]
         spans = " and ".join(f"{run[0]:.4g} to {run[-1]:.4g} s" for run in runs)
         return (
-            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the anchor lies "
-            "where the body is thin, but crawlers anchor where they are thick; move 'gait.anchor'"
+            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on "
+            "lies where the body is thin, and crawlers hold on where they are fat; move 'gait.anchor'"
         )
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:

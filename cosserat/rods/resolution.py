@@ -69,7 +69,7 @@ def coarse(d: Array) -> list[str]:
     if turning <= COARSE:
         return []
     return [
-        f"coarse mesh: neighbouring sections differ by up to {turning:.2g} rad; use more 'rod.vertices' where more "
+        f"coarse mesh: neighbouring sections stand up to {turning:.2g} rad apart; use more 'rod.vertices' where more "
         f"than {COARSE:g} rad lie between two"
     ]
 

@@ -177,7 +177,7 @@ class CalibrationProcedure(Problem):
 
 
 def sensitivities(misfit: Misfit, logarithms: Array) -> tuple[Array, Array]:
-    """Sensitivity of a misfit along orthogonal directions in log c, (k,), largest first; the directions as rows, (k, k).
+    """Sensitivity of a misfit along orthogonal directions in log c, (k,), largest first; these as rows, (k, k).
 
     By central differences over a thousandth, where the round-off of a solve does not matter.  The largest entry of
     each direction is positive.

@@ -40,7 +40,7 @@ TERMS = (
     "volume",
     "cross-section stretch gradients",
 )
-"""The parts of the energy, in the order of `energy_terms`."""
+"""The parts of the energy, in the order of `terms`."""
 
 VERTEX = np.dtype(
     [

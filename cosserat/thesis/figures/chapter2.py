@@ -68,7 +68,7 @@ def fig_2_1(data: Data) -> Figure:
 
 
 def fig_2_2(data: Data, published: Mapping[str, float]) -> Figure:
-    """Stretches and pressure of segment 50 over the strides, corrected and as printed, beside Quillin's measurements."""
+    """Stretches and pressure of segment 50 over the strides, corrected and as printed, and Quillin's measurements."""
     figure, (top, bottom) = canvas(7.2, 5.4, 2, 1)
     for name, style in (("worm", "-"), ("worm_printed", ":")):
         run = segment(data[name])
