@@ -227,7 +227,7 @@ page.source(instant.check_tilt)
 # on), and loads and weight are taken as a share of the worm's.
 
 # %% tags=["remove-input"]
-page.source(nearly_incompressible.apart)
+page.source(nearly_incompressible.largest_difference)
 
 # %% tags=["remove-input"]
 worm = case_of(banded).problem
@@ -235,7 +235,7 @@ worm = case_of(banded).problem
 
 def apart(poisson, share):
     """Largest difference of the lateral stretches."""
-    return nearly_incompressible.apart(worm.crawler, worm.loads, poisson, share)
+    return nearly_incompressible.largest_difference(worm.crawler, worm.loads, poisson, share)
 
 
 gaps, shares = np.array([1e-2, 1e-3, 1e-4]), np.array([1, 2, 4]) / 80
