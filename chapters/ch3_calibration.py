@@ -102,8 +102,8 @@ lines = [
 page.table(lines, ("vertices", *(name.replace("_", " ") for name in calibration.ASSIGNED)))
 
 # %% [markdown]
-# The coefficients that fit, and what is left, as the root mean square over the vertices and a share of the largest
-# ordinate. Along an open direction a fit stays near where it began, which is the published set; so of $c_4$ and $c_5$ one
+# The fitted coefficients, and the remaining misfit, as the root mean square over the vertices and a fraction of the largest
+# ordinate. Along an open direction a fit stays near its start, the published set; so of $c_4$ and $c_5$ one
 # alone means something, and two of the three of necking.
 
 # %% tags=["remove-input"]
@@ -132,10 +132,10 @@ page.table(lines, ("problem", "vertices", *every, "misfit"))
 # $$
 #
 # The director appears in $\vartheta$ alone and carries no load, so $k_5 \vartheta'' = k_4 \vartheta$: shear is not
-# proportional to the shear force, as in Timoshenko's beam, but lives in a layer of width $\sqrt{k_5/k_4}$ beside the
-# clamp that holds the director, $\vartheta = -\alpha(0)\, e^{-\xi \sqrt{k_4/k_5}}$. The layer's energy,
+# proportional to the shear force, as in Timoshenko's beam, but is confined to a layer of width $\sqrt{k_5/k_4}$ beside the
+# clamp that fixes the director, $\vartheta = -\alpha(0)\, e^{-\xi \sqrt{k_4/k_5}}$. The layer's energy,
 # $\tfrac12 \sqrt{k_4 k_5}\, \alpha(0)^2$, is that of a hinge with a spring: it sees the product of $k_4$ and $k_5$ alone,
-# and the moment $M$ at the clamp turns the whole beam by $M / \sqrt{k_4 k_5}$. Nothing else shears. A mesh that does
+# and the moment $M$ at the clamp rotates the whole beam by $M / \sqrt{k_4 k_5}$. Nothing else shears. A mesh that does
 # not resolve the layer makes the hinge stiffer, and the published coefficients balance that at $N = 20$.
 
 # %% tags=["remove-input"]
@@ -157,8 +157,8 @@ page.text(
 # k_6 \lambda'' = \left( 2k_2 - \frac{k_7^2}{2k_1} \right) (\lambda - \lambda_\infty) ,
 # $$
 #
-# so the section stretch goes from the held end to its far value $\lambda_\infty$ as $e^{-\beta\xi}$ with
-# $\beta^2 = (2k_2 - k_7^2/2k_1)/k_6$. The printed $\beta$ of (3.5.9) then asks for one value of $c_6$. At $N = 20$ a single
+# so the section stretch goes from the fixed end to its far value $\lambda_\infty$ as $e^{-\beta\xi}$ with
+# $\beta^2 = (2k_2 - k_7^2/2k_1)/k_6$. The printed $\beta$ of (3.5.9) then needs one value of $c_6$. At $N = 20$ a single
 # vertex lies in the layer and another value fits; where the layer is resolved the fit comes to the derived one.
 
 # %% tags=["remove-input"]
