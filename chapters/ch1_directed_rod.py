@@ -304,13 +304,13 @@ page.table(
 )
 
 # %% tags=["remove-cell"]
-apart = [np.abs(found[name, "after"][0] - found[name, "before"][0]).max() for name in turns]
-assert max(apart) < 1e-12
+differences = [np.abs(found[name, "after"][0] - found[name, "before"][0]).max() for name in turns]
+assert max(differences) < 1e-12
 assert all(abs(found[name, "after"][1] - found[name, "before"][1]) > 1 for name in turns)
 
 # %% tags=["remove-input"]
 page.text(
-    f"The two states differ by {max(apart):.0e} at most. The multipliers do not agree and need not: the second "
+    f"The two states differ by {max(differences):.0e} at most. The multipliers do not agree and need not: the second "
     "contains a part of the energy's own force."
 )
 

@@ -253,7 +253,7 @@ for name, what in (("worm_calibration_printed", "as printed"), ("worm_calibratio
         ("the page's parameters", fit.given_outcomes),
         ("calibrated again", fit.fitted_outcomes),
     ):
-        lines.append((what, label, *(f"{float(share):.3f}" for share in values)))
+        lines.append((what, label, *(f"{float(ratio):.3f}" for ratio in values)))
 names = [str(name) for name in fit.outcome.to_numpy()]
 page.table(lines, ("equations", "model over measured, with", *names))
 

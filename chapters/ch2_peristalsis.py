@@ -175,16 +175,16 @@ banded, reference = page.data("worm"), page.data("worm_reference")
 count = reference.sizes["time"]
 lines = []
 for name in ("mu_1", "mu_2", "mu_3"):
-    apart = float(np.abs(banded[name][:count] - reference[name]).max())
-    assert apart < 1e-6
-    lines.append((f"largest difference in {name} over a stride", f"{apart:.0e}"))
+    largest = float(np.abs(banded[name][:count] - reference[name]).max())
+    assert largest < 1e-6
+    lines.append((f"largest difference in {name} over a stride", f"{largest:.0e}"))
 robot, other = page.data("soft_robot"), page.data("soft_robot_reference")
 at = [int(np.abs(robot.time.to_numpy() - t).argmin()) for t in other.time.to_numpy()]
-apart = max(
+largest = max(
     float(np.abs(robot[n].to_numpy()[at] - other[n].to_numpy()).max()) for n in ("mu_1", "mu_2", "mu_3")
 )
-assert apart < 1e-6
-lines.append(("largest difference in the robot's stretches", f"{apart:.0e}"))
+assert largest < 1e-6
+lines.append(("largest difference in the robot's stretches", f"{largest:.0e}"))
 lines.append(
     (
         "instants, Newton iterations of all three strides",

@@ -337,7 +337,9 @@ for shear, k in (("", "5/6"), ("_k_1", "1")):
             readouts.largest_relative_deviation(readouts.clamped_clamped_directors(both, two)),
         )
         ratios = [f"{reading.measured / reading.expected:.4f}" for reading in readings]
-        lines.append([k, areas, *ratios, *(f"{100 * share.measured:.1f} %" for share in directors)])
+        lines.append(
+            [k, areas, *ratios, *(f"{100 * deviation.measured:.1f} %" for deviation in directors)]
+        )
 page.table(
     lines,
     (

@@ -23,7 +23,7 @@ def main(arguments: list[str] | None = None) -> int:
 
     Returns 0 for success, 1 if a claim or a solve failed, 2 for bad input, 130 if interrupted.
     """
-    gc.set_threshold(100_000)  # a tenth of the time of a short run, most of which is imports
+    gc.set_threshold(100_000)  # a tenth of the time of a short run, mostly imports
     try:
         options = _parser().parse_args(arguments)
         command: Command = options.command

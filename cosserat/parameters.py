@@ -256,7 +256,7 @@ def _chosen(kind: int | str, choice: Choice) -> Choice:
 
 
 def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
-    """The parameter classes that may stand at a path of nested tables, lists and kinds."""
+    """The possible parameter classes at a path of nested tables, lists and kinds."""
     choice = [owner]
     for part in path:
         fields = [c.model_fields[str(part)] for c in choice if str(part) in c.model_fields]

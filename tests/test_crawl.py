@@ -411,8 +411,8 @@ def test_the_stride_does_not_depend_on_the_time_step_once_events_are_on_the_grid
     case = cosserat.case(name)
     count = 2 if name == "worm_clipped" else 1  # its first stride begins elsewhere
     lengths = [
-        strides(cosserat.run(case.vary("x", strides=count, step=share * case.problem.step)))[-1]
-        for share in (4, 1, 0.5)
+        strides(cosserat.run(case.vary("x", strides=count, step=fraction * case.problem.step)))[-1]
+        for fraction in (4, 1, 0.5)
     ]
     np.testing.assert_allclose(lengths, lengths[0], rtol=1e-9)
 
@@ -449,7 +449,8 @@ def test_a_crawl_run_backwards_in_mirror_image_is_the_same_crawl():
 def test_progress_is_told_and_a_failing_instant_is_named():
     told = []
     cosserat.run(
-        WORM.vary("x", strides=2, step=1), progress=lambda share, words: told.append((share, words))
+        WORM.vary("x", strides=2, step=1),
+        progress=lambda fraction, words: told.append((fraction, words)),
     )
     assert told == [(0.5, "stride 1 of 2"), (1.0, "stride 2 of 2")]
     with pytest.raises(

@@ -97,9 +97,9 @@ def test_loads_on_the_directors_are_integrals_round_and_over_the_section():
     loads = np.einsum("ka,kb,k->ab", x, -pressure * x / RADIUS, dU)  # of both directors, along E_1, E_2
     np.testing.assert_allclose(loads, -pressure * np.pi * RADIUS**2 * np.eye(2), atol=1e-16)
     nodes, weights = np.polynomial.legendre.leggauss(8)
-    rings, share = (nodes + 1) * RADIUS / 2, weights * RADIUS / 2
+    rings, fraction = (nodes + 1) * RADIUS / 2, weights * RADIUS / 2
     body_force = np.array([1000.0 * -9.81, 0])
-    dA = np.outer(rings * share, np.full(64, 2 * np.pi / 64)).ravel()
+    dA = np.outer(rings * fraction, np.full(64, 2 * np.pi / 64)).ravel()
     inside = (rings[:, None, None] / RADIUS * x).reshape(-1, 2)
     np.testing.assert_allclose(np.einsum("ka,b,k->ab", inside, body_force, dA), 0, atol=1e-16)
     np.testing.assert_allclose(dA.sum() * body_force, [-9.81 * 1000 * BODY.area, 0], rtol=1e-12)
@@ -195,9 +195,9 @@ def test_the_contact_force_goes_on_through_both_junctions():
 
 def test_fronts_of_the_soft_robot_are_those_of_2_7():
     """gamma by (2.7.1) from the end of the pause on, eta by (2.7.2), both at the speed and with T of Fig. 2.8."""
-    gait, length, speed, pause, share = ROBOT.gait, ROBOT.crawler.length, 0.0254, 5.0, 0.25
+    gait, length, speed, pause, fraction = ROBOT.gait, ROBOT.crawler.length, 0.0254, 5.0, 0.25
     crossing = length / speed
-    later = pause + crossing * (1 - share)
+    later = pause + crossing * (1 - fraction)
     for phase in np.linspace(0.05, 3.95, 40):
         t = gait.time(phase)
         expected = []
@@ -209,4 +209,4 @@ def test_fronts_of_the_soft_robot_are_those_of_2_7():
         found = gait.fronts(phase)
         assert [kind for _, kind in found] == [kind for _, kind in sorted(expected)]
         assert [at for at, _ in found] == pytest.approx([at for at, _ in sorted(expected)], abs=1e-12)
-    assert gait.duration == pytest.approx(pause + crossing * (2 - share))
+    assert gait.duration == pytest.approx(pause + crossing * (2 - fraction))

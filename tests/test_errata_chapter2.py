@@ -342,18 +342,18 @@ EARLY = cosserat.case("worm_early").problem.gait.anchor
 LATE = WORM.gait.anchor
 
 
-def clipped(share, anchor):
+def clipped(fraction, anchor):
     """The stride of the second and all later strides with fronts that stop at that share of the length [mm]."""
     gamma = [
-        [0, 1 - share],
-        [2 * share, 1 - share],
+        [0, 1 - fraction],
+        [2 * fraction, 1 - fraction],
         [0.5, 0.75],
         [1, 0.5],
-        [2 - 2 * share, share],
-        [2, share],
+        [2 - 2 * fraction, fraction],
+        [2, fraction],
     ]
-    eta = [[[0, 0.5], [0.5 - share, share], [0.5, share]]]
-    eta += [[[1, 1 - share], [1 + 2 * share, 1 - share], [2, 0.5]]]
+    eta = [[[0, 0.5], [0.5 - fraction, fraction], [0.5, fraction]]]
+    eta += [[[1, 1 - fraction], [1 + 2 * fraction, 1 - fraction], [2, 0.5]]]
     gait = {"gamma": [gamma], "eta": eta, "anchor": anchor, "sudden": 0.07}
     return 1e3 * strides(cosserat.run(cosserat.case("worm").vary("x", strides=2, gait=gait)))[-1]
 
@@ -365,7 +365,10 @@ def test_E2_14_fronts_that_leave_early_change_nothing_and_fronts_that_stop_do_at
         for c in (1e-6, 1e-3, 1e-2)
     ]
     np.testing.assert_allclose(leaves, strides(solved["worm"])[-1], rtol=1e-9)
-    stop = {anchor: [clipped(share, anchor) for share in (0.01, 0.02, 0.03)] for anchor in (EARLY, LATE)}
+    stop = {
+        anchor: [clipped(fraction, anchor) for fraction in (0.01, 0.02, 0.03)]
+        for anchor in (EARLY, LATE)
+    }
     np.testing.assert_allclose(stop[EARLY], 1e3 * strides(solved["worm_early"])[-1], rtol=1e-9)
     np.testing.assert_allclose(stop[LATE], [60.000, 58.776, 57.551], atol=1e-3)
     assert 1e3 * strides(solved["worm_clipped"])[-1] == pytest.approx(stop[LATE][1])
@@ -543,8 +546,8 @@ def test_E2_24_the_turning_of_the_force_is_not_small_in_the_layers_of_the_worm()
     assert abs(total) < 1e-3 * body.line_density * 9.81 * body.length
 
 
-@pytest.mark.parametrize(("name", "share"), [("worm", 0.0054), ("soft_robot", 0.0354)])
-def test_E2_25_the_layers_are_thinner_than_the_radius(name, share):
+@pytest.mark.parametrize(("name", "fraction"), [("worm", 0.0054), ("soft_robot", 0.0354)])
+def test_E2_25_the_layers_are_thinner_than_the_radius(name, fraction):
     """Decay lengths of the linearised states: R / sqrt(8) or shorter, from k_G / (k_S - k_P) or k_G / k_I = R^2 / 8."""
     problem = cosserat.case(name).problem
     body, regions = problem.crawler, [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")]
@@ -555,7 +558,7 @@ def test_E2_25_the_layers_are_thinner_than_the_radius(name, share):
         stiffness = k_s - k_p
     longest = body.radius / np.sqrt(8)
     assert k_g / stiffness == pytest.approx(longest**2)
-    assert longest / body.length == pytest.approx(share, rel=0.01)
+    assert longest / body.length == pytest.approx(fraction, rel=0.01)
     idle = problem.loads.replace(anchoring=0, advancing=0, gravity=0)
     lengths = []
     for loads in (idle, problem.loads):

@@ -136,8 +136,8 @@ def test_sources_are_the_gradient_of_a_potential_and_their_derivative_is_its_hes
 
     def at(state):
         if groups.incompressible:
-            share = -n / problem.loads.anchoring * groups.force
-            return sources(groups, state, lam=-share / state.prod(), c=c)
+            fraction = -n / problem.loads.anchoring * groups.force
+            return sources(groups, state, lam=-fraction / state.prod(), c=c)
         return sources(groups, state, n=n / body.stiffnesses[0], c=c)
 
     f, df, _ = at(mu)
@@ -340,8 +340,8 @@ def test_a_vanishing_region_changes_nothing_in_the_limit():
     np.testing.assert_allclose(np.diff(np.log10(change)), -1, atol=0.05)
 
 
-def nearly_incompressible(poisson, share):
-    return largest_difference(WORM.crawler, WORM.loads, poisson, share)
+def nearly_incompressible(poisson, fraction):
+    return largest_difference(WORM.crawler, WORM.loads, poisson, fraction)
 
 
 def test_for_small_loads_the_compressible_rod_tends_to_the_incompressible_one_with_first_order():
@@ -351,7 +351,7 @@ def test_for_small_loads_the_compressible_rod_tends_to_the_incompressible_one_wi
 
 def test_at_finite_loads_the_linear_volume_parts_the_two_rods():
     """(2.2.14) in the one, (2.2.13) in the other: what remains at nu = 1/2 grows with the square of the load."""
-    remains = [nearly_incompressible(0.5 - 1e-7, share) for share in (1.25e-2, 2.5e-2, 5e-2)]
+    remains = [nearly_incompressible(0.5 - 1e-7, fraction) for fraction in (1.25e-2, 2.5e-2, 5e-2)]
     np.testing.assert_allclose(np.diff(np.log2(remains)), 2, atol=0.01)
 
 

@@ -123,16 +123,16 @@ def test_the_filter_agrees_with_the_modes():
     found = modes(system, q, 80, "x", supported=True)
     rng = np.random.default_rng(0)
     v = np.where(system.constrained, 0.0, rng.uniform(-1, 1, q.size))
-    share = found.coordinates(system.mass, [v])[0] ** 2 / 2
+    fraction = found.coordinates(system.mass, [v])[0] ** 2 / 2
     gradient, band = np.empty(q.size), np.empty((q.size, 14))
     system.internal.assemble(q, gradient, band)
     for h in (1e-6, 1e-5, 1e-4, 1e-3):
         x = found.angular_frequency * h
-        right = float((share * x**16 / (1 + x**16)).sum())
+        right = float((fraction * x**16 / (1 + x**16)).sum())
         assert unresolved_energy(band, system.mass, system.constrained, v, h) == pytest.approx(
-            right, rel=1e-6, abs=1e-9 * share.sum()
+            right, rel=1e-6, abs=1e-9 * fraction.sum()
         )
-    assert share.sum() == pytest.approx(v @ to_dense(system.mass) @ v / 2, rel=1e-9)
+    assert fraction.sum() == pytest.approx(v @ to_dense(system.mass) @ v / 2, rel=1e-9)
 
 
 def test_modes_too_fast_for_the_step_are_named_and_those_it_follows_are_not():
@@ -279,9 +279,9 @@ def test_sections_that_shear_into_each_other_are_refused_where_their_surfaces_me
     rod = cosserat.case("clamped_free").vary("x", rod={"centreline": centreline, **own}).problem.rod
     for gap in (0.01, -0.01):
         geometry, x, d = leaning(rod, surface, gap)
-        share = -1.0 if surface == "upper" else rod.below
-        apart = np.linalg.norm(share * d[1] + x[2] - x[1] - share * d[2])
-        assert apart == pytest.approx(0.01 * geometry.edge_length[1], rel=1e-9)
+        fraction = -1.0 if surface == "upper" else rod.below
+        distance = np.linalg.norm(fraction * d[1] + x[2] - x[1] - fraction * d[2])
+        assert distance == pytest.approx(0.01 * geometry.edge_length[1], rel=1e-9)
         assert np.isfinite(rod.strain_energy.potential(rod, geometry).energy(np.hstack([x, d]).ravel()))
         if gap > 0:
             check_crossing(geometry, x, d, rod.below, "x")

@@ -137,7 +137,7 @@ def _read(file: str | Path) -> dict[str, Any]:
     stray = [key for key, value in tables.items() if not isinstance(value, dict)]
     if stray:
         raise InputError(
-            f"{file}: '{stray[0]}' stands outside a case; put it below the case's name, such as [my_rod]"
+            f"{file}: '{stray[0]}' is outside a case; put it below the case's name, such as [my_rod]"
         )
     if not tables:
         raise InputError(f"{file} holds no case; begin one with its name, such as [my_rod]")

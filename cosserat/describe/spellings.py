@@ -19,12 +19,12 @@ _WORDS = (
     "ksi atm Hz J Nm kNm MNm mNm µNm Nmm Ncm rad deg degree ° º turn rpm % percent ppm g_0 g_n g0 standard_gravity"
 )
 WORDS = (*_WORDS.split(), *_PREFIXED)
-"""Units of one word that the patterns know."""
+"""Units of one word in the patterns."""
 COMPOUNDS = (
     *("m^2", "m^3", "m^-1", "s^-1", "kg/m", "kg/m^2", "kg/m^3", "kg*m"),
     *("m/s", "m/s^2", "N/m", "N/m^2", "N/m^3", "N*m", "rad/m", "rad/s"),
 )
-"""Compound units; the patterns know each of their spellings with known words."""
+"""Compound units; the patterns have each of their spellings with these words."""
 
 _SIGN = "[-+−‐‑–]"
 _TIMES = r"\s*[*x×·⋅∙•]\s*"

@@ -79,7 +79,7 @@ def column_tip(load: float) -> tuple[float, float]:
 
     Raises
     ------
-    ValueError : the load is below pi^2 / 4, where the column stands straight.
+    ValueError : the load is below pi^2 / 4, where the column is straight.
     """
     from scipy.optimize import brentq
     from scipy.special import ellipe, ellipk

@@ -134,7 +134,7 @@ def uniform_state(
         unbalanced, start, jac="cs", xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=_MAX_ITERATIONS
     )
     d, residual = found.x[:9].reshape(3, 3), float(np.abs(found.fun).max())
-    asked = f"a uniform rod that turns by {turn} per metre under {pull:g} N"
+    asked = f"a uniform rod that rotates by {turn} per metre under {pull:g} N"
     if not residual < _FORCE_TOLERANCE:
         raise NotConvergedError(
             f"{asked}: no equilibrium found; turn or pull it less",

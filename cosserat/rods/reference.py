@@ -59,7 +59,7 @@ class Geometry:
 
     @classmethod
     def arc(cls, vertices: int, length: float, director_length: Array, curvature: float) -> Geometry:
-        """A rod bent from the origin into an arc that turns from E3 towards E2, its directors along b, eq. (3.3.25).
+        """A rod bent from the origin into an arc from E3 towards E2, its directors along b, eq. (3.3.25).
 
         length is that of the polygon, whose vertices lie on a circle.  The directors are orthogonal to the vertex
         tangents, so there is no intrinsic shear.

@@ -58,7 +58,7 @@ def _span(ax: Axes, a: Array, b: Array, colour: str) -> None:
 def _discrete(ax: Axes, x: Array, d: Array, name: str) -> None:
     """Centreline and directorline solid, directors, and the lower boundary as their reflection, dashed.
 
-    name : the letter of centreline positions, beside which the numbers K of the vertices stand.
+    name : the letter of centreline positions, printed with the numbers K of the vertices.
     """
     ax.plot(*x.T, color=INK, marker="o", markersize=4, label="centreline")
     ax.plot(*(x + d).T, color=COMPUTED, marker="s", markersize=3, label="directorline")
@@ -192,7 +192,7 @@ def _section(ax: Axes, boundary: Array, along: Array) -> None:
 
 
 def fig_3_4(data: Data) -> Figure:
-    """The discrete osculating circle of a negative turning angle: it touches both edges half a Voronoi length away."""
+    """The discrete osculating circle of a negative turning angle: it touches both edges at half a Voronoi length."""
     figure, (ax,) = canvas(6.4, 4.4)
     rod = data["bent_rod"]
     x, K = rod.x.to_numpy(), 4
