@@ -333,8 +333,8 @@ for shear, k in (("", "5/6"), ("_k_1", "1")):
             readouts.at_midspan(readouts.clamped_clamped_curve(both, two)),
         )
         directors = (
-            readouts.largest_relative_deviation(readouts.clamped_free_directors(free, one)),
-            readouts.largest_relative_deviation(readouts.clamped_clamped_directors(both, two)),
+            readouts.largest_deviation(readouts.clamped_free_directors(free, one)),
+            readouts.largest_deviation(readouts.clamped_clamped_directors(both, two)),
         )
         ratios = [f"{reading.measured / reading.expected:.4f}" for reading in readings]
         lines.append(

@@ -152,7 +152,7 @@ print(
 )
 
 # %% tags=["remove-cell"]
-assert readouts.buckling_load_ratio(page.data("column_path")).max() > 1.5
+assert readouts.buckling_ratio(page.data("column_path")).max() > 1.5
 
 # %% [markdown]
 # ## Motion

@@ -204,15 +204,10 @@ def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
         print(f"warning: {warning}", file=sys.stderr)
 
 
-def _report_progress(fraction: float, words: str) -> None:
+def _report_progress(done: float, words: str) -> None:
     """A line that overwrites itself on a terminal, and nothing elsewhere."""
     if sys.stderr.isatty():
-        print(
-            f"\r{fraction:4.0%}  {words}   ",
-            end="" if fraction < 1 else "\n",
-            file=sys.stderr,
-            flush=True,
-        )
+        print(f"\r{done:4.0%}  {words}   ", end="" if done < 1 else "\n", file=sys.stderr, flush=True)
 
 
 def _describe(options: argparse.Namespace) -> None:

@@ -24,12 +24,8 @@ from cosserat.rods.directed_rod import Section, integrated_stiffnesses
 Array = NDArray[np.float64]
 
 
-_INCOMPRESSIBLE = (
-    0.5 - 1e-9
-)  # above this Poisson's ratio the two Lame stiffnesses differ only by round-off
-_AUXETIC = (
-    -1 + 1e-4
-)  # nearer to -1 the resistance to a change of volume, 1 + 2 p of (2.3.19), is round-off
+_INCOMPRESSIBLE = 0.5 - 1e-9  # above this nu the two Lame stiffnesses differ only by round-off
+_AUXETIC = -1 + 1e-4  # below this nu the volume stiffness, 1 + 2 p of (2.3.19), is round-off
 _MAX_SLENDERNESS = 1e6  # longest body in radii; in a longer one the layers are below round-off
 
 

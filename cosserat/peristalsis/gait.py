@@ -26,9 +26,7 @@ Track = tuple[tuple[Phase, Place], ...]
 
 _PHASE_TOLERANCE = 1e-9  # phases closer than this are one
 _BREAK_OFFSET = 1e-7  # distance from a break at which its two sides are compared, in phases
-_CHANGE_TOLERANCE = (
-    1e-4  # fraction of the body that fronts may pass between those sides, and the clearance
-)
+_CHANGE_TOLERANCE = 1e-4  # fraction of the body that fronts pass between those sides, and the clearance
 _MAX_INSTANTS = 100_000
 
 
@@ -264,11 +262,8 @@ def _distinct(phases: list[float]) -> list[float]:
 def _follow(track: Track, phase: float) -> float | None:
     """The place of a track at a time; it begins just after its first point, except at the start of the stride."""
     begin, end = track[0][0], track[-1][0]
-    if (
-        phase > end + _PHASE_TOLERANCE
-        or phase < begin - _PHASE_TOLERANCE
-        or (phase < begin + _PHASE_TOLERANCE and begin > _PHASE_TOLERANCE)
-    ):
+    near = _PHASE_TOLERANCE
+    if phase > end + near or phase < begin - near or (phase < begin + near and begin > near):
         return None
     return _place(track, phase)
 

@@ -21,9 +21,7 @@ Array = NDArray[np.float64]
 
 _FORCE_TOLERANCE = 1e-12  # largest unbalanced force, as a fraction of the largest stiffness
 _MAX_ITERATIONS = 60  # for directors and multiplier; moderate turns take a dozen
-_MIN_VOLUME_RATIO = (
-    0.1  # least volume of a section, over that at rest; below it the section has collapsed
-)
+_MIN_VOLUME_RATIO = 0.1  # volume of a section over that at rest below which it has collapsed
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,7 @@ from cosserat.rods.rod import Rod
 from cosserat.solvers.banded import Mask
 
 Array = NDArray[np.float64]
-_MAX_ROTATION = (
-    1.0  # of a section in one load increment [rad]: unwrapping angles needs less than half a turn
-)
+_MAX_ROTATION = 1.0  # of a section in one load increment [rad]; unwrapping needs less than pi
 
 
 class PrescribedPart(Protocol):

@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_MAX_LOG_CHANGE = float(
-    np.log(30.0)
-)  # largest factor between fitted and published coefficients: some are hardly determined
+_LOG_RANGE = float(np.log(30.0))  # largest change of a fitted logarithm: some are hardly determined
 
 _LOG_STEP = 1e-3  # of the logarithms, in a difference quotient
 
@@ -125,11 +123,7 @@ class CalibrationProcedure(Problem):
         start = np.log([getattr(rod.calibration, c) for c in ASSIGNED[problem]])
         misfit = self.misfit(problem, vertices, name)
         return least_squares(
-            misfit,
-            start,
-            bounds=(start - _MAX_LOG_CHANGE, start + _MAX_LOG_CHANGE),
-            xtol=1e-10,
-            ftol=1e-10,
+            misfit, start, bounds=(start - _LOG_RANGE, start + _LOG_RANGE), xtol=1e-10, ftol=1e-10
         )
 
     def fit_both_beams(self, vertices: int, name: str) -> OptimizeResult:
@@ -149,11 +143,7 @@ class CalibrationProcedure(Problem):
             return every / float(np.sqrt(len(parts)))
 
         return least_squares(
-            misfit,
-            start,
-            bounds=(start - _MAX_LOG_CHANGE, start + _MAX_LOG_CHANGE),
-            xtol=1e-10,
-            ftol=1e-10,
+            misfit, start, bounds=(start - _LOG_RANGE, start + _LOG_RANGE), xtol=1e-10, ftol=1e-10
         )
 
     def misfit(self, problem: str, vertices: int, name: str, curves: Curves | None = None) -> Misfit:

@@ -87,7 +87,7 @@ def _add_director_rotation(band: Band, p: int, t0: float, t1: float, w: float) -
 
 
 @njit(cache=True)
-def _add_symmetric_product(
+def _add_product(
     band: Band, p: int, u0: float, u1: float, r: int, v0: float, v1: float, w: float
 ) -> None:
     """Add w (u v + v u) for a vector u at DOF p and v at DOF r."""
@@ -306,8 +306,8 @@ def assemble(
             continue
         stiff = W_thetatheta[K]
         _add_edge_block(band, p, s, c0[K], c1[K], 0.0, stiff / (c[K] * c[K]), W_theta[K] / (c[K] * c[K]))
-        _add_symmetric_product(band, s, g0, g1, u, h0, h1, stiff)
-        _add_symmetric_product(band, p, -g0, -g1, u, h0, h1, stiff)
+        _add_product(band, s, g0, g1, u, h0, h1, stiff)
+        _add_product(band, p, -g0, -g1, u, h0, h1, stiff)
         _add_square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod[K].director)
         _add_director_rotation(band, u, d0[K], d1[K], -W_theta[K] / (r[K] * r[K]))
         _add_square(band, u, d0[K] / rod[K].director, d1[K] / rod[K].director, W_lamlam[K])
@@ -328,14 +328,14 @@ def assemble(
         _add_square(band, p, a0, a1, stiff)
         _add_square(band, s, z0, z1, stiff)
         _add_square(band, s + 4, b0, b1, stiff)
-        _add_symmetric_product(band, s, z0, z1, p, a0, a1, stiff)
-        _add_symmetric_product(band, s + 4, b0, b1, p, a0, a1, stiff)
-        _add_symmetric_product(band, s + 4, b0, b1, s, z0, z1, stiff)
+        _add_product(band, s, z0, z1, p, a0, a1, stiff)
+        _add_product(band, s + 4, b0, b1, p, a0, a1, stiff)
+        _add_product(band, s + 4, b0, b1, s, z0, z1, stiff)
 
         w = rod[K].k7 / (2 * rod[K].director)
-        _add_symmetric_product(band, s + 2, d0[K], d1[K], p, -t0[K - 1], -t1[K - 1], w)
-        _add_symmetric_product(band, s + 2, d0[K], d1[K], s, t0[K - 1] - t0[K], t1[K - 1] - t1[K], w)
-        _add_symmetric_product(band, s + 2, d0[K], d1[K], s + 4, t0[K], t1[K], w)
+        _add_product(band, s + 2, d0[K], d1[K], p, -t0[K - 1], -t1[K - 1], w)
+        _add_product(band, s + 2, d0[K], d1[K], s, t0[K - 1] - t0[K], t1[K - 1] - t1[K], w)
+        _add_product(band, s + 2, d0[K], d1[K], s + 4, t0[K], t1[K], w)
     for K in range(n - 1):
         J = K + 1
         w = W_theta_next[K]
@@ -343,9 +343,9 @@ def assemble(
         g0, g1, h0, h1 = c1[K] / c[K], -c0[K] / c[K], -d1[K] / r[K], d0[K] / r[K]
         j0, j1, i0, i1 = c1[J] / c[J], -c0[J] / c[J], -d1[J] / r[J], d0[J] / r[J]
         for at, v0, v1 in ((high, g0, g1), (low, -g0, -g1), (4 * K + 2, h0, h1)):
-            _add_symmetric_product(band, high_next, j0, j1, at, v0, v1, w)
-            _add_symmetric_product(band, low_next, -j0, -j1, at, v0, v1, w)
-            _add_symmetric_product(band, 4 * J + 2, i0, i1, at, v0, v1, w)
+            _add_product(band, high_next, j0, j1, at, v0, v1, w)
+            _add_product(band, low_next, -j0, -j1, at, v0, v1, w)
+            _add_product(band, 4 * J + 2, i0, i1, at, v0, v1, w)
         w = W_lam_next[K] / (rod[K].director * rod[J].director)
-        _add_symmetric_product(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
+        _add_product(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
     return total

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cosserat.exact import elastica
 from cosserat.figures.path import draw_path, draw_shapes
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
-from cosserat.thesis.table.readouts import buckling_load_ratio
+from cosserat.thesis.table.readouts import buckling_ratio
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -59,7 +59,7 @@ def fig_paths(data: Data) -> Figure:
     """Load over displacement, stable points filled: the column beside the exact elastica, and the arch."""
     figure, (left, right) = canvas(7.2, 3.2, 1, 2)
     column, arch = data["column_path"], data["arch_path"]
-    ratio = buckling_load_ratio(column)
+    ratio = buckling_ratio(column)
     draw_path(left, np.abs(column.x.sel(axis="E2").isel(vertex=-1).to_numpy()), ratio, column)
     angles = np.linspace(0.01, 2.3, 60)
     loads = [elastica.column_load(a) for a in angles]

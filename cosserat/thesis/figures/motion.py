@@ -21,9 +21,7 @@ from cosserat.studies.calibration import beam_of
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_SHOWN_MODE = (
-    0.06  # largest displacement of a mode shape in a picture, as a fraction of the rod's length
-)
+_SHOWN_MODE = 0.06  # largest displacement of a mode shape in a picture, in lengths of the rod
 _WIDTH, _HEIGHT, _MARGIN = 640, 200, 12  # of an animation, in pixels
 
 

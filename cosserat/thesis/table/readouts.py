@@ -115,7 +115,7 @@ def at_midspan(curves: tuple[Array, Array]) -> Measurement:
     return Measurement(midspan(curves[0]), midspan(curves[1]))
 
 
-def largest_relative_deviation(curves: tuple[Array, Array]) -> Measurement:
+def largest_deviation(curves: tuple[Array, Array]) -> Measurement:
     """Largest deviation of two curves over the largest ordinate of the second."""
     computed, exact = curves
     return Measurement(float(np.abs(computed - exact).max() / np.abs(exact).max()), 0.0)
@@ -224,12 +224,11 @@ def _inflated(data: xr.Dataset) -> Measurement:
     part = beam.length / (data.sizes["vertex"] - 1)
     edge = np.diff(data.x.to_numpy(), axis=0)[-1]
     force = data.support_force.sel(dof=["x3", "x2"])[-1].to_numpy()
-    return Measurement(
-        float(edge[0] * force[1] - edge[1] * force[0]), 2 * k3 / part * 0.5 * (1 + 0.5**2)
-    )
+    moment = edge[0] * force[1] - edge[1] * force[0]
+    return Measurement(float(moment), 2 * k3 / part * 0.5 * (1 + 0.5**2))
 
 
-def buckling_load_ratio(data: xr.Dataset) -> Array:
+def buckling_ratio(data: xr.Dataset) -> Array:
     """Axial load of a clamped-free column over Euler's, pi^2 EI / (4 L^2), at every point of its path."""
     problem = problem_of(data, RodProblem)
     beam = beam_of(problem)
@@ -272,21 +271,19 @@ _CURVES: dict[str, Curve] = {
 
 def _of_a_beam(curve: Curve, case: str) -> Callable[[xr.Dataset], Measurement]:
     """Largest deviation of a curve from that of the beam of another case."""
-    return lambda data: largest_relative_deviation(curve(data, printed.beam(case)))
+    return lambda data: largest_deviation(curve(data, printed.beam(case)))
 
 
 READOUTS: dict[str, Callable[[xr.Dataset], Measurement]] = {
     "hanging_bar_tip": lambda data: at_tip(hanging_bar_curve(data)),
-    "hanging_bar_profile": lambda data: largest_relative_deviation(hanging_bar_curve(data)),
+    "hanging_bar_profile": lambda data: largest_deviation(hanging_bar_curve(data)),
     "largest_director_displacement": lambda data: Measurement(float(np.abs(data.delta).max()), 0.0),
     "clamped_free_tip": lambda data: at_tip(clamped_free_curve(data)),
-    "clamped_free_profile": lambda data: largest_relative_deviation(clamped_free_curve(data)),
-    "clamped_free_directors": lambda data: largest_relative_deviation(clamped_free_directors(data)),
+    "clamped_free_profile": lambda data: largest_deviation(clamped_free_curve(data)),
+    "clamped_free_directors": lambda data: largest_deviation(clamped_free_directors(data)),
     "clamped_clamped_midspan": lambda data: at_midspan(clamped_clamped_curve(data)),
-    "clamped_clamped_profile": lambda data: largest_relative_deviation(clamped_clamped_curve(data)),
-    "clamped_clamped_directors": lambda data: largest_relative_deviation(
-        clamped_clamped_directors(data)
-    ),
+    "clamped_clamped_profile": lambda data: largest_deviation(clamped_clamped_curve(data)),
+    "clamped_clamped_directors": lambda data: largest_deviation(clamped_clamped_directors(data)),
     **{
         f"{name}_k_1": _of_a_beam(curve, f"{beam}_k_1")
         for beam in ("clamped_free", "clamped_clamped")
@@ -308,7 +305,7 @@ READOUTS: dict[str, Callable[[xr.Dataset], Measurement]] = {
     "kinetic_energy_period": _kinetic_energy_period,
     "displacement_period": _displacement_period,
     "necking_midspan": lambda data: at_midspan(necking_curve(data)),
-    "necking_profile": lambda data: largest_relative_deviation(necking_curve(data)),
+    "necking_profile": lambda data: largest_deviation(necking_curve(data)),
     "necking_elongation": _elongation,
     "stretched": _stretched,
     "thinned": _thinned,
@@ -318,7 +315,7 @@ READOUTS: dict[str, Callable[[xr.Dataset], Measurement]] = {
     "column_tip": _column_tip,
     "timoshenko_period": _timoshenko_period,
     "roll_up": _roll_up,
-    "necking_free_section": lambda data: largest_relative_deviation(necking_curve(data, "free section")),
+    "necking_free_section": lambda data: largest_deviation(necking_curve(data, "free section")),
     **crawl_readouts.READOUTS,
 }
 """Read-outs by their names in the table."""
