@@ -11,11 +11,11 @@
 # %% [markdown]
 # # What a case may say
 #
-# A case is a table of a TOML file. Its `kind` says which keys it has; here they are, as the classes that read them have
+# A case is a table of a TOML file. Its `kind` determines its keys; this page lists them from the classes that read
 # them. `cosserat describe` prints the same list, and `cosserat schema` gives it to editors. A quantity is a text with its
 # unit, such as `"2.5 mm"`; any unit of the same dimension is read. Ratios and whole numbers are written without quotation
-# marks. `forces[].at` is the key `at` of each table in the list `forces`. What has a letter in the thesis, such as $\ell_0$,
-# has it here with its equation or section.
+# marks. `forces[].at` is the key `at` of each table in the list `forces`. Letters of the thesis, such as $\ell_0$,
+# are given with their equation or section.
 
 # %% tags=["remove-cell"]
 from cosserat.thesis.book import page

@@ -12,7 +12,7 @@
 # # Chapter 1: the directed rod
 #
 # A rod is a curve $\mathbf{r}(\xi)$ whose points carry two directors. The curve says where the cross-sections are; the
-# directors say how each of them is stretched, sheared and turned. The material points of the body stand at
+# directors say how each of them is stretched, sheared and rotated. The material points of the body stand at
 #
 # $$
 # \mathbf{r}^* = \mathbf{r} + X^\beta \mathbf{d}_\beta , \tag{1.3.4}
@@ -47,7 +47,7 @@ page.figure(
 page.source(chapter1.surface)
 
 # %% [markdown]
-# ## What a section costs
+# ## The energy of a section
 #
 # The measures of deformation, zero in a straight reference and under rotation, are
 #
@@ -106,7 +106,7 @@ page.source(directed_rod.offset_energy)
 
 # %% [markdown]
 # Tests recover all of it by Gauss's rule over a rectangle, for random deformations: (1.2.94) about the centre, (1.2.93) off
-# it and turned, where stretching and bending couple. These stiffnesses are too high in bending and torsion, because real
+# it and rotated, where stretching and bending couple. These stiffnesses are too high in bending and torsion, because real
 # sections do not stay plane; the thesis adds a term,
 #
 # \begin{equation*}
@@ -178,14 +178,14 @@ page.source(directed_rod.energy_gradient)
 page.source(directed_rod.forces)
 
 # %% [markdown]
-# Whatever the energy, as long as it does not change when the rod is turned, these forces balance:
+# For any energy that does not change when the rod is rotated, these forces balance:
 #
 # $$
 # \mathbf{r}' \times \mathbf{n} + \mathbf{d}_\beta \times \mathbf{k}^\beta + \mathbf{d}'_\beta \times \mathbf{m}^\beta
 # = \mathbf{0} . \tag{1.2.91}
 # $$
 #
-# It is what the symmetry of the stress is in three dimensions. A state taken at random shows it:
+# This corresponds to the symmetry of the stress in three dimensions. A random state shows it:
 
 # %%
 rng = np.random.default_rng(1)
@@ -203,8 +203,8 @@ print(f"the first term is up to {largest:.1e} N, the sum of all three {left:.0e}
 assert left < 1e-13 * largest
 
 # %% [markdown]
-# Tests compare the forces with exact differences of the energy, turn them with the rod, find that in any motion the energy
-# grows by their power (1.3.11), and, for small deformations, that they are integrals of the stress over a rectangle.
+# Tests compare the forces with exact differences of the energy, rotate them with the rod, and check that in any motion the
+# energy grows by their power (1.3.11), and that for small deformations they are integrals of the stress over a rectangle.
 #
 # Where the energy is a function of stretches alone, the forces follow from
 #
@@ -238,8 +238,8 @@ page.source(directed_rod.internal_forces)
 
 # %% [markdown]
 # Tests compare both with differences of an energy. The second term of the first vanishes where directors only change their
-# lengths, as they do in the next chapter. What does not follow from this theory is also worth saying: sections that warp,
-# or bend across themselves, are not homogeneous, and the thesis reports poor agreement there.
+# lengths, as in the next chapter. The theory has limits: sections that warp, or bend across themselves, are not
+# homogeneous, and the thesis reports poor agreement there.
 #
 # ## A constraint may enter before or after the gradients
 #
@@ -276,10 +276,10 @@ page.source(constrained_rod.constrained_forces)
 # %% [markdown]
 # "The resulting equations will yield the same state of deformation." Here is a soft bar that keeps its volume, twisted by
 # a third of a radian per centimetre and pulled, or bent into a circle of three centimetres radius. It is uniform: each
-# section turns into the next, $\mathbf{d}'_i = \boldsymbol{\omega} \times \mathbf{d}_i$. So the balances say that
+# section is rotated into the next, $\mathbf{d}'_i = \boldsymbol{\omega} \times \mathbf{d}_i$. So the balances say that
 # $\mathbf{n}$ is along $\boldsymbol{\omega}$ and that
-# $\boldsymbol{\omega} \times \mathbf{m}^\alpha = \mathbf{k}^\alpha$. Unknown are the nine components of the directors and
-# the multiplier.
+# $\boldsymbol{\omega} \times \mathbf{m}^\alpha = \mathbf{k}^\alpha$. The degrees of freedom are the nine components of the
+# directors and the multiplier.
 
 # %%
 soft = directed_rod.adjusted_stiffnesses(1e6, 0.3, circle, 0.9)
@@ -304,18 +304,18 @@ page.table(
 )
 
 # %% tags=["remove-cell"]
-apart = [np.abs(found[name, "after"][0] - found[name, "before"][0]).max() for name in turns]
-assert max(apart) < 1e-12
+differences = [np.abs(found[name, "after"][0] - found[name, "before"][0]).max() for name in turns]
+assert max(differences) < 1e-12
 assert all(abs(found[name, "after"][1] - found[name, "before"][1]) > 1 for name in turns)
 
 # %% tags=["remove-input"]
-page.say(
-    f"The two states differ by {max(apart):.0e} at most. The multipliers do not agree and need not: the second "
+page.text(
+    f"The two states differ by {max(differences):.0e} at most. The multipliers do not agree and need not: the second "
     "contains a part of the energy's own force."
 )
 
 # %% [markdown]
-# ## What moves
+# ## Inertia
 #
 # A section of mass $\rho_0$ and of inertias $\rho_0 y_0^{0\alpha}$, $\rho_0 y_0^{\alpha\beta}$ per length, whose centreline
 # moves with $\mathbf{v}$ and whose directors with $\mathbf{w}_\alpha$, has the momenta
@@ -334,7 +334,7 @@ page.say(
 # T = \tfrac12 (\mathbf{G} \cdot \mathbf{v} + \mathbf{L}^\beta \cdot \mathbf{w}_\beta) . \tag{1.2.43}
 # $$
 #
-# One that turns like a rigid body has the moment of inertia
+# A section that rotates like a rigid body has the moment of inertia
 #
 # $$
 # \mathbf{J}_0 = \rho_0 y_0^{\beta\gamma} \left( (\mathbf{D}_\beta \cdot \mathbf{D}_\gamma) \mathbf{I}

@@ -36,8 +36,8 @@ from cosserat.thesis.table import crawl_readouts
 page.excerpt(crawl.Crawl.solve, "for stride in", "run.progress")
 
 # %% [markdown]
-# A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor, which may be anyone's. This is the
-# robot's, as its case file has it:
+# A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor. This is the gait of the robot in its
+# case file:
 #
 # ```toml
 # [soft_robot.gait]
@@ -48,13 +48,13 @@ page.excerpt(crawl.Crawl.solve, "for stride in", "run.progress")
 # ```
 #
 # A gait with a gap in time, with fronts that cross, with an anchor off the body or on a front, or with loads that change
-# at once on a part of the body is refused with a sentence. A front that is nearer to an end than a named clearance has
+# at once on a part of the body is an error with a sentence. A front that is nearer to an end than a named clearance has
 # left the body; the page says only that fronts must not come "too close".
 #
 # ## Push and pull
 #
-# The robot waits, longitudinally contracted. Then $\gamma$ sets out from the front: the thinned part grows and pushes the
-# head forward while the rear end holds. When $\gamma$ has a quarter of the way left, $\eta$ appears at the front, the
+# The robot waits, longitudinally contracted. Then $\gamma$ starts from the front: the thinned part grows and pushes the
+# head forward while the rear end is anchored. When $\gamma$ has a quarter of the way left, $\eta$ appears at the front, the
 # head holds, and the rear is pulled in.
 
 # %% tags=["remove-input"]
@@ -66,7 +66,7 @@ page.animation(
 page.figure(
     "fig_2_7",
     "One cycle: (a) push from the rear, (b) transition, (c) pull to the front. Ahead of $\\gamma$ (green) and behind "
-    "$\\eta$ (blue) advancing loads make the body thin and long; the red triangle is where it holds on.",
+    "$\\eta$ (blue) advancing loads make the body thin and long; the red triangle is the anchor.",
 )
 
 # %% tags=["remove-input"]
@@ -85,11 +85,11 @@ page.figure(
 
 # %% [markdown]
 # With the weight as a force per reference length the robot's equations are linear, and the displacement of a cycle has a
-# closed form: while $\gamma$ travels the head goes on, and from the moment when $\eta$ appears it holds. Every cycle is
-# measured, and the one that is farthest from that form stands in the table.
+# closed form: while $\gamma$ travels the head advances, and from the instant when $\eta$ appears it is anchored. Every cycle
+# is measured, and the one farthest from that form is in the table.
 #
-# Artificial muscles that are inflated ($\bar D = 0$, $p < 0$) are short and fat where their load acts, so that their fronts
-# change places. With the robot's own gait they would crawl backwards and hold on with a thin part, which is told.
+# Inflated artificial muscles ($\bar D = 0$, $p < 0$) are short and thick where their load acts, so their fronts change
+# places. With the robot's own gait they would crawl backwards and anchor with a thin part; a warning says so.
 
 # %% tags=["remove-input"]
 page.rows("2.7")
@@ -197,7 +197,7 @@ for name, what in (("worm", "$t_p/2$"), ("worm_early", "$t_p/3$")):
     run = page.data(name)
     back = np.maximum.accumulate(run.along.to_numpy()) - run.along.to_numpy()
     case = cosserat.case(name).problem
-    thin = len(case.thin_anchors()), len(case.gait.moments(case.step))
+    thin = len(case.thin_anchors()), len(case.gait.instants(case.step))
     lines.append(
         (
             what,
@@ -253,7 +253,7 @@ for name, what in (("worm_calibration_printed", "as printed"), ("worm_calibratio
         ("the page's parameters", fit.given_outcomes),
         ("calibrated again", fit.fitted_outcomes),
     ):
-        lines.append((what, label, *(f"{float(share):.3f}" for share in values)))
+        lines.append((what, label, *(f"{float(ratio):.3f}" for ratio in values)))
 names = [str(name) for name in fit.outcome.to_numpy()]
 page.table(lines, ("equations", "model over measured, with", *names))
 

@@ -11,9 +11,9 @@
 # %% [markdown]
 # # Chapter 2: a rod with muscles
 #
-# A worm has two kinds of muscle. Those along its body shorten and fatten it; the fat parts hold on to the ground. Those
-# round its body thin it, and because its volume is constant it lengthens there and is pushed on. Here the worm is one
-# directed rod, its muscles are loads on it, and the thesis calls them *anchoring* and *advancing* loads.
+# A worm has two kinds of muscle. Those along its body shorten and thicken it; the thick parts are anchored to the ground.
+# Those round its body thin it, and because its volume is constant it lengthens there and is pushed forward. Here the worm
+# is one directed rod, its muscles are loads on it, and the thesis calls them *anchoring* and *advancing* loads.
 #
 # ## Muscles as loads
 #
@@ -117,7 +117,7 @@ page.excerpt(crawler._compressible, "for k in range", "return f")
 # \end{equation*}
 #
 # The last line has an integral: $\tilde\lambda_c \mu_1 \mu_2$, the contact force, is constant. On the common domain of
-# (2.4.18) the page has the length of the region in it once too often, which breaks that integral and makes the answer
+# (2.4.18) the page has the length of the region once too often, which breaks that integral and makes the answer
 # depend on how long the region is (erratum E2.5). The published numbers carry it.
 
 # %% tags=["remove-input"]
@@ -132,8 +132,8 @@ page.excerpt(crawler._incompressible, "for k in range", "return f")
 # \frac{d\mu_\alpha}{d\tilde{z}}(\tilde{z} = 0) = 0, \quad \frac{d\mu_\alpha}{d\tilde{z}}(\tilde{z} = 1) = 0 . \tag{2.3.13}
 # $$
 #
-# What the contact force does there differs: in the robot it jumps to zero, in the worm it goes on unchanged. Each is
-# computed as its section has it, and the other way round as a variant (question E2.10). Any sequence of regions is
+# The contact force differs there: in the robot it jumps to zero, in the worm it continues unchanged. Each is
+# computed as in its section, and the other way round as a variant (question E2.10). Any sequence of regions is
 # possible, also with an advancing one at an end, where the one junction it has closes the system (assumption E2.12).
 #
 # The states are plateaus joined by layers. Because $k_G / k_I$ in the worm and $k_G / (k_S - k_P)$ in the robot are
@@ -161,9 +161,9 @@ print(
 # %% [markdown]
 # ## Two solvers
 #
-# The thesis writes the equations as a first-order system, brings all regions to one domain and hands them to a
-# collocation method. That is here (`solver = "collocation"`, SciPy's `solve_bvp`), and it is the reference. Strides need
-# a hundred such problems each; for them there is a banded Newton method on spectral elements that are fine in the layers,
+# The thesis writes the equations as a first-order system, maps all regions to one domain and uses a collocation method.
+# This solver is here too (`solver = "collocation"`, SciPy's `solve_bvp`), as the reference. Each stride needs a hundred
+# such problems; a banded Newton method solves them on spectral elements that are fine in the layers,
 # started from the last instant. Its weak form has the conditions on the gradients in it, and its quadrature points are its
 # nodes, so that the physics enters node by node.
 
@@ -175,16 +175,16 @@ banded, reference = page.data("worm"), page.data("worm_reference")
 count = reference.sizes["time"]
 lines = []
 for name in ("mu_1", "mu_2", "mu_3"):
-    apart = float(np.abs(banded[name][:count] - reference[name]).max())
-    assert apart < 1e-6
-    lines.append((f"largest difference in {name} over a stride", f"{apart:.0e}"))
+    largest = float(np.abs(banded[name][:count] - reference[name]).max())
+    assert largest < 1e-6
+    lines.append((f"largest difference in {name} over a stride", f"{largest:.0e}"))
 robot, other = page.data("soft_robot"), page.data("soft_robot_reference")
 at = [int(np.abs(robot.time.to_numpy() - t).argmin()) for t in other.time.to_numpy()]
-apart = max(
+largest = max(
     float(np.abs(robot[n].to_numpy()[at] - other[n].to_numpy()).max()) for n in ("mu_1", "mu_2", "mu_3")
 )
-assert apart < 1e-6
-lines.append(("largest difference in the robot's stretches", f"{apart:.0e}"))
+assert largest < 1e-6
+lines.append(("largest difference in the robot's stretches", f"{largest:.0e}"))
 lines.append(
     (
         "instants, Newton iterations of all three strides",
@@ -202,12 +202,12 @@ lines.append(("least true volume in the worm's layers, over the reference", f"{l
 page.table(lines, ("", "measured"))
 
 # %% [markdown]
-# The last line is what the constraint on the product of the stretches leaves of the true volume where sections tilt against
-# the centreline (erratum E2.11); outside the layers it is kept, and over the whole worm less than two parts in a thousand
-# are lost.
+# The last line is the part of the true volume that the constraint on the product of the stretches keeps where sections tilt
+# against the centreline (erratum E2.11). Outside the layers the volume is kept, and the whole worm loses less than two parts
+# in a thousand.
 #
 # `cosserat speed` times a stride by both on your machine. Neither returns an answer that has not converged; loads that
-# would collapse a section are refused before anything is solved, with the sentence that this prints:
+# would collapse a section are an error before anything is solved, with this sentence:
 
 # %%
 try:
@@ -222,41 +222,41 @@ page.source(instant.check_tilt)
 # ## Is the one material the limit of the other?
 #
 # As $\nu$ tends to $1/2$ the robot's material keeps $\mu_1 + \mu_2 + \mu_3 = 3$, which is $\mu_1 \mu_2 \mu_3 = 1$ for small
-# strains only. Two things are therefore asked: how fast the two rods approach each other under small loads, and what parts
-# them under finite ones. The body is the worm's, both rods join their regions as in section 2.4 (the contact force goes
-# on), and loads and weight are taken as a share of the worm's.
+# strains only. So there are two questions: how fast the two rods approach each other under small loads, and by how much
+# they differ under finite ones. The body is the worm's, both rods join their regions as in section 2.4 (the contact force
+# continues), and loads and weight are a fraction of the worm's.
 
 # %% tags=["remove-input"]
-page.source(nearly_incompressible.apart)
+page.source(nearly_incompressible.largest_difference)
 
 # %% tags=["remove-input"]
 worm = case_of(banded).problem
 
 
-def apart(poisson, share):
+def difference(poisson, fraction):
     """Largest difference of the lateral stretches."""
-    return nearly_incompressible.apart(worm.crawler, worm.loads, poisson, share)
+    return nearly_incompressible.largest_difference(worm.crawler, worm.loads, poisson, fraction)
 
 
-gaps, shares = np.array([1e-2, 1e-3, 1e-4]), np.array([1, 2, 4]) / 80
-small = np.array([apart(0.5 - gap, 1e-6) for gap in gaps])
-limit = np.array([apart(0.5 - 1e-7, share) for share in shares])
+gaps, fractions = np.array([1e-2, 1e-3, 1e-4]), np.array([1, 2, 4]) / 80
+small = np.array([difference(0.5 - gap, 1e-6) for gap in gaps])
+limit = np.array([difference(0.5 - 1e-7, fraction) for fraction in fractions])
 by_gap = np.polyfit(np.log(2 * gaps), np.log(small), 1)[0]
-by_load = np.polyfit(np.log(shares), np.log(limit), 1)[0]
+by_load = np.polyfit(np.log(fractions), np.log(limit), 1)[0]
 assert abs(by_gap - 1) < 0.01
 assert abs(by_load - 2) < 0.01
-page.say(
+page.text(
     f"Under a millionth of the loads the two rods differ by {small[0] / (2 * gaps[0]) / 1e-6:.2f} $(1 - 2\\nu)$ times that "
-    f"share of the loads, with a measured order of {by_gap:.2f} in $1 - 2\\nu$. With $\\nu$ at the limit they do not meet: "
-    f"what remains grows as the power {by_load:.2f} of the load, because the sum of the stretches and their product differ by "
+    f"fraction of the loads, with a measured order of {by_gap:.2f} in $1 - 2\\nu$. With $\\nu$ at the limit they still differ: "
+    f"the difference grows as the power {by_load:.2f} of the load, because the sum of the stretches and their product differ by "
     f"products of two strains. Under a twentieth of the worm's loads a stretch differs by {100 * limit[-1]:.2f} %, under "
-    f"all of them by {100 * apart(0.5 - 1e-7, 1.0):.0f} %: a nearly incompressible robot is no worm."
+    f"all of them by {100 * difference(0.5 - 1e-7, 1.0):.0f} %: a nearly incompressible robot is no worm."
 )
 
 # %% [markdown]
 # ## From the ground up
 #
-# The sections stand on the ground, so that the centreline rises with them, and the arc between two sections projects on
+# The sections stand on the ground, so the centreline rises with them, and the arc between two sections projects on
 # the ground as
 #
 # $$
@@ -268,7 +268,7 @@ page.say(
 # $$
 #
 # The page expects $\mu_3 \gg R \mu_1'$; in the layers it is not so, as the table above shows (erratum E2.19). At one
-# instant this fixes the shape. The next chapter sets it going.
+# instant this fixes the shape. In the next chapter it moves.
 
 # %% tags=["remove-cell"]
 assert case_of(banded).problem.loads.contact == "weight"

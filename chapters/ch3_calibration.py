@@ -73,7 +73,7 @@ for name in ("clamped_free", "clamped_clamped", "necking"):
 # %% tags=["remove-input"]
 least = run.necking_directions[0, -1].to_numpy()
 assert (least > 0).all()
-page.say(
+page.text(
     f"Along it $c_2$ and $c_7$ grow together, {least[0]:.2f} and {least[2]:.2f}, and $c_6$ with them, {least[1]:.2f}: "
     "the curve holds two numbers, how far the sections contract far from the end and how fast they come to that, and "
     "three coefficients make them (the balance is derived below)."
@@ -102,8 +102,8 @@ lines = [
 page.table(lines, ("vertices", *(name.replace("_", " ") for name in calibration.ASSIGNED)))
 
 # %% [markdown]
-# The coefficients that fit, and what is left, as the root mean square over the vertices and a share of the largest
-# ordinate. Along an open direction a fit stays near where it began, which is the published set; so of $c_4$ and $c_5$ one
+# The fitted coefficients, and the remaining misfit, as the root mean square over the vertices and a fraction of the largest
+# ordinate. Along an open direction a fit stays near its start, the published set; so of $c_4$ and $c_5$ one
 # alone means something, and two of the three of necking.
 
 # %% tags=["remove-input"]
@@ -132,10 +132,10 @@ page.table(lines, ("problem", "vertices", *every, "misfit"))
 # $$
 #
 # The director appears in $\vartheta$ alone and carries no load, so $k_5 \vartheta'' = k_4 \vartheta$: shear is not
-# proportional to the shear force, as in Timoshenko's beam, but lives in a layer of width $\sqrt{k_5/k_4}$ beside the
-# clamp that holds the director, $\vartheta = -\alpha(0)\, e^{-\xi \sqrt{k_4/k_5}}$. The layer's energy,
+# proportional to the shear force, as in Timoshenko's beam, but is confined to a layer of width $\sqrt{k_5/k_4}$ beside the
+# clamp that fixes the director, $\vartheta = -\alpha(0)\, e^{-\xi \sqrt{k_4/k_5}}$. The layer's energy,
 # $\tfrac12 \sqrt{k_4 k_5}\, \alpha(0)^2$, is that of a hinge with a spring: it sees the product of $k_4$ and $k_5$ alone,
-# and the moment $M$ at the clamp turns the whole beam by $M / \sqrt{k_4 k_5}$. Nothing else shears. A mesh that does
+# and the moment $M$ at the clamp rotates the whole beam by $M / \sqrt{k_4 k_5}$. Nothing else shears. A mesh that does
 # not resolve the layer makes the hinge stiffer, and the published coefficients balance that at $N = 20$.
 
 # %% tags=["remove-input"]
@@ -144,7 +144,7 @@ page.source(beams.clamped_free_tip_of_published_rod)
 # %% tags=["remove-input"]
 last, step = float(run.clamped_free_published[-1]), float(np.diff(run.clamped_free_published)[-1])
 assert abs(last + step - limit(run)) < 2e-3
-page.say(
+page.text(
     f"The clamped-free tip tends to {limit(run):.4f} of Timoshenko's by this formula; extrapolated from the two finest "
     f"meshes above it is {last + step:.4f}."
 )
@@ -157,8 +157,8 @@ page.say(
 # k_6 \lambda'' = \left( 2k_2 - \frac{k_7^2}{2k_1} \right) (\lambda - \lambda_\infty) ,
 # $$
 #
-# so the section stretch goes from the held end to its far value $\lambda_\infty$ as $e^{-\beta\xi}$ with
-# $\beta^2 = (2k_2 - k_7^2/2k_1)/k_6$. The printed $\beta$ of (3.5.9) then asks for one value of $c_6$. At $N = 20$ a single
+# so the section stretch goes from the fixed end to its far value $\lambda_\infty$ as $e^{-\beta\xi}$ with
+# $\beta^2 = (2k_2 - k_7^2/2k_1)/k_6$. The printed $\beta$ of (3.5.9) then needs one value of $c_6$. At $N = 20$ a single
 # vertex lies in the layer and another value fits; where the layer is resolved the fit comes to the derived one.
 
 # %% tags=["remove-input"]
@@ -175,6 +175,6 @@ derived = (
 )
 c6 = run.necking_coefficients.sel(section_coefficient="c6")
 assert abs(float(c6[-1]) / derived - 1) < 0.02
-page.say(
+page.text(
     f"Fitted $c_6$: {float(c6[0]):.2f} at $N = 20$, {float(c6[-1]):.2f} at $N = 320$; derived: {derived:.2f}."
 )

@@ -44,11 +44,11 @@ from cosserat.thesis.table import readouts
 page.source(hemingway.Hemingway.mass)
 
 # %% [markdown]
-# ## Keeping what the motion keeps
+# ## Conservation of energy and momentum
 #
 # The thesis integrates with an explicit Runge-Kutta method, whose step is bounded by the stiffest wave of the rod. That
-# method is here too (`rk45`, and `rk4` with a fixed step, which is refused beyond its limit). The other one follows the
-# motion that one wants to see. It is the midpoint rule with stresses of the mean strains,
+# method is here too (`rk45`, and `rk4` with a fixed step; a step beyond its limit is an error). The other method resolves
+# the motion of interest only. It is the midpoint rule with stresses of the mean strains,
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -59,12 +59,11 @@ page.source(hemingway.Hemingway.mass)
 # \end{aligned}
 # \end{equation*}
 #
-# summed over the strains $s$. Stresses at the midpoint itself would not do: a mere rotation by an angle $t$ shortens the
-# midpoint's edges by $t^2/8$, which a thin rod takes for a compression beyond buckling. With the means it turns freely at
-# 25 steps a turn. What the energy still lacks is made up by a force $\sigma \mathbf{z}$ chosen so that the work of the elastic forces over the step is the change of energy,
-# exactly: Gonzalez's discrete gradient. Taken along the step itself, $\mathbf{z}$ would push a flying rod; here it is
-# the step less its rigid part, so that it has neither a resultant nor a moment, and momentum and angular momentum stay
-# as they are as well.
+# summed over the strains $s$. Stresses at the midpoint itself would be wrong: a pure rotation by an angle $t$ shortens the
+# midpoint's edges by $t^2/8$, for a thin rod a compression beyond buckling. With the means it rotates freely at 25 steps a
+# turn. A further force $\sigma \mathbf{z}$ makes the work of the elastic forces over the step equal the change of energy,
+# exactly: Gonzalez's discrete gradient. Along the step itself, $\mathbf{z}$ would push a flying rod; here it is the step less
+# its rigid part, so it has neither a resultant nor a moment, and momentum and angular momentum are conserved as well.
 
 # %% tags=["remove-input"]
 page.source(energy_momentum._solve_step)
@@ -102,8 +101,8 @@ page.source(energy_momentum._sigma)
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_13",
-    "Two shear stiffnesses. A kinetic energy swings twice while its beam swings once; the page calls the shorter of the "
-    "two the period of vibration. The band of $c_4 = 20$ in (a) is a shear mode that its start sets off and its step does not "
+    "Two shear stiffnesses. A kinetic energy oscillates twice as fast as its beam; the page calls the shorter of the "
+    "two the period of vibration. The band of $c_4 = 20$ in (a) is a shear mode that its start excites and its step does not "
     "resolve, as the file itself warns.",
 )
 
@@ -129,15 +128,15 @@ page.table(
 )
 
 # %% [markdown]
-# The period of the computed motion is that of the lowest mode of the same rod, found from its Hessian and its mass alone.
-# `modes` gives frequencies and shapes about any stable equilibrium; about an unstable one, such as a column above Euler's
-# load, it says so instead.
+# The period of the computed motion is that of the lowest mode of the same rod, from its Hessian and its mass alone.
+# `modes` gives frequencies and shapes about any stable equilibrium; an unstable one, such as a column above Euler's
+# load, is an error.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_modes",
-    "The lowest modes of the beam with $c_4 = 20$, each at both ends of its swing, as large as one likes: the shapes have no "
-    "size. In (c) the bar swings along itself.",
+    "The lowest modes of the beam with $c_4 = 20$, each at both extremes, at any amplitude: the shapes have no "
+    "size. In (c) the bar oscillates along itself.",
 )
 
 # %% tags=["remove-input"]
@@ -146,19 +145,19 @@ found, bernoulli = beam.modes(4).angular_frequency, beams.first_frequency(beam_o
 assert abs(found[0] / bernoulli - 1) < 0.1
 fine = beam.replace(rod=beam.rod.replace(vertices=10 * beam.rod.vertices)).modes(1).angular_frequency[0]
 assert fine < bernoulli < found[0]
-page.say(
+page.text(
     f"By (3.5.15) the first of them would be {bernoulli:.1f} rad/s; it is {found[0]:.1f} rad/s with {beam.rod.vertices} "
     f"vertices and {fine:.1f} rad/s with ten times as many. The published energy bends at interior vertices only, which leaves "
     "half an edge at the clamp stiff; that wanes under refinement, and the hinge of the chapter on the calibration remains."
 )
 
 # %% [markdown]
-# ## In what the two integrators agree
+# ## Where the two integrators agree
 #
-# The start turns all directors with the beam but the held one at the clamp. The tangent there is that of the first edge,
-# (3.3.9), which is tilted already; so the clamp's section starts sheared, and with $c_4 = 20$ shear is stiff. What is
-# stored there is let go as a vibration of the vertices beside the clamp, hundreds of times faster than the bending, which
-# no step made for the bending can follow. Here is a quarter of a period of that beam by both methods, from rest to
+# The start rotates all directors with the beam except the fixed one at the clamp. The tangent there is that of the first
+# edge, (3.3.9), which is already tilted; so the clamp's section starts sheared, and with $c_4 = 20$ shear is stiff. The
+# energy stored there becomes a vibration of the vertices beside the clamp, hundreds of times faster than the bending, which
+# no step for the bending can resolve. Here is a quarter of a period of that beam by both methods, from rest to
 # where it is fastest.
 
 # %% tags=["remove-cell"]
@@ -169,8 +168,8 @@ explicit = cosserat.run(
 )
 system, start = beam.system(beam.rod.geometry()), beam.begin()
 every = beam.modes(start.q.size)
-share = every.coordinates(system.mass, [start.q - beam.rod.geometry().q])[0]
-energy = (every.angular_frequency * share) ** 2 / 2
+coordinates = every.coordinates(system.mass, [start.q - beam.rod.geometry().q])[0]
+energy = (every.angular_frequency * coordinates) ** 2 / 2
 stiff = int(np.argmax(energy[1:])) + 1
 assert (
     np.abs(every.shape[stiff]).reshape(beam.rod.vertices, -1).max(axis=1).argmax() == 1
@@ -188,19 +187,19 @@ def first_mode(run):
     return every.coordinates(system.mass, rates)[:, 0] ** 2 / 2
 
 
-def apart(read):
+def difference(read):
     """Largest difference of the two runs, and the largest value."""
     return np.abs(read(implicit) - read(explicit)).max(), np.abs(read(explicit)).max()
 
 
 tips, slow, whole = (
-    apart(read) for read in (tip, first_mode, lambda run: run.kinetic_energy.to_numpy())
+    difference(read) for read in (tip, first_mode, lambda run: run.kinetic_energy.to_numpy())
 )
 assert tips[0] < 0.02 * tips[1]
 assert slow[0] < 5e-3 * slow[1]
 
 # %% tags=["remove-input"]
-page.say(
+page.text(
     f"Of the start's energy {energy[0] / energy.sum():.0%} is in the first mode and {energy[stiff] / energy.sum():.0%} in a "
     f"single one of {every.angular_frequency[stiff]:,.0f} rad/s, "
     f"{2 * np.pi / every.angular_frequency[stiff] * 1e6:.0f} µs a period, while the implicit step is "
@@ -215,11 +214,11 @@ page.say(
 #
 # The thesis found its equilibria by releasing the rods and "tuning the material damping towards critical". It gives no
 # form; we take a force $-c\, \mathbf{M} \dot{\mathbf{q}}$, $c = 2 \zeta \omega_1$, with the lowest frequency $\omega_1$ of
-# the supported rod and $\zeta = 1$. It takes $e^{-ch/2}$ off all momenta before and after each step, and the step itself
-# knows nothing of it: so every mode loses its energy at the rate $c$, also one that the step does not resolve, as long as
-# $c\, \omega h^2 < 8$. Inside the midpoint rule the drag would slow such a mode by $1 + (\omega h/2)^2$ times too little. The
-# file stores what the drag has taken. The four rods of the last chapter settle where Newton's method had put them, here by
-# the implicit method; the explicit one of the thesis comes to the same in many more steps.
+# the supported rod and $\zeta = 1$. This damping multiplies all momenta by $e^{-ch/2}$ before and after each undamped step:
+# so every mode loses its energy at the rate $c$, also one that the step does not resolve, as long as
+# $c\, \omega h^2 < 8$. Inside the midpoint rule the damping of such a mode would be $1 + (\omega h/2)^2$ times too small. The
+# file stores the energy that the damping has taken. The four rods of the last chapter settle in the equilibria of Newton's
+# method, here by the implicit method; the explicit one of the thesis gives the same in many more steps.
 
 # %% tags=["remove-input"]
 page.animation("anim_relaxation", "Displacements × 20.")
@@ -229,10 +228,10 @@ lines = []
 for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking"):
     settled, newton = page.data(f"relaxing_{name}"), page.data(name)
     size = float(np.abs(newton.u).max())
-    apart = max(float(np.abs(settled[v][-1] - newton[v]).max()) for v in ("x", "d")) / size
-    share = float(settled.kinetic_energy[-1] / settled.strain_energy[-1])
-    assert apart < 1e-6
-    lines.append([name, f"{apart:.0e}", f"{share:.0e}"])
+    difference = max(float(np.abs(settled[v][-1] - newton[v]).max()) for v in ("x", "d")) / size
+    ratio = float(settled.kinetic_energy[-1] / settled.strain_energy[-1])
+    assert difference < 1e-6
+    lines.append([name, f"{difference:.0e}", f"{ratio:.0e}"])
 page.table(
     lines,
     (
@@ -245,7 +244,7 @@ page.table(
 # %% [markdown]
 # ## A rod in the air
 #
-# Nothing holds this one: it is thrown up, spins, and bends as it goes.
+# This rod has no supports: it is thrown up, spins, and bends in flight.
 
 # %%
 thrown = cosserat.case("vibration_c4_20").vary(

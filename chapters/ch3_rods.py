@@ -32,8 +32,8 @@ from cosserat.thesis.book import page
 # $$
 #
 # and likewise for edges and for $I$, $E$, $G$ and $\nu$ (Table 3.1). Width, height, modulus, Poisson's ratio and density are
-# given at stations along the rod, as shares of their nominal values, and are linear between them; two stations at one
-# place make a step, so that a rod may be of several materials. The line density goes with density times area.
+# given at stations along the rod, relative to their nominal values, and are linear between them; two stations at one
+# place make a step, for a rod of several materials. The line density scales with density times area.
 
 # %% tags=["remove-input"]
 page.source(variation.lump)
@@ -129,8 +129,8 @@ assert abs(added_up / exact - 1) < 1e-3
 #
 # and gravity pulls on the directors too. A rod thrown and spun keeps its momenta, its centre of mass flies straight, and
 # the centreline wobbles round it. The energy (3.4.11) has no coupling of stretching and bending for such a rod: its
-# stiffnesses take $I$ about the centreline and nothing more, which the thesis leaves to calibration. A body sags as it
-# does whichever line one follows it by, but this one does not.
+# stiffnesses only take $I$ about the centreline, and the thesis leaves the rest to calibration. The sag of a body does not
+# depend on the choice of its centreline, but that of this rod does.
 
 # %% tags=["remove-input"]
 low = cosserat.case("clamped_free").vary("low", rod={"centreline": 0.2})
@@ -138,7 +138,7 @@ sags = [cosserat.run(low).u.sel(axis="E2")[-1].item(), uniform]
 body = low.problem.rod
 stiffer = 1 + 12 * (0.5 - body.centreline) ** 2
 assert abs(stiffer * sags[0] / sags[1] - 1) < 0.1
-page.say(
+page.text(
     f"With its centreline at {body.centreline:g} of the height the clamped-free beam sags {sags[0] / sags[1]:.2f} times as "
     f"far as with the centreline in the middle, since $I$ is {stiffer:.2f} times as large. The consistent rod couples both, and "
     "sags the same."
@@ -147,8 +147,8 @@ page.say(
 # %% [markdown]
 # ## Couples, line loads, moved supports
 #
-# A couple on a section turns with it and does the work of a couple: its potential is $-M\alpha$, with $\alpha$ the angle
-# by which the director has turned, so the director force is
+# A couple on a section rotates with it and does the work of a couple: its potential is $-M\alpha$, with $\alpha$ the angle
+# by which the director has rotated, so the director force is
 #
 # $$
 # {}_K\mathbf{P}_{ext} = \frac{{}_K\mathbf{M}}{\|{}_K\mathbf{d}\|} \times {}_K\hat{\mathbf{d}} ,
@@ -166,9 +166,9 @@ page.say(
 page.excerpt(couples._work, "terms[0] = 0.0", "energy: float")
 
 # %% [markdown]
-# Line loads act over any stretch of the rod. Fixed degrees of freedom may be moved (`prescribed_displacements`): at rest to a
-# new place, in motion to and fro. A fixed section may be rotated through any angle (`prescribed_rotations`): moving the
-# components of its director along straight lines would stretch it.
+# Line loads act over any part of the rod. Fixed degrees of freedom may be moved (`prescribed_displacements`): to a new place
+# in statics, also sinusoidally in motion. A fixed section may be rotated through any angle (`prescribed_rotations`): moving
+# the components of its director along straight lines would stretch it.
 
 # %% tags=["remove-input"]
 page.source(dead.LineLoad.on_dofs)
@@ -179,8 +179,8 @@ page.source(constraints.RotatedDirector.place)
 # %% [markdown]
 # ## Curved references
 #
-# With the key `curvature` the reference is an arc, its directors along the Bishop vectors, so that no shear is
-# intrinsic. Section 3.2 asks that intrinsic quantities be subtracted from the strains; (3.4.11) as printed charges the
+# With the key `curvature` the reference is an arc, its directors along the Bishop vectors, so there is no intrinsic shear.
+# By section 3.2 intrinsic quantities are subtracted from the strains; (3.4.11) as printed charges the
 # whole curvature, and a curved rod would unbend by itself (E3.24). The library subtracts; the printed form is the variant
 # `intrinsic_curvature = "printed"`.
 

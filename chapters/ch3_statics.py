@@ -13,15 +13,15 @@
 #
 # The rod is a polygon of $N$ vertices ${}_K\mathbf{x}$ in the plane of $\mathbf{E}_3$ (along the straight rod) and
 # $\mathbf{E}_2$ (up). Each vertex carries one director ${}_K\mathbf{d}$, which points from the centreline to the lateral
-# surface of the body. So a vertex has four numbers,
+# surface of the body. So a vertex has four degrees of freedom,
 #
 # $$
 # {}_K\mathbf{q} = [\, {}_K\mathbf{x} \cdot \mathbf{E}_3,\ {}_K\mathbf{x} \cdot \mathbf{E}_2,\
 # {}_K\mathbf{d} \cdot \mathbf{E}_3,\ {}_K\mathbf{d} \cdot \mathbf{E}_2 \,]^T , \tag{3.3.42}
 # $$
 #
-# and the section at a vertex can stretch and turn by itself. A lower left index marks what belongs to a vertex, an upper
-# one what belongs to an edge.
+# and the section at a vertex can stretch and rotate by itself. A lower left index marks a quantity of a vertex, an upper
+# one a quantity of an edge.
 
 # %% tags=["remove-cell"]
 import numpy as np
@@ -38,8 +38,8 @@ from cosserat.thesis.table import printed, readouts
 page.figure("fig_3_1", "The lower boundary of the body is the directorline reflected in the centreline.")
 
 # %% [markdown]
-# Such a curve stands for a body that is long against its section. Where in the section the centreline runs is a choice;
-# it changes the inertias, not the body.
+# Such a curve represents a body that is much longer than its section. The place of the centreline in the section is a
+# choice; it changes the inertias, not the body.
 
 # %% tags=["remove-input"]
 page.figure(
@@ -56,7 +56,7 @@ page.figure(
 )
 
 # %% [markdown]
-# ## What is strained
+# ## Strains
 #
 # Lengths are compared with the reference configuration: the stretch of an edge, of the part round a vertex (whose length
 # is the mean of its two edges), and of a section,
@@ -106,7 +106,7 @@ page.figure(
 
 # %% [markdown]
 # The curvature alone would call an inflated ring less bent. Its product with the stretch counts angle per *reference*
-# length and stays as it is, so it is what the energy charges.
+# length and stays constant, so the energy uses it.
 
 # %% tags=["remove-input"]
 page.figure("fig_3_5", "A rod bent into a ring, then inflated.")
@@ -122,7 +122,7 @@ page.rows("F3.5")
 page.source(reference.strains)
 
 # %% [markdown]
-# ## What the strains cost
+# ## The energy of the strains
 #
 # The strain energy has seven terms,
 #
@@ -140,33 +140,33 @@ page.source(reference.strains)
 #
 # The page has a vertex stretch in the first term (E3.1). It also has twice the last one, which the published coefficient
 # does not fit; half the coupling is one of two ways to read that, and they are the same rod (E3.2). The
-# kernel writes it down term by term, with the first and second derivatives by the strains that forces and stiffness
+# kernel has it term by term, with the first and second derivatives by the strains that forces and stiffness
 # need. `stretching` and `squared_tangent` return the value and two derivatives of $s^2 - s + s^{-1} - 1$ and $\tan^2$.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_7",
-    "Both grow without bound where matter would pass through itself; dashed, what they are in small strains.",
+    "Both grow without bound where matter would pass through itself; dashed, their form for small strains.",
 )
 
 # %% [markdown]
-# The rows below hold the characteristics where they are far from linear: an edge at twice and one at half its length, a
+# The rows below test the characteristics far from their linear range: an edge at twice and one at half its length, a
 # section at half its height, a rod sheared by 45 degrees.
 
 # %% tags=["remove-input"]
 page.rows("F3.7")
 
 # %% [markdown]
-# What this does not stop is two neighbouring sections that shear, or bend (E3.31), into each other. Where that is to be
-# expected, the page asks for an energy that grows without bound as their upper ends meet,
+# This does not prevent two neighbouring sections from shearing, or bending (E3.31), into each other. For such cases the
+# page proposes an energy that grows without bound as their upper ends meet,
 #
 # $$
 # \|{}_{K+1}\mathbf{d} + {}^K\mathbf{e} - {}_K\mathbf{d}\| \rightarrow 0 ,
 # $$
 #
 # and, for a centreline close to the upper surface, as their lower ends do (E3.30). Neither energy of this library has such
-# a term. Instead an answer whose sections cross, at either surface, is refused by name: at rest, along a path, and in
-# motion at the instants that are stored.
+# a term. Instead an answer whose sections cross, at either surface, is an error: at rest, along a path, and in motion at
+# the stored instants.
 
 # %% tags=["remove-input"]
 page.source(resolution.surface_stretch)
@@ -199,10 +199,10 @@ page.excerpt(hemingway_stiffness.stiffnesses, "end_factor = ", "    )")
 # {}_K\mathbf{P}_{int} = -\frac{\partial \hat\Pi_e}{\partial\, {}_K\mathbf{d}} , \tag{3.4.7}
 # $$
 #
-# and nothing else: the printed lists (3.4.17)-(3.4.19) are not that gradient (E3.4 to E3.8), so the library does not use
+# exactly: the printed lists (3.4.17)-(3.4.19) are not that gradient (E3.4 to E3.8), so the library does not use
 # them. At rest the forces balance the loads. The thesis lets the rod vibrate until damping has settled it; here the load
-# grows from nothing, in increments that the path before them foretells, and Newton's method corrects each with the exact
-# Hessian of the same kernel. So the answer is the one that the growing load leads to, whichever others there are.
+# grows from zero, in increments that the path before them predicts, and Newton's method corrects each with the exact
+# Hessian of the same kernel. So the answer is the one that the growing load leads to, even if there are others.
 
 # %% tags=["remove-input"]
 page.source(incremental._by_increments)
@@ -249,7 +249,7 @@ bar = page.data("hanging_bar")
 computed, exact = readouts.hanging_bar_curve(bar)
 at_clamp = (bar.mu_edge[0].item() - 1) * 20 / 19.5
 assert abs((computed[-1] / exact[-1] - 1) / (at_clamp / 2) - 1) < 0.01
-page.say(
+page.text(
     f"Tip over analytic less one: {computed[-1] / exact[-1] - 1:.3g}; half the strain at the clamp: {at_clamp / 2:.3g}."
 )
 
@@ -278,7 +278,7 @@ page.say(
 # {}^K\boldsymbol{\delta} = {}^K\mathbf{d} - {}^K\mathbf{D} = {}^K H\, \boldsymbol{\delta}({}_K\xi) , \tag{3.5.1}
 # $$
 #
-# but from a centreline half-way up the surface stands at $H/2$, which is what the figures take (E3.11).
+# but from a centreline half-way up the surface is at $H/2$, which the figures use (E3.11).
 
 # %% tags=["remove-input"]
 page.source(beams.clamped_free_displacement)
@@ -333,11 +333,13 @@ for shear, k in (("", "5/6"), ("_k_1", "1")):
             readouts.at_midspan(readouts.clamped_clamped_curve(both, two)),
         )
         directors = (
-            readouts.largest_share(readouts.clamped_free_directors(free, one)),
-            readouts.largest_share(readouts.clamped_clamped_directors(both, two)),
+            readouts.largest_deviation(readouts.clamped_free_directors(free, one)),
+            readouts.largest_deviation(readouts.clamped_clamped_directors(both, two)),
         )
         ratios = [f"{reading.measured / reading.expected:.4f}" for reading in readings]
-        lines.append([k, areas, *ratios, *(f"{100 * share.measured:.1f} %" for share in directors)])
+        lines.append(
+            [k, areas, *ratios, *(f"{100 * deviation.measured:.1f} %" for deviation in directors)]
+        )
 page.table(
     lines,
     (
@@ -352,20 +354,20 @@ page.table(
 
 # %% [markdown]
 # The reason lies in the energy. Bending is charged to the centreline alone, so a director carries no moment: the shear
-# angle is free of load except in a layer of width $\sqrt{k_5/k_4}$ beside a clamp, where the clamped director drags the
-# centreline. What happens in that layer depends on how many edges resolve it, and so does the answer: the coefficients
+# angle is free of load except in a layer of width $\sqrt{k_5/k_4}$ beside a clamp, where the clamped director pulls on the
+# centreline. The deformation in that layer depends on how many edges resolve it, and so does the answer: the coefficients
 # belong to this rod at $N = 20$, not to the material.
 
 # %% tags=["remove-input"]
 rod = page.data("clamped_free").pipe(case_of).problem.rod
 stiff = rod.strain_energy.stiffness(rod, rod.geometry())
 layer = np.sqrt(stiff.k5[0] / stiff.k4[1])
-page.say(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f} m long.")
+page.text(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f} m long.")
 
 # %% [markdown]
 # ### Necking
 #
-# A bar pulled by $n$ contracts across, except at its ends, where the sections are held:
+# A bar pulled by $n$ contracts across, except at its ends, where the sections are fixed:
 #
 # $$
 # \lambda - 1 = \frac{\nu n}{EA} \left( \frac{\cosh \beta(\xi - \ell/2)}{\cosh (\beta\ell/2)} - 1 \right) ,
@@ -385,8 +387,8 @@ page.source(beams.necking_decay)
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_12",
-    "Left scales, the section's strain; right scales, how far the lateral surface moves beside the centreline, the director "
-    "displacement of the text. The published rod is compared with (3.5.9) as printed, the consistent one, whose sections are "
+    "Left scales, the section's strain; right scales, the displacement of the lateral surface relative to the centreline, the "
+    "director displacement of the text. The published rod is compared with (3.5.9) as printed, the consistent one, whose sections are "
     "free to contract, follows the decay of a free section. (c) the Poisson term of (3.4.11) as printed.",
 )
 
@@ -409,7 +411,7 @@ for name, factor in (("necking", 0.5), ("necking_printed", 1.0)):
     theory[name] = (1 + nu) * (1 - 2 * nu) / (1 - nu) * r / (1 - r**2) / nu
     measured = readouts.at_midspan(readouts.necking_curve(page.data(name)))
     assert abs(measured.measured / measured.expected / theory[name] - 1) < 1e-3
-page.say(
+page.text(
     f"Mid-span over eq. (3.5.8): {theory['necking']:.3f} with half the coupling, {theory['necking_printed']:.3f} with the "
     f"printed one; the printed energy is indefinite where $c_7 \\nu / (1 - \\nu) > 1$, beyond "
     f"$\\nu = {1 / (1 + c7):.3f}$."

@@ -13,7 +13,7 @@
 #
 # The published rod is right where it was tuned: at 20 vertices, for beams like the thesis's. This page is about a rod of the
 # same degrees of freedom, a place and a director at each vertex, whose coefficients follow from $E$, $\nu$ and the section, and whose
-# answers approach exact ones as the mesh is refined. It is the one to take for a rod of your own: `rod.energy =
+# answers approach exact ones as the mesh is refined. Use it for your own rod: `rod.energy =
 # "consistent"`.
 #
 # ## Why the published coefficients move with the mesh
@@ -21,7 +21,7 @@
 # In (3.4.11) bending is charged on the turning of the centreline, and the director carries no load of its own. Let $\alpha$ be
 # the angle of the tangent and $\vartheta$ that of shear. In the limit of many vertices the energy is that of
 # $k_3 \alpha'^2 + k_4 \vartheta^2 + k_5 \vartheta'^2$, so that $k_5 \vartheta'' = k_4 \vartheta$: shear is not proportional to
-# the shear force, but lives in a layer beside a clamp, $\sqrt{k_5 / k_4}$ long, that acts as a hinge of stiffness
+# the shear force, but is confined to a layer beside a clamp, $\sqrt{k_5 / k_4}$ long, that acts as a hinge of stiffness
 # $\sqrt{k_4 k_5}$ between clamp and tangent. What is missing is the cross term of $EI (\alpha' + \vartheta')^2$: bending must be
 # charged on the turning of the *director*. With 20 vertices the layer is about one edge long, and four coefficients can make
 # up for it there.
@@ -41,8 +41,8 @@
 #   would lock near $\nu = \tfrac12$, here it does not.
 # - *Shear.* $k \mu A\, g^2$, of the edge against the mean director, which cannot lock: a thin rod bends as easily as it should.
 # - *Bending.* $EI\, T^2 / h$, of the directors.
-# - *A centreline anywhere.* Where it misses the area centres, edges run between those, at $\mathbf{x} + Y^{02}\mathbf{d}$: the
-#   body is the same whichever line one follows it by. Where the height varies along an edge, both ends of the edge are as far
+# - *A centreline anywhere.* If it misses the area centres, edges run between those, at $\mathbf{x} + Y^{02}\mathbf{d}$: the
+#   body does not depend on the choice of its centreline. If the height varies along an edge, both ends of the edge are as far
 #   off the centreline as the one axis in it that tension does not bend.
 # - *Gradients of the section stretch.* $\mu I (\Delta\lambda)^2 / h$, the $k_{11}$ of Chapter 1.
 
@@ -65,7 +65,7 @@ page.excerpt(reissner_kernel.assemble, "wide = (end_a", "if measuring")
 # $EA$ and necks by $-\nu n / EA$), it may keep its width (`"plane strain"`: Lamé's $\Lambda$, and $EI/(1-\nu^2)$ in bending), or
 # it may keep its area in the plane, edge by edge (`"incompressible"`: stretch along times stretch across is one, by a penalty
 # of $10^5 \cdot 2\mu A$ on $a \bar\lambda - 1$ in place of $a + \bar\lambda - 2$). The output says which. With
-# `barrier = true` the stretches and the turning resist collapse as Fig. 3.7 shows; that changes nothing to second order in
+# `barrier = true` the stretches and the rotations resist collapse as in Fig. 3.7; that changes nothing to second order in
 # the strains, nothing in the limit of many edges for bending, and it stiffens large stretches.
 #
 # The decay of a necked end, (3.5.9), is settled by this energy: one director in a section that is free in $\mathbf{E}_1$ gives
@@ -103,11 +103,11 @@ page.table(
 page.rows("C-3")
 
 # %% [markdown]
-# ## Far bending
+# ## Large deflections
 #
-# A slender rod turns far while it hardly stretches. Its energy is a narrow, curved valley, along which a line search creeps;
-# full Newton steps cross it. The load grows in increments by each of which a section may turn by 0.7 rad; an increment
-# counts if its end lies where the rates of turning before it foretold, and if the rod is stable there:
+# A slender rod rotates a lot and hardly stretches. Its energy is a narrow, curved valley, where a line search is slow;
+# full Newton steps cross it. The load grows in increments, in each of which a section may rotate by 0.7 rad. An increment
+# is accepted if the rates of rotation before it predict its end, and if the rod is stable there:
 
 # %% tags=["remove-input"]
 lines = []
@@ -123,14 +123,14 @@ page.figure("fig_far", "Dotted: the reference. Light: points of the path on the 
 page.rows("C-e", "C-r", "C-column")
 
 # %% [markdown]
-# Where the next equilibrium is unstable, the load at which the rod loses its stability is closed in on, and the rod goes
-# on along its softest motion there. An imperfection decides the side, of any size above rounding: a force of $10^{-9}$ N
-# across a column under 18 N. A rod without any may go either way, and its answer says so in a warning. Where a load cannot
-# be reached the error says how far it went, and holds the last state.
+# If the next equilibrium is unstable, bisection locates the load at which the rod loses its stability, and the rod continues
+# along its softest motion there. An imperfection decides the side, of any size above round-off: a force of $10^{-9}$ N
+# across a column under 18 N. A rod without any may go to either side, and its answer has a warning. If a load cannot be
+# reached, the error has the load that was reached and the last state.
 #
 # ## Along the path
 #
-# A case of kind `rod path` follows the equilibria themselves, through points where the load has to fall, by arcs:
+# A case of kind `rod path` traces the equilibria themselves by arcs, through limit points:
 
 # %% tags=["remove-input"]
 page.source(continuation._corrected)
@@ -138,7 +138,7 @@ page.source(continuation._corrected)
 # %% tags=["remove-input"]
 page.figure(
     "fig_paths",
-    "(a) leaves the straight column at Euler's load; (b) turns back twice, and through loads the other way.",
+    "(a) leaves the straight column at Euler's load; (b) has two limit points, and loads of the opposite sign between them.",
 )
 
 # %%
@@ -148,21 +148,21 @@ bent = cosserat.run(
     )
 )
 print(
-    f"at ten times the load of the figure the tip stands {float(bent.u.sel(axis='E2')[-1]):.4f} m aside"
+    f"at ten times the load of the figure the tip moves sideways by {float(bent.u.sel(axis='E2')[-1]):.4f} m"
 )
 
 # %% tags=["remove-cell"]
-assert readouts.buckling_share(page.data("column_path")).max() > 1.5
+assert readouts.buckling_ratio(page.data("column_path")).max() > 1.5
 
 # %% [markdown]
-# ## It moves
+# ## Motion
 #
 # The integrator of Chapter 3 moves this rod too.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_tumbling",
-    "Thrown, spinning, bent. Dashed: what is asked of the energy. Momenta keep to rounding.",
+    "Thrown, spinning, bent. Dashed: the tolerance of the energy. Momenta are conserved to round-off.",
 )
 
 # %% [markdown]
@@ -175,31 +175,31 @@ page.figure(
 lines = []
 for side in (1e-1, 1e-2, 1e-3, 1e-4):
     slender = cosserat.case("elastica").problem
-    posed = slender.replace(rod=slender.rod.replace(height=side, width=side, vertices=21))
-    beam = beam_of(posed)
+    problem = slender.replace(rod=slender.rod.replace(height=side, width=side, vertices=21))
+    beam = beam_of(problem)
     unit = beam.bending_stiffness / beam.length**2
-    posed = posed.replace(forces=({"at": "last", "along": "E2", "force": unit},))
+    problem = problem.replace(forces=({"at": "last", "along": "E2", "force": unit},))
     exact, _ = elastica.shearable_tip(1.0, beam.axial_stiffness / unit, beam.shear_stiffness / unit)
-    lines.append((f"{side:g}", f"{abs(posed.solve('thin')['u'][-1, 1] / exact - 1):.1e}"))
+    lines.append((f"{side:g}", f"{abs(problem.solve('thin')['u'][-1, 1] / exact - 1):.1e}"))
 page.table(lines, ("thickness over length", "error of the tip across"))
 
 # %% tags=["remove-input"]
 lines = []
-for share in (0.4, 0.02, 2e-4):
-    poisson = (1 - share) / 2
+for gap in (0.4, 0.02, 2e-4):
+    poisson = (1 - gap) / 2
     necked = cosserat.case("necking_plane_strain").problem
     necked = necked.replace(rod=necked.rod.replace(poisson=poisson, vertices=21))
     beam, fields = beam_of(necked), necked.solve("necked")
     middle = necked.rod.vertices // 2
     far = -poisson * (1 + poisson) * necked.forces[-1].force / beam.axial_stiffness
-    lines.append((f"{share:g}", f"{abs((fields['lam'][middle] - 1) / far - 1):.1e}"))
+    lines.append((f"{gap:g}", f"{abs((fields['lam'][middle] - 1) / far - 1):.1e}"))
 page.table(lines, ("1 - 2 nu", "error of the section strain far from the ends, plane strain"))
 
 # %% [markdown]
-# ## What is still outside
+# ## Limits
 #
-# Sections stay plane and stretch as one: a section that warps, or bends across itself as a wide strip does when it is bent,
-# is not described, as section 1.2 of the thesis warns. The rod is planar, touches nothing, and has neither actuators nor
-# branches: what else of the thesis is not here is a page of its own, *What is left out*. Its law is linear in its own measures, which are
+# Sections stay plane and stretch uniformly: a section that warps, or bends across itself as a wide strip does when it is
+# bent, is not described, as section 1.2 of the thesis warns. The rod is planar, has no contact, no actuators and no
+# branches; other omissions of the thesis are on the page *What is left out*. Its law is linear in its own measures, which are
 # not those of any material at strains of order one. Speed beside other packages is measured by `snakemake peers`, which
 # needs a network and is the next page; `cosserat speed` times this machine alone.

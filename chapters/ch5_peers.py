@@ -58,7 +58,7 @@ page.table(
 )
 
 # %% tags=["remove-input"]
-page.say(
+page.text(
     f"Measured last on {dates}, processor {processors}; medians of {runs} runs, while up to {load:.1f} processes wanted "
     "the machine. "
     + ("That is a **busy machine**: compare ranges, not medians. " if load > 2 else "")
@@ -70,12 +70,12 @@ page.say(
 # %% [markdown]
 # What bounds the consistent rod: in (a) and (b) the Newton iterations, some 35 microseconds each at 20 vertices, of which the
 # compiled kernel takes 4 and LAPACK's banded Cholesky 3; the rest is NumPy and Python around them, which finer meshes
-# outgrow. In (b) the load grows in some ten increments that the path before them foretells, forty iterations in all, so that
-# the answer is the one that the growing load leads to; one go took eight iterations, and could end on the wrong side.
+# outgrow. In (b) the load grows in some ten increments that the path before them predicts, forty iterations in all, so the
+# answer is the one that the growing load leads to; a single increment took eight, and could end on the wrong side.
 #
 # In (c) everything is compiled, and the arithmetic accounts for all of the time. A step takes five or six iterations of the
 # modified Newton method; each evaluates the gradient at the middle and the energy at the end of the step in one pass (some
-# 70 nanoseconds a vertex), multiplies by the mass (20) and substitutes into a factor (60) that is made anew in one step of
-# ten or twenty. That adds up to what is measured. A gradient is some two hundred additions and multiplications, two roots,
+# 70 nanoseconds a vertex), multiplies by the mass (20) and substitutes into a factor (60) that is computed again in one step
+# of ten or twenty. That adds up to the measured time. A gradient is some two hundred additions and multiplications, two roots,
 # nine divisions and an arctangent, so it runs near what one core does in scalar arithmetic; the substitution is a chain in
 # which every number waits for the one before, which no wider unit shortens.

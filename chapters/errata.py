@@ -22,7 +22,7 @@ from cosserat.thesis.book import page
 def entries(standing):
     found = page.errata(standing)
     assert found
-    return page.say(
+    return page.text(
         "\n\n".join(
             f"**{name}**, {entry.where}\n\n"
             f"- printed: {entry.printed}\n"

@@ -12,7 +12,7 @@
 # # Cosserat curves, reproduced
 #
 # A directed (Cosserat) rod is a curve whose points carry directors: vectors that say how the cross-section stretches,
-# shears and turns. Evan Hemingway's thesis *Cosserat Curves: Descriptions of Peristalsis and a Discrete Model*
+# shears and rotates. Evan Hemingway's thesis *Cosserat Curves: Descriptions of Peristalsis and a Discrete Model*
 # (University of California, Berkeley, 2020) uses such rods twice: for crawling by peristalsis, and for a discrete model
 # of planar motion. This book computes what the thesis publishes, beside the equations, and judges every number.
 #
@@ -51,13 +51,13 @@ page.figure(
 )
 
 # %% tags=["remove-input"]
-page.say(f"**The results table today:** {check(read_report(page.results() / 'report.csv'))}.")
+page.text(f"**The results table today:** {check(read_report(page.results() / 'report.csv'))}.")
 
 # %% [markdown]
 # ## Put in your own rod
 #
-# A case is a few lines of TOML that may start from a published one. Numbers carry their units; what is misspelt, missing
-# or out of range is refused with a sentence.
+# A case is a few lines of TOML that may start from a published one. Numbers carry their units; misspelt, missing
+# and out-of-range values are errors with a sentence.
 #
 # ```toml
 # [long_beam]

@@ -21,7 +21,7 @@ listed = page.left_out()
 (equations, of_equations), (figures, of_figures), (tables, of_tables) = map(
     listed.kept, ("equations", "figures", "tables")
 )
-page.say(
+page.text(
     f"Used are {equations} of {of_equations} equations and {tables} of {of_tables} tables; drawn are {figures} of "
     f"{of_figures} figures."
 )

@@ -11,7 +11,7 @@
 # %% [markdown]
 # # The library from Python
 #
-# What one calls for a rod, a worm or a robot of one's own, with the signatures and docstrings of the library itself. The
+# The functions and classes for your own rod, worm or robot, with the signatures and docstrings of the library itself. The
 # keys of parameter classes are on the page [What a case may say](case_keys.ipynb); in Python their values may also be
 # plain numbers in SI units. The first names are those of `cosserat` itself.
 #
@@ -58,7 +58,7 @@
 #
 # ## Problems
 #
-# A problem is what a case asks; each kind is a class.
+# Each kind of problem is a class.
 #
 # ```{eval-rst}
 # .. autoclass:: cosserat.problem.Problem
@@ -127,8 +127,8 @@
 #
 # ## Solvers
 #
-# They know nothing of rods: a body and its loads give their energy, gradient and Hessian, and one object, the system,
-# goes to statics, paths, motion and modes alike.
+# They are independent of rods: a body and its loads give their energy, gradient and Hessian, and one object, the system,
+# is the input of statics, paths, motion and modes.
 #
 # ```{eval-rst}
 # .. autoclass:: cosserat.solvers.potential.Potential

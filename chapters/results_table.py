@@ -11,16 +11,16 @@
 # %% [markdown]
 # # The results table
 #
-# One row for each number or curve that the thesis publishes, and some that it does not. *Printed text* is that of the
-# page, never corrected; where the page claims that two curves agree at some coefficients, it is those coefficients.
-# The kind of a row says what *expected* is: of a *printed* one that number in SI units; of an *analytic* one what a closed
-# form gives, the page's where it claims agreement with it, another exact one for what is ours alone (rows that begin
-# with C); *in words*, what the sentence says; of the *literature*, what a source of the page measured and the page does
-# not print. An *arithmetic* one follows from other numbers of the page: nothing is solved for it, and it stands as
-# *recomputed* only. Closed forms are computed from the inputs as the page prints them, not from what was solved.
+# One row for each number or curve that the thesis publishes, and some others. *Printed text* is that of the
+# page, never corrected; if the page claims that two curves agree at some coefficients, it is those coefficients.
+# The kind of a row is the source of *expected*: for *printed*, that number in SI units; for *analytic*, a closed form, the
+# page's if it claims agreement with it, another exact one for our own rows (they begin with C); for *in words*, the
+# statement; for *literature*, a measurement in a source of the page that the page does not print. An *arithmetic* number
+# follows from other numbers of the page: nothing is solved for it, and its standing is only *recomputed*. Closed forms use
+# the inputs as the page prints them, not those of the solved case.
 #
-# *Measured* is what the stored datasets say. The claim of a row is that the measured number lies within its tolerance,
-# or, where the page is wrong or admits a reading that does not fit, that it lies outside, and there where the row says.
+# *Measured* comes from the stored datasets. The claim of a row is that the measured number lies within its tolerance,
+# or, if the page is wrong or admits a reading that does not fit, that it lies outside, at the number that the row gives.
 # Rows of one number in several readings name the first of them.
 
 # %% tags=["remove-input"]
@@ -31,7 +31,7 @@ from cosserat.thesis.table.tolerances import read_report
 
 report = read_report(page.results() / "report.csv")
 attempted = [row for row in report if row["standing"] != "not attempted"]
-page.say("\n\n".join(summary(report).splitlines()))
+page.text("\n\n".join(summary(report).splitlines()))
 
 # %% tags=["remove-input"]
 lines = [
@@ -90,7 +90,7 @@ assert sum(not change.unseen for change in changes()) > 50
 
 # %% tags=["remove-input"]
 later = [row for row in report if row["standing"] == "not attempted"]
-shown = page.say("Nothing: every row is attempted.")
+shown = page.text("Nothing: every row is attempted.")
 if later:
     shown = page.table(
         [[row[name] for name in ("id", "where", "quantity", "published", "why")] for row in later],

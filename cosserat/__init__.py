@@ -5,7 +5,7 @@
     long = cosserat.case("clamped_free").vary("long", rod={"length": "10 m"})
     print(cosserat.run(long).u.sel(axis="E2")[-1].item())     # its tip displacement in m
 
-Names are imported when first used, so that the command line answers at once.
+Names are imported when first used, which keeps the command line quick.
 """
 
 import importlib

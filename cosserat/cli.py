@@ -15,15 +15,15 @@ from cosserat.publications import Command, publications
 if TYPE_CHECKING:
     from cosserat.cases.catalogue import Case
 
-_INTERRUPTED = "cosserat: interrupted; nothing half-done was written"
+_INTERRUPTED = "cosserat: interrupted; no incomplete file was written"
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run one command.
 
-    Returns 0 if it did what was asked, 1 if a claim or a solve failed, 2 for a bad input, 130 if interrupted.
+    Returns 0 for success, 1 if a claim or a solve failed, 2 for bad input, 130 if interrupted.
     """
-    gc.set_threshold(100_000)  # a tenth of the time of a short run, most of which is imports
+    gc.set_threshold(100_000)  # a tenth of the time of a short run, mostly imports
     try:
         options = _parser().parse_args(arguments)
         command: Command = options.command
@@ -64,7 +64,7 @@ def _parser() -> argparse.ArgumentParser:
         sub.set_defaults(command=command)
         return sub
 
-    sub = add("cases", _cases, "list the cases: the published ones, or those of a file of yours")
+    sub = add("cases", _cases, "list the cases: the published ones, or those of your file")
     sub.add_argument("--file", type=Path, help="TOML file of cases (default: the published ones)")
 
     sub = add("run", _run, "solve one case and write its netCDF file")
@@ -85,24 +85,24 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--keep-last",
         action="store_true",
-        help="where a growing load cannot be followed to its end, write what was reached and still fail",
+        help="if a growing load cannot be followed to its end, write the part that was reached and still fail",
     )
 
     sub = add("show", _show, "print what a result holds: parameters, solver, range of each variable")
     sub.add_argument("file", type=Path)
 
     sub = add("plot", _plot, "draw a stored result: the body, its displacement and its strains")
-    sub.add_argument("file", type=Path, help="netCDF file of ours")
+    sub.add_argument("file", type=Path, help="netCDF file of cosserat")
     sub.add_argument("-o", "--output", type=Path, help="SVG file to write (default: beside the file)")
 
-    sub = add("describe", _describe, "list the kinds of cases, or what a case of one kind may say")
+    sub = add("describe", _describe, "list the kinds of cases, or the keys of one kind")
     sub.add_argument("kind", nargs="*", help="such as rod statics (default: list the kinds)")
 
     sub = add("schema", _schema, "print the JSON Schema of case files, for editors")
     sub.add_argument(
         "--merged",
         action="store_true",
-        help="of one case with everything that 'like' brings in (default: of a file as it is written)",
+        help="of one case with all keys inherited by 'like' (default: of a file as it is written)",
     )
 
     for publication in publications():
@@ -163,14 +163,14 @@ def _run(options: argparse.Namespace) -> None:
         cases = [parse(line) for line in sys.stdin.read().strip().split("\n")]
     folder = Path() if options.output is None else options.output
     if len(cases) > 1 and not os.path.isdir(folder):
-        raise InputError(f"{folder} is no folder; several cases are written to one that exists")
+        raise InputError(f"{folder} is no folder; write several cases to an existing folder")
     for case in cases:
         path = folder / f"{case.name}.nc" if os.path.isdir(folder) else folder
         _run_case(case, path, keep_last=options.keep_last)
 
 
 def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
-    """Solve one case, write its file and say what it took."""
+    """Solve one case, write its file and report the effort."""
     from cosserat.data.checkpoints import Parts
     from cosserat.data.dataset import effort, save, statistics_of, warnings_of
     from cosserat.data.files import check_destination
@@ -186,16 +186,16 @@ def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
             save(reached, path)
             part = statistics_of(reached)["load_factor_reached"]
             raise type(stopped)(
-                f"{stopped}; what was reached, {part:.4g} of the load, is in {path}"
+                f"{stopped}; the part reached, {part:.4g} of the load, is in {path}"
             ) from None
         if not kept.is_dir():
             raise
         if isinstance(stopped, KeyboardInterrupt):
             raise KeyboardInterrupt(
-                f"interrupted; run the same command again to go on from {kept}"
+                f"interrupted; run the same command again to resume from {kept}"
             ) from None
         raise type(stopped)(
-            f"{stopped}; what was computed is in {kept}, which has to go before the case is changed"
+            f"{stopped}; the computed part is in {kept}; remove that folder before you change the case"
         ) from None
     save(dataset, path)
     Parts(path).remove()
@@ -204,10 +204,10 @@ def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
         print(f"warning: {warning}", file=sys.stderr)
 
 
-def _report_progress(share: float, words: str) -> None:
+def _report_progress(done: float, words: str) -> None:
     """A line that overwrites itself on a terminal, and nothing elsewhere."""
     if sys.stderr.isatty():
-        print(f"\r{share:4.0%}  {words}   ", end="" if share < 1 else "\n", file=sys.stderr, flush=True)
+        print(f"\r{done:4.0%}  {words}   ", end="" if done < 1 else "\n", file=sys.stderr, flush=True)
 
 
 def _describe(options: argparse.Namespace) -> None:

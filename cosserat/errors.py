@@ -18,11 +18,11 @@ class CosseratError(Exception):
 
 
 class InputError(CosseratError):
-    """A case, a file or an argument is not what it has to be."""
+    """A case, a file or an argument is invalid."""
 
 
 def path_of(given: object) -> Path:
-    """A path, given as one or as a text.
+    """A path, given as a path or as a text.
 
     Raises
     ------
@@ -43,10 +43,10 @@ class NotConvergedError(CosseratError):
     Attributes
     ----------
     iterations : iterations done before giving up.
-    residual, tolerance : the largest unbalanced force and the one that was allowed [N].
-    state : the last `Equilibrium` that was found, or None; its `factor` is the fraction of the load it stands under.
-    reached : the last equilibrium or the points of the path up to there, or None, as the problem would have given them.
-    dataset : the same as a Dataset, where the case was run by `cosserat.run`.
+    residual, tolerance : the largest unbalanced force and the largest one allowed [N].
+    state : the last `Equilibrium` found, or None; its `factor` is the fraction of the load there.
+    reached : the last equilibrium or the points of the path up to there, as a `Solution`, or None.
+    dataset : the same as a Dataset, for a case run by `cosserat.run`.
     """
 
     state: Any = None
@@ -74,7 +74,7 @@ class OutOfReachError(CosseratError):
 class CrossingError(CosseratError):
     """Neighbouring sections of a rod cross: its material would pass through itself.
 
-    reached, dataset : what was reached before, or None, as of NotConvergedError.
+    reached, dataset : the part reached before, or None, as in NotConvergedError.
     """
 
     reached: Solution | None = None
@@ -82,11 +82,11 @@ class CrossingError(CosseratError):
 
 
 class UnstableError(CosseratError):
-    """Small motions about a configuration grow, so that it has no vibrations."""
+    """Small motions about a configuration grow, so it has no vibrations."""
 
 
 class DivergedError(CosseratError):
-    """A motion grew without bound; what was computed before is kept."""
+    """A motion grew without bound; the part before is kept."""
 
 
 class OutOfToleranceError(CosseratError):

@@ -1,7 +1,7 @@
-"""The registry of the kinds of problems: whatever depends on a kind is found from here.
+"""The registry of the kinds of problems.
 
 A kind is a class of parameters that can be solved, and a function that draws its result.  Both are named by
-"module:object" and imported when needed, so that the command line answers at once.
+"module:object" and imported when needed, which keeps the command line quick.
 """
 
 from __future__ import annotations
@@ -44,4 +44,4 @@ KINDS = {
     "posture": Kind("cosserat.problems.crawl:Posture", "cosserat.figures.crawlers:picture"),
     "crawl": Kind("cosserat.problems.crawl:Crawl", "cosserat.figures.crawlers:picture"),
 }
-"""Kinds by the word that a case names in `kind`; `cosserat.publications` adds those of each publication."""
+"""Kinds by the value of `kind` in a case; `cosserat.publications` adds those of each publication."""

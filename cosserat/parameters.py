@@ -26,7 +26,7 @@ from cosserat.errors import InputError
 from cosserat.units import how_to_write, to_si
 
 FROM_FILE = {"units": "required"}
-"""Validation context of values that a person wrote: a number without its unit is refused."""
+"""Validation context of values from a file: a number without its unit is an error."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Quantity:
 
     unit : SI unit, "1" for a ratio.
     symbol, source : the letter of the thesis (LaTeX) and the equation or section it comes from.
-    above, below, at_least : the range the value must keep.
+    above, below, at_least : the range of the value.
     """
 
     unit: str
@@ -113,11 +113,11 @@ def _none_by_word(value: object) -> object:
 
 
 NONE_BY_WORD = BeforeValidator(_none_by_word)
-"""Annotation: a file has no word for nothing, so 'none' takes away what `like` brought in."""
+"""Annotation: TOML has no null, so 'none' removes an inherited value."""
 
 
 class Parameters(BaseModel):
-    """Base of every parameter object: frozen, and no key passes unread."""
+    """Base of every parameter object: frozen, and unknown keys are errors."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -127,13 +127,13 @@ class Parameters(BaseModel):
         except ValidationError as error:
             raise InputError(explain(error, type(self), type(self).__name__)) from None
 
-    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined] # what is read from a file never comes here
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined] # values from files never come here
 
     @classmethod
     def read(cls, values: Mapping[str, Any], name: str, *, units_required: bool = True) -> Self:
-        """Build from a plain mapping; `name` is what error sentences call it.
+        """Build from a plain mapping; `name` : its name in error sentences.
 
-        units_required : refuse a dimensional number without its unit, as in every file; else such a number is in SI.
+        units_required : a dimensional number needs its unit, as in every file; if not, such a number is in SI.
 
         Raises
         ------
@@ -155,11 +155,11 @@ class Parameters(BaseModel):
 
 
 Choice = list[type[BaseModel]]
-"""Parameter classes of which one stands at a place: one, or several that a kind chooses among."""
+"""Parameter classes for one place: one, or several that differ in their `kind`."""
 
 
 def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
-    """Put every fault that validation found into one sentence."""
+    """One sentence with every fault that validation found."""
     return f"{name}: " + "; ".join(_clause(fault, owner) for fault in error.errors(include_url=False))
 
 
@@ -187,7 +187,7 @@ def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
 
 
 def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
-    """What follows a missing key: its meaning, its symbol and source, and how to write it."""
+    """The clause after a missing key: its meaning, its symbol and source, and how to write it."""
     key = str(path[-1])
     place = next((c for c in _choice_at(owner, path[:-1]) if key in c.model_fields), None)
     if place is None:
@@ -215,13 +215,13 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
 
 
 def cited(source: str) -> str:
-    """Where something stands in the thesis, as a sentence has it: an equation by its number, else as given."""
+    """A place in the thesis for a sentence: an equation by its number, anything else as given."""
     return f"eq. ({source})" if re.fullmatch(r"\d+(\.\d+){2}", source) else source
 
 
 @functools.cache
 def docstrings(owner: type[BaseModel]) -> Mapping[str, str]:
-    """The text below each field in the source of its class, for those that have one; bases included."""
+    """The docstrings of the fields of a class, with those of its bases."""
     found: dict[str, str] = {}
     for place in reversed(owner.__mro__):
         if not (issubclass(place, BaseModel) and inspect.get_annotations(place)) or place is BaseModel:
@@ -243,20 +243,20 @@ def _first_sentence(text: str | None) -> str:
 
 
 def _classes_in(annotation: object) -> Choice:
-    """Parameter classes that an annotation names, however deep."""
+    """Parameter classes in an annotation, at any depth."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
     return [found for part in get_args(annotation) for found in _classes_in(part)]
 
 
 def _chosen(kind: int | str, choice: Choice) -> Choice:
-    """Those of several parameter classes that are of a kind; validation puts it into the path like a key."""
+    """The classes of one kind among several; validation puts the kind into the path like a key."""
     fields = [(c, c.model_fields.get("kind")) for c in choice if len(choice) > 1]
     return [c for c, field in fields if field is not None and field.default == kind]
 
 
 def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
-    """The parameter classes that may stand at a path of nested tables, lists and kinds."""
+    """The possible parameter classes at a path of nested tables, lists and kinds."""
     choice = [owner]
     for part in path:
         fields = [c.model_fields[str(part)] for c in choice if str(part) in c.model_fields]
@@ -265,6 +265,6 @@ def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
 
 
 def nearest(word: str, known: list[str]) -> str:
-    """The clause that helps after a misspelt word: the known one that is a slip away, or all of them."""
+    """The clause after a misspelt word: the nearest known one, or all of them."""
     close = difflib.get_close_matches(word, known, n=1, cutoff=0.8)
     return f"; did you mean '{close[0]}'?" if close else f"; known are: {', '.join(known)}"

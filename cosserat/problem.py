@@ -1,4 +1,4 @@
-"""What every kind of problem has in common: parameters that can be solved."""
+"""The interface of all kinds of problems: parameters that can be solved."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from cosserat.parameters import Parameters
 from cosserat.solution import Solution
 
 Progress = Callable[[float, str], None]
-"""Receives the fraction done, from 0 to 1, and a few words."""
+"""Called with the fraction done, from 0 to 1, and a few words."""
 
 
 class Checkpoints(Protocol):
@@ -21,7 +21,7 @@ class Checkpoints(Protocol):
         """A stored part; None if it has not been computed yet."""
 
     def save(self, number: int, part: Solution, *, whole: bool) -> None:
-        """Store a part; one that is not whole is stored apart, and no run resumes from it."""
+        """Store a part; an incomplete one is stored separately, and no run resumes from it."""
 
 
 def _silent(fraction: float, words: str) -> None:
@@ -30,7 +30,7 @@ def _silent(fraction: float, words: str) -> None:
 
 @dataclass(frozen=True)
 class Run:
-    """What a problem may use while it is solved: a progress report, and a store of parts."""
+    """Services for a problem while it is solved: a progress report, and a store of parts."""
 
     progress: Progress = _silent
     checkpoints: Checkpoints | None = None
@@ -46,13 +46,13 @@ class Problem(Parameters, ABC):
     if TYPE_CHECKING:
         kind: str  # each class names its own
     thinned: ClassVar[Mapping[str, int]] = {}
-    """Dimensions that a stored reference keeps only about so many values of."""
+    """Dimensions thinned in a stored reference, with the approximate number of values kept."""
 
     @abstractmethod
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """Solve the problem; `name` is what errors call the case."""
+        """Solve the problem; `name` : name of the case in errors."""
 
     @classmethod
     @abstractmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
-        """What solving took, in a few words, from a result's statistics and the sizes of its dimensions."""
+        """The effort of the solution in a few words, from its statistics and the sizes of its dimensions."""

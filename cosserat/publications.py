@@ -18,23 +18,23 @@ from cosserat.kinds import KINDS, Kind
 from cosserat.solution import Variables
 
 Command = Callable[[argparse.Namespace], None]
-"""What a command does with its options."""
+"""The action of a command, with its options."""
 AddCommand = Callable[[str, Command, str], argparse.ArgumentParser]
-"""Adds a command by its name, what it does and its help; returns its parser, for options."""
+"""Adds a command by its name, its action and its help; returns its parser, for options."""
 
 PUBLICATIONS = ("cosserat.thesis:PUBLICATION",)
-"""Where each `Publication` is, as "module:object"."""
+"""Place of each `Publication`, as "module:object"."""
 
 
 @dataclass(frozen=True)
 class Publication:
-    """What one publication adds.
+    """Additions of one publication.
 
-    reference : how to cite it.
-    kinds : kinds of problems that are its own.
-    cases : its case files, in the order in which they are listed; `folder` is the package that holds them.
-    variables, commands : where its `cosserat.solution.Variables` are, and the function that adds its commands to the
-        command line, as "module:object".
+    reference : its citation.
+    kinds : its own kinds of problems.
+    cases : its case files, in order; `folder` is their package.
+    variables, commands : its `cosserat.solution.Variables`, and the function that adds its commands to the command
+        line, each as "module:object".
     """
 
     reference: str
@@ -45,7 +45,7 @@ class Publication:
     commands: str
 
     def own_variables(self) -> Variables:
-        """What it adds to the table of stored variables."""
+        """Its part of the table of stored variables."""
         return cast("Variables", pkgutil.resolve_name(self.variables))
 
     def add_commands(self) -> Callable[[AddCommand], None]:
@@ -61,7 +61,7 @@ def publications() -> tuple[Publication, ...]:
 
 @functools.cache
 def kinds() -> Mapping[str, Kind]:
-    """Every kind of problem by the word that a case names in `kind`."""
+    """Every kind of problem by the value of `kind` in a case."""
     found = dict(KINDS)
     for publication in publications():
         found |= publication.kinds
@@ -69,13 +69,13 @@ def kinds() -> Mapping[str, Kind]:
 
 
 def reference() -> str:
-    """The publications, as a result cites them."""
+    """Citations of the publications for a result."""
     return "; ".join(publication.reference for publication in publications())
 
 
 @functools.cache
 def published_tables() -> dict[str, Any]:
-    """All tables of the published case files by name; those that begin with '_' are no cases but bases of cases."""
+    """All tables of the published case files by name; a name that begins with '_' is a base of cases, not a case."""
     tables: dict[str, Any] = {}
     for publication in publications():
         folder = resources.files(publication.folder)

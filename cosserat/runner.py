@@ -19,19 +19,19 @@ from cosserat.solution import Solution
 def run(
     case: Case | str, *, result: str | Path | None = None, progress: Progress | None = None
 ) -> xr.Dataset:
-    """Solve a case, given itself or by the name of a published one.
+    """Solve a case, given by itself or by the name of a published one.
 
-    The Snakemake rule, a notebook and a script all come through here.
+    The Snakemake rule, notebooks and scripts all use this function.
 
-    result : where the Dataset will be saved; a long run keeps its parts beside it and goes on from them when it
-        is run again, to the same numbers.
-    progress : told how far a long run is.
+    result : the future file of the Dataset; a long run keeps its parts beside it, and an interrupted one resumes
+        from them to the same numbers.
+    progress : called with the progress of a long run.
 
     Raises
     ------
     InputError : no case of that name, its rod is not supported, or the stored parts are of another run.
-    NotConvergedError, DivergedError, OutOfReachError : no solution; what a motion computed before stays in its parts,
-        and what a growing load reached is the error's `dataset`.
+    NotConvergedError, DivergedError, OutOfReachError : no solution; a motion keeps its parts up to there, and for a
+        growing load the error's `dataset` is the part reached.
     """
     known = find(case) if isinstance(case, str) else case
     if not isinstance(known, Case):

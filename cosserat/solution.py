@@ -1,6 +1,6 @@
-"""What a problem gives back: fields with their dimensions, and what the solver did; without units or metadata.
+"""Results of a problem: fields with their dimensions, and statistics of the solver, without units or metadata.
 
-The names are those of `cosserat.data.variables`, which knows units and meaning.
+Units and meaning of the names are in `cosserat.data.variables`.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ Field = tuple[tuple[str, ...], Array]
 
 @dataclass(frozen=True)
 class Variable:
-    """What a stored variable is: unit, meaning, and symbol and equation of the thesis.
+    """Description of a stored variable: unit, meaning, and symbol and equation of the thesis.
 
-    floor : differences below this are rounding, in the variable's unit.  Positions of a few metres are known to
+    floor : differences below this are round-off, in the variable's unit.  Positions of a few metres are known to
         1e-15 m; strains of an edge to that over its length; forces to that strain times the axial stiffness.
     """
 
@@ -34,7 +34,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Variables:
-    """What one part of the package adds to the table of stored variables.
+    """Part of the table of stored variables.
 
     labels : meaning of the dimensions whose values are names.  coordinates : variables that place the others.
     """
@@ -48,9 +48,9 @@ class Variables:
 class Solution:
     """Fields by variable name; `solution["u"]` gives the values of one.
 
-    statistics : what the solver did, by name.
-    labels : the names along a dimension that is not counted, such as the axes of a vector.
-    warnings : what a user should know before using the numbers, a sentence each that begins with a name.
+    statistics : of the solver, by name.
+    labels : the names along a dimension without numbers, such as the axes of a vector.
+    warnings : sentences about the use of the numbers, each begins with a name.
     """
 
     fields: Mapping[str, Field]

@@ -33,16 +33,16 @@ _KINDS = {
     "rad": "an angle",
     "rad/s": "an angular speed",
 }
-"""What a number in a unit is; of the units without a word, the unit itself is said."""
+"""The quantity of a unit in words; units not listed are named by themselves."""
 
 
 def what_is_in(unit: str) -> str:
-    """What a number in a unit is, such as "a length"; of units without a word, "a quantity"."""
+    """The quantity of a unit in words, such as "a length"; "a quantity" for units not listed."""
     return _KINDS.get(unit, "a quantity")
 
 
 _ALIKE = {"m^-1": "rad/m"}
-"""Units that may be written for another, though pint's own rule, that an angle is a number, holds nowhere else."""
+"""Units accepted for another unit.  Elsewhere an angle is no number, although pint counts it as one."""
 
 _PREFIXES = ("", "k", "M", "G", "m", "c", "µ", "n")
 _CHARACTERS = str.maketrans(
@@ -60,7 +60,7 @@ _UNIT = re.compile(r"(?:1 */)?(?:[^\W\d]\w*|[%°()*/ ]|\^ *\(?[+-]?\d{1,2}\)?(?!
 
 @functools.cache
 def _units() -> pint.UnitRegistry[float]:
-    import pint  # 0.4 s: only where a text with a unit has to be read
+    import pint  # takes 0.4 s: only to read a text with a unit
 
     return pint.UnitRegistry()
 
@@ -88,7 +88,7 @@ def to_si(value: object, unit: str, *, unit_required: bool) -> float:
 
 
 def how_to_write(unit: str) -> str:
-    """What to do about a value that cannot be read."""
+    """The remedy for a value that cannot be read."""
     if unit == "1":
         return "write a number, such as 0.3"
     return f'write it with its unit, such as "2.5 {unit}"'
@@ -127,14 +127,14 @@ def _read_text(text: str, unit: str) -> float:
 
 
 def is_read_as(written: str, unit: str) -> bool:
-    """Whether a number in a unit as someone writes it is read where a number in `unit` is asked for."""
+    """Whether a number in a unit as written is accepted for a key in `unit`."""
     root = _written_root(written)
     return root is not None and _alike(root, unit)
 
 
 @functools.cache
 def _written_root(written: str) -> object:
-    """What a unit comes to as someone writes it; None if it is not known."""
+    """The root units of a unit as written; None if it is not known."""
     try:
         return _root(_as_pint_writes(_in_plain_characters(written)))
     except Exception:  # the unit parser raises errors of many kinds on text that is no unit
@@ -142,7 +142,7 @@ def _written_root(written: str) -> object:
 
 
 def _alike(root: object, unit: str) -> bool:
-    """Whether a unit that comes to `root` may stand for `unit`."""
+    """Whether a unit with root units `root` is accepted for `unit`."""
     return root in (
         _root("" if unit == "1" else unit),
         _root(_ALIKE.get(unit, "" if unit == "1" else unit)),
@@ -175,22 +175,22 @@ def _as_pint_writes(unit: str) -> str:
 
 @functools.cache
 def _root(unit: Any) -> object:
-    """A unit in those that pint takes for the simplest, of which the radian is one."""
+    """A unit in pint's root units; the radian is one of them."""
     return _units().Quantity(1.0, unit).to_root_units().units
 
 
 def _instead(root: object, unit: str) -> str:
-    """What was given and what is wanted, if there are words for both."""
+    """The given and the wanted quantity, if both have words."""
     given = [words for known, words in _KINDS.items() if _root("" if known == "1" else known) == root]
     return f", {given[0]} and not {_KINDS[unit]}" if given and unit in _KINDS else ""
 
 
 def _meant(written: str, unit: str) -> str:
-    """The question that helps where a spelling is wrong in its capitals alone."""
+    """A question for a spelling that is wrong only in its capitals."""
     likely = [prefix + unit for prefix in _PREFIXES if (prefix + unit).casefold() == written.casefold()]
     return f"did you mean {' or '.join(map(repr, likely))}?" if likely else ""
 
 
 def _shown(text: str) -> str:
-    """A text as a sentence may repeat it."""
+    """A text, shortened for a sentence."""
     return text if len(text) <= 60 else f"{text[:57]}..."

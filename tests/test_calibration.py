@@ -51,7 +51,7 @@ def test_both_beams_at_once_want_a_third_set(fitted):
 
     def misfit(**coefficients):
         """By the read-outs of the figures, which the fit does not use."""
-        shares = []
+        fractions = []
         for name, curves in (
             ("clamped_free", (readouts.clamped_free_curve, readouts.clamped_free_directors)),
             ("clamped_clamped", (readouts.clamped_clamped_curve, readouts.clamped_clamped_directors)),
@@ -60,8 +60,8 @@ def test_both_beams_at_once_want_a_third_set(fitted):
             data = cosserat.run(beam)
             for curve in curves:
                 computed, exact = curve(data)
-                shares.append(((computed - exact) ** 2).mean() / np.abs(exact).max() ** 2)
-        return np.sqrt(np.mean(shares))
+                fractions.append(((computed - exact) ** 2).mean() / np.abs(exact).max() ** 2)
+        return np.sqrt(np.mean(fractions))
 
     least = misfit(**named)
     assert least == pytest.approx(float(fitted.beams_misfit[0]), rel=1e-6)

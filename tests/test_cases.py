@@ -150,7 +150,7 @@ def test_vary_changes_nothing_else():
         ("title = 7", r"'title' is 7; it must be a text"),
         ('kind = "rod static"', r"'kind' is 'rod static'; did you mean 'rod statics'\?"),
         ('like = "clamped_fre"', r"'like' names no case: 'clamped_fre'; did you mean 'clamped_free'\?"),
-        ('like = "mine"', r"'like' leads back to itself"),
+        ('like = "mine"', r"'like' refers back to itself"),
     ],
 )
 def test_bad_values_are_refused_with_name_value_and_remedy(load_mine, line, sentence):
@@ -180,7 +180,7 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
         ),
         (
             'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
-            "'rod.vertices' is missing, number of vertices of the discrete rod, both ends counted, N of eq. (3.3.1): "
+            "'rod.vertices' is missing, number of vertices of the discrete rod, both ends included, N of eq. (3.3.1): "
             "write a whole number, 3 or more; ",
         ),
         (

@@ -173,7 +173,7 @@ def test_a_case_file_in_another_coding_is_refused_by_that_word(capsys, tmp_path,
     ("text", "sentence"),
     [
         ("", "holds no case"),
-        ("like = 3", "'like' stands outside a case"),
+        ("like = 3", "'like' is outside a case"),
         ('[mine]\nkind = ["a"]', "'kind' is ['a']"),
         ('["../evil"]\nlike = "necking"', "cannot name a file"),
         (MY + 'rod.length = "3,5 m"', "with a decimal comma"),

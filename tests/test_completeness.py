@@ -1,6 +1,9 @@
 """What could be listed by hand and forgotten: set equalities, the direction of imports, and a clean repository."""
 
 import ast
+import builtins
+import importlib
+import importlib.metadata
 import re
 import subprocess
 import sys
@@ -10,6 +13,7 @@ from conftest import ROOT
 from numba.core.dispatcher import Dispatcher
 
 import cosserat
+from cosserat import errors
 from cosserat.data.provenance import computing_sources
 from cosserat.solvers import kernels
 from cosserat.thesis.figures.catalogue import FIGURES
@@ -223,7 +227,6 @@ def test_computing_sources_are_closed_under_import():
 
 def test_a_cached_kernel_calls_only_kernels_of_its_own_file():
     """Numba's cache of a function does not see edits of another file, so none may be called from there."""
-    import importlib
 
     for file in computing_sources():
         name = ".".join(file.relative_to(ROOT).with_suffix("").parts)
@@ -398,7 +401,6 @@ def test_nothing_that_a_rule_writes_is_tracked():
 
 
 def test_the_version_stands_in_one_place():
-    import importlib.metadata
 
     version = importlib.metadata.version("cosserat")
     changelog = (ROOT / "CHANGELOG.md").read_text()
@@ -422,3 +424,90 @@ def test_modules_and_functions_stay_small():
 def test_public_names_are_documented():
     for name in cosserat.__all__:
         assert getattr(cosserat, name).__doc__, name
+
+
+def docstrings_of(tree):
+    """Every text that stands as a statement of its own."""
+    return [
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+    ]
+
+
+def resolves(name):
+    """Whether a dotted name is that of a module or an object; the package or one of its folders may be left out."""
+    for place in (
+        name,
+        *(f"cosserat{folder}.{name}" for folder in ("", ".peristalsis", ".rods.energies")),
+    ):
+        parts = place.split(".")
+        for count in range(len(parts), 0, -1):
+            try:
+                found = importlib.import_module(".".join(parts[:count]))
+            except ImportError:
+                continue
+            for part in parts[count:]:
+                found = getattr(found, part, getattr(found, "model_fields", {}).get(part))
+            if found is not None:
+                return True
+    return False
+
+
+NAMED_ELSEWHERE = {"rod.energy", "kind", "Equilibrium", "factor", "state", "anyOf", "oneOf"}
+"""Keys of a case, a class that errors cannot import, attributes of that and of an error, words of schemas."""
+
+
+def stale_names(source):
+    """Names in docstrings, between backquotes or as terms of a list, that stand for nothing in the code."""
+    tree = ast.parse(source)
+    texts = docstrings_of(tree)
+    known = (
+        NAMED_ELSEWHERE
+        | set(dir(builtins))
+        | set(vars(errors))
+        | {path.name for path in tracked()}
+        | {"report.csv", "stopped.nc", "index.ipynb"}
+    )
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in texts:
+            known |= set(re.findall(r"\w+", node.value))
+        known |= {getattr(node, key, None) for key in ("id", "arg", "attr", "name", "asname")}
+    found = []
+    for text in texts:
+        quoted = re.findall(r"`([\w./]+)`", text.value)
+        terms = re.findall(
+            r"(?:^ *|\.  )([^\W\d]\w*(?:, [^\W\d]\w*)*) : ", text.value, flags=re.MULTILINE
+        )
+        for name in quoted + [name for term in terms for name in term.split(", ")]:
+            if name.rsplit("/")[-1] not in known and not resolves(name):
+                found.append(name)
+    return found
+
+
+@pytest.mark.parametrize(
+    "file", sorted(PACKAGE.rglob("*.py")), ids=lambda f: str(f.relative_to(PACKAGE))
+)
+def test_docstrings_name_nothing_that_is_gone(file):
+    assert stale_names(file.read_text()) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "gone"),
+    [
+        ("Every `legs`-th stop is a frame.", ["legs"]),
+        ("branchings : how often a path was left.", ["branchings"]),
+        (
+            "See `cosserat.models.rod` and `solvers.potential.KERNELS`.",
+            ["cosserat.models.rod", "solvers.potential.KERNELS"],
+        ),
+        (
+            "q, step : see `solvers.potential.KERNEL`, `scipy.integrate.solve_bvp` and `results/tolerances.csv`.",
+            [],
+        ),
+    ],
+)
+def test_a_name_that_is_gone_is_noticed(text, gone):
+    assert stale_names(f'def solve(q, step):\n    """{text}"""') == gone

@@ -60,8 +60,8 @@ def slender(elements, radius=0.005, **rod):
     """A clamped rod of length 1 whose section bends as a circle of that radius."""
     side = np.sqrt(3) * radius
     changes = {"vertices": elements + 1, "height": side, "width": side, **rod}
-    posed = cosserat.case("elastica").problem
-    bare = posed.replace(rod=posed.rod.replace(**changes), forces=())
+    problem = cosserat.case("elastica").problem
+    bare = problem.replace(rod=problem.rod.replace(**changes), forces=())
     return bare, bare.rod.young * bare.rod.second_moment
 
 
@@ -176,11 +176,11 @@ def test_necking_follows_theory_up_to_near_incompressibility(case, theory, poiss
     """(3.5.9) settled: 2 (1 + nu) A / I with the section free in E1, 2 A / (I (1 - nu)) in plane strain."""
     errors = []
     for vertices in (81, 161, 321):
-        posed = cosserat.case(case).vary(
+        bar = cosserat.case(case).vary(
             "x", rod={"vertices": vertices, "poisson": poisson, "length": "1 m"}
         )
-        data = cosserat.run(posed)
-        beam = beam_of(posed.problem)
+        data = cosserat.run(bar)
+        beam = beam_of(bar.problem)
         beta = beams.necking_decay(beam, theory)
         strain = beams.necking_strain(beam, 1000.0, beta, data.xi.to_numpy())
         if theory == "plane strain":
@@ -192,39 +192,43 @@ def test_necking_follows_theory_up_to_near_incompressibility(case, theory, poiss
 
 @pytest.mark.parametrize("thickness", [1e-1, 1e-2, 1e-3, 1e-4])
 def test_no_shear_locking(thickness):
-    posed, bending = slender(20, radius=thickness, poisson=0.3)
-    pulled = posed.replace(forces=({"at": "last", "along": "E2", "force": 0.1 * bending},))
+    problem, bending = slender(20, radius=thickness, poisson=0.3)
+    pulled = problem.replace(forces=({"at": "last", "along": "E2", "force": 0.1 * bending},))
     tip = pulled.solve("x")["u"][-1, 1]
-    shear = bending / (5 / 6 * posed.rod.young / 2.6 * posed.rod.area)
+    shear = bending / (5 / 6 * problem.rod.young / 2.6 * problem.rod.area)
     assert tip == pytest.approx(elastica.transverse_tip(0.1)[0] + 0.1 * shear, rel=1e-3)
 
 
-@pytest.mark.parametrize("share", [0.1, 0.2, 0.3])
-def test_an_incompressible_section_keeps_its_area(share):
+@pytest.mark.parametrize("fraction", [0.1, 0.2, 0.3])
+def test_an_incompressible_section_keeps_its_area(fraction):
     """Stretch along times stretch across is one; the force is that of the energy with lambda = 1 / a."""
-    posed, _ = slender(20, radius=0.05, lateral_constraint="incompressible", poisson=0.4999)
-    stiff = 2 * posed.rod.young / 3 * posed.rod.area
-    pulled = posed.replace(
+    problem, _ = slender(20, radius=0.05, lateral_constraint="incompressible", poisson=0.4999)
+    stiff = 2 * problem.rod.young / 3 * problem.rod.area
+    pulled = problem.replace(
         supports=({"at": "first", "fixed": ["x3", "x2", "d3"]},),
-        forces=({"at": "last", "along": "E3", "force": share * stiff},),
+        forces=({"at": "last", "along": "E3", "force": fraction * stiff},),
     )
     data = pulled.solve("x")
     wide = (data["lam"][1:] + data["lam"][:-1]) / 2
     np.testing.assert_allclose(data["mu_edge"] * wide, 1, atol=1e-5)
     a = data["mu_edge"][0]
     assert abs(a - 1) > 0.04
-    assert share == pytest.approx((a - 1) - (1 / a - 1) / a**2, rel=1e-4)
+    assert fraction == pytest.approx((a - 1) - (1 / a - 1) / a**2, rel=1e-4)
 
 
 @pytest.mark.parametrize(("elements", "allowed"), [(20, 1e-3), (40, 2.5e-4), (80, 6e-5)])
 @pytest.mark.parametrize("force", [1.0, 5.0, 10.0])
 def test_the_elastica_under_a_dead_tip_load(elements, allowed, force):
     """Against Reissner's rod of the same stiffnesses: the inextensible elastica is 1e-4 away from that by itself."""
-    posed, bending = slender(elements)
+    problem, bending = slender(elements)
     unit = bending
-    shear = 5 / 6 * posed.rod.young / 2 * posed.rod.area / unit
-    sideways, shortening = elastica.shearable_tip(force, posed.rod.young * posed.rod.area / unit, shear)
-    u = posed.replace(forces=({"at": "last", "along": "E2", "force": force * unit},)).solve("x")["u"][-1]
+    shear = 5 / 6 * problem.rod.young / 2 * problem.rod.area / unit
+    sideways, shortening = elastica.shearable_tip(
+        force, problem.rod.young * problem.rod.area / unit, shear
+    )
+    u = problem.replace(forces=({"at": "last", "along": "E2", "force": force * unit},)).solve("x")["u"][
+        -1
+    ]
     assert u[1] == pytest.approx(sideways, abs=allowed)
     assert -u[0] == pytest.approx(shortening, abs=allowed)
     rigid = elastica.transverse_tip(force)
@@ -232,8 +236,8 @@ def test_the_elastica_under_a_dead_tip_load(elements, allowed, force):
 
 
 def test_loads_far_beyond_that():
-    posed, bending = slender(40)
-    done = posed.replace(forces=({"at": "last", "along": "E2", "force": 100 * bending},)).solve("x")
+    problem, bending = slender(40)
+    done = problem.replace(forces=({"at": "last", "along": "E2", "force": 100 * bending},)).solve("x")
     assert done["u"][-1, 1] == pytest.approx(elastica.transverse_tip(100.0)[0], abs=2e-3)
     assert done.statistics["iterations"] < 100
 
@@ -241,8 +245,8 @@ def test_loads_far_beyond_that():
 @pytest.mark.parametrize("turns", [1, 2])
 @pytest.mark.parametrize("elements", [10, 40])
 def test_a_couple_rolls_the_rod_up(turns, elements):
-    posed, bending = slender(elements)
-    done = posed.replace(couples=({"at": "last", "moment": 2 * np.pi * turns * bending},)).solve("x")
+    problem, bending = slender(elements)
+    done = problem.replace(couples=({"at": "last", "moment": 2 * np.pi * turns * bending},)).solve("x")
     assert np.hypot(*done["x"][-1]) < 1e-10
     energy = done["energy_parts"]
     assert energy[2] == pytest.approx(bending * (2 * np.pi * turns) ** 2 / 2, rel=1e-9)
@@ -254,9 +258,9 @@ def test_a_couple_rolls_the_rod_up(turns, elements):
 
 def column(factor, elements=80, radius=1e-3, aside=0.0):
     """A clamped-free column under a share of pi^2 EI / 4, and a small force across."""
-    posed, bending = slender(elements, radius)
+    problem, bending = slender(elements, radius)
     load = factor * np.pi**2 / 4 * bending
-    return posed.replace(
+    return problem.replace(
         forces=(
             {"at": "last", "along": "-E3", "force": load},
             {"at": "last", "along": "E2", "force": aside * bending},
@@ -353,16 +357,14 @@ def test_a_branch_that_comes_back_to_its_beginning_says_so():
         for along, force in zip(("E3", "E2"), push.tolist(), strict=True)
     ]
     tilting = cosserat.case("arch_path").vary("tilting", forces=forces)
-    with pytest.raises(
-        cosserat.NotConvergedError, match=r"comes back to 0\.23\d* of the load, where it"
-    ):
+    with pytest.raises(cosserat.NotConvergedError, match=r"returns to 0\.23\d* of the load, where it"):
         cosserat.run(tilting)
     upright = cosserat.run(tilting.vary("upright", arc={"branch": "stay"}))
     assert upright.load_factor[-1] == 1
     nudged = [
         {**force, "force": force["force"] * (1 + 1e-7 * (force["along"] == "E2"))} for force in forces
     ]
-    with pytest.raises(cosserat.NotConvergedError, match=r"comes back to 0\.23\d* of the load"):
+    with pytest.raises(cosserat.NotConvergedError, match=r"returns to 0\.23\d* of the load"):
         cosserat.run(tilting.vary("nudged", forces=nudged, arc={"branch": "stay"}))
 
 
@@ -383,9 +385,9 @@ def test_columns_however_thin_leave_the_straight_path(slenderness):
 
 def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last_state():
     """A bar pushed by twice EA: without a barrier its edges would have to vanish half-way."""
-    posed, _ = slender(20, radius=0.05)
-    stiff = posed.rod.young * posed.rod.area
-    pushed = posed.replace(
+    problem, _ = slender(20, radius=0.05)
+    stiff = problem.rod.young * problem.rod.area
+    pushed = problem.replace(
         supports=[{"at": k, "fixed": ["x2", "d3"] if k else ["x3", "x2", "d3"]} for k in range(21)],
         forces=({"at": "last", "along": "-E3", "force": 2 * stiff},),
     )
@@ -413,16 +415,16 @@ def test_a_path_that_is_given_up_keeps_its_points_on_request(tmp_path, capsys):
     assert "beyond the limit of 1.1; raise 'arc.limit'" in capsys.readouterr().err
     assert not (tmp_path / "far.nc").exists()
     assert main([*command, "--keep-last"]) == 1
-    assert "what was reached, -1.0" in capsys.readouterr().err
+    assert "the part reached, -1.0" in capsys.readouterr().err
     path = cosserat.load(tmp_path / "far.nc")
     assert path.sizes["point"] > 50
     assert path.load_factor.min() > -1.1
 
 
 def test_prescribed_motion_of_a_support():
-    posed, _ = slender(40)
+    problem, _ = slender(40)
     both = [*CLAMP, {"at": "last", "fixed": ["x3", "x2", "d3", "d2"]}]
-    moved = posed.replace(
+    moved = problem.replace(
         supports=both, prescribed_displacements=({"at": "last", "dof": "x3", "by": -0.3},)
     ).solve("x")
     assert moved["x"][-1, 0] == pytest.approx(0.7)
@@ -493,13 +495,13 @@ def test_a_tumbling_stretching_rod_keeps_energy_and_momenta(solved):
 
 
 def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
-    posed, bending = slender(40)
-    bent = posed.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
+    problem, bending = slender(40)
+    bent = problem.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
     plain = bent.solve("x")["u"][-1, 1]
     distance = []
     for elements in (20, 40, 80):
-        posed, bending = slender(elements)
-        pulled = posed.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
+        problem, bending = slender(elements)
+        pulled = problem.replace(forces=({"at": "last", "along": "E2", "force": 10 * bending},))
         with_barrier = pulled.replace(rod=pulled.rod.replace(barrier=True)).solve("x")["u"][-1, 1]
         distance.append(abs(with_barrier - pulled.solve("x")["u"][-1, 1]))
     assert distance[0] > 1e-5
@@ -512,7 +514,7 @@ def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
     [
         (
             {"calibration": {"c1": 1, "c2": 1, "c3": 1, "c4": 1, "c5": 1, "c6": 1, "c7": 1}},
-            "has 'calibration', which only energy = 'published' knows; leave it out",
+            "has 'calibration', which only energy = 'published' takes; leave it out",
         ),
         ({"energy": "published"}, "needs a calibration"),
         ({"lateral_constraint": "incompressible"}, "'poisson' = 0; it must be 0.49 or more"),
@@ -526,7 +528,7 @@ def test_bad_input(changes, sentence):
 
 
 def test_the_published_rod_has_no_section_and_no_path():
-    with pytest.raises(InputError, match="which only energy = 'consistent' knows"):
+    with pytest.raises(InputError, match="which only energy = 'consistent' takes"):
         cosserat.case("clamped_free").vary("x", rod={"lateral_constraint": "plane strain"})
     table = cosserat.case("clamped_free").problem.model_dump() | {"kind": "rod path"}
     table.pop("newton")
@@ -573,11 +575,11 @@ def test_a_tiny_load_is_not_refused_because_its_first_increment_is_tinier(increm
 
 def test_a_million_vertices():
     """In memory and in one step, as with few vertices: a hanging bar, whose answer is known."""
-    posed = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 1_000_000}).problem
-    solved = posed.solve("x")
+    problem = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 1_000_000}).problem
+    solved = problem.solve("x")
     fields = solved
     assert solved.statistics["iterations"] == 1
-    exact = beams.hanging_bar_displacement(beam_of(posed), 9.81, fields["xi"])
+    exact = beams.hanging_bar_displacement(beam_of(problem), 9.81, fields["xi"])
     assert fields["u"][-1, 0] == pytest.approx(exact[-1], rel=1e-6)
 
 
@@ -600,14 +602,14 @@ def test_hinges_and_guides_lose_no_order(supports, compliance):
     guided = compliance == (1 / 12, 1.0)
     tips = []
     for elements in (10, 20, 40, 80):
-        posed, bending = slender(elements, radius=0.05)
+        problem, bending = slender(elements, radius=0.05)
         at = elements if guided else elements // 2
-        loaded = posed.replace(
+        loaded = problem.replace(
             supports=supports, forces=({"at": at, "along": "E2", "force": 1e-5 * bending},)
         )
         tips.append(loaded.solve("x")["u"][at, 1] / 1e-5)
     if compliance:
-        shear = 5 / 6 * posed.rod.young / 2 * posed.rod.area / bending
+        shear = 5 / 6 * problem.rod.young / 2 * problem.rod.area / bending
         exact = compliance[0] + compliance[1] / shear
     else:
         exact = tips[-1] + (tips[-1] - tips[-2]) / 3
@@ -656,13 +658,13 @@ def test_a_path_that_ends_early_says_so():
     assert '"load_factor_reached": 0.' in path.attrs["solver"]
     from cosserat.data.dataset import effort
 
-    assert "raise 'arc.count' to go on" in effort(path)
+    assert "raise 'arc.count' to continue" in effort(path)
 
 
 def test_shear_is_that_of_the_edges():
-    posed, bending = slender(40, radius=0.05)
-    done = posed.replace(forces=({"at": "last", "along": "E2", "force": 1e-3 * bending},)).solve("x")
-    shear = 1e-3 * bending / (5 / 6 * posed.rod.young / 2 * posed.rod.area)
+    problem, bending = slender(40, radius=0.05)
+    done = problem.replace(forces=({"at": "last", "along": "E2", "force": 1e-3 * bending},)).solve("x")
+    shear = 1e-3 * bending / (5 / 6 * problem.rod.young / 2 * problem.rod.area)
     np.testing.assert_allclose(done["shear"], shear, rtol=1e-3)
     assert "theta" not in done
 
@@ -761,10 +763,10 @@ def test_no_turn_is_missed_between_two_frames(method):
 
 def test_a_clamp_turned_through_a_whole_turn_winds_the_rod_up():
     both = [*CLAMP, {"at": "last", "fixed": ["d3", "d2"]}]
-    posed, bending = slender(40)
-    wound = posed.replace(supports=both, prescribed_rotations=({"at": "last", "by": 2 * np.pi},)).solve(
-        "x"
-    )
+    problem, bending = slender(40)
+    wound = problem.replace(
+        supports=both, prescribed_rotations=({"at": "last", "by": 2 * np.pi},)
+    ).solve("x")
     assert wound["energy_parts"].sum() == pytest.approx(bending * (2 * np.pi) ** 2 / 2, rel=1e-3)
 
 

@@ -64,8 +64,8 @@ def test_both_forms_give_the_same_state(name, loads):
     assert np.abs(unbalanced_couple(d, d_prime, *both[0])).max() < 1e-12 * STIFF
     by_gamma, _ = energy_gradient(K, *measures(d, d_prime))
     # derived: the change of gamma_33 over that of phi
-    share = 2 / np.linalg.det((d @ d.T)[:2, :2]) if name == "incompressible" else 2
-    assert before - after == pytest.approx(by_gamma[2, 2] * share, rel=1e-9)
+    fraction = 2 / np.linalg.det((d @ d.T)[:2, :2]) if name == "incompressible" else 2
+    assert before - after == pytest.approx(by_gamma[2, 2] * fraction, rel=1e-9)
     assert abs(before - after) > 1e-3 * STIFF
 
 
@@ -233,5 +233,5 @@ def test_the_weight_reaches_the_first_director_through_the_ground(name):
         return groups.compressible_source(mu, 0 * one, 0 * one)[0][0]
 
     k_g = (body.incompressible_stiffnesses if name == "worm" else body.stiffnesses)[-1]
-    share = body.radius * body.line_density * 9.81 * body.length**2 / k_g
-    np.testing.assert_allclose(source(9.81) - source(0.0), [share, 0], rtol=1e-9, atol=1e-12)
+    fraction = body.radius * body.line_density * 9.81 * body.length**2 / k_g
+    np.testing.assert_allclose(source(9.81) - source(0.0), [fraction, 0], rtol=1e-9, atol=1e-12)

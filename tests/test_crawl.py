@@ -81,9 +81,9 @@ def test_fronts_that_reach_an_end_together_keep_their_order():
 
 def test_every_event_of_a_gait_is_on_the_time_grid():
     worm = WORM.problem.gait
-    moments = worm.moments(0.05)
-    assert len(moments) == 98 + 1 + 1  # the start, and t_p / 2, which is no multiple of 0.05 s
-    times = np.array([m.time for m in moments])
+    instants = worm.instants(0.05)
+    assert len(instants) == 98 + 1 + 1  # the start, and t_p / 2, which is no multiple of 0.05 s
+    times = np.array([m.time for m in instants])
     assert np.diff(times).max() <= 0.05 + 1e-12
     for event in (0, 3.15 / 3, 3.15 / 2, 3.15, 4.9):
         assert np.abs(times - event).min() < 1e-12
@@ -272,7 +272,7 @@ def test_a_calibration_needs_an_incompressible_worm_and_loads_to_start_from():
 def test_a_calibration_gives_back_the_parameters_of_the_worm_that_was_measured():
     case = cosserat.case("worm_calibration")
     soft = case.problem.loaded(1500, 0.02, 1000)
-    ratio_1, ratio_3, low, high = case.problem.shares(soft, "soft") * (0.75, 1.60, 300, 800)
+    ratio_1, ratio_3, low, high = case.problem.fractions(soft, "soft") * (0.75, 1.60, 300, 800)
     wanted = {"mu_1_ratio": ratio_1, "mu_3_ratio": ratio_3, "p_longitudinal": low, "p_circular": high}
     found = cosserat.run(case.vary("x", **wanted))
     assert float(found.fitted_young) == pytest.approx(1500, rel=1e-7)
@@ -334,17 +334,17 @@ def fatness_of_the_anchor(data):
 @pytest.mark.parametrize("name", CRAWLS)
 def test_crawlers_hold_on_with_a_fat_part_but_for_the_early_switch(name, solved):
     """At every instant, by the gait and by the stretches that were solved for; section 2.1."""
-    posed = cosserat.case(name).problem
-    thin = [moment.time for moment in posed.thin_anchors()]
+    problem = cosserat.case(name).problem
+    thin = [instant.time for instant in problem.thin_anchors()]
     fat = fatness_of_the_anchor(solved[name])
     if not name.endswith("_early"):
         assert thin == []
-        assert posed.thin_anchor_warning() is None
+        assert problem.thin_anchor_warning() is None
         assert fat.min() > 0.5  # beside a front that has just entered the layer takes its share
         return
     assert len(thin) == 10
     assert (thin[0], thin[-1]) == pytest.approx((1.10, 1.55))
-    assert (fat < 0.5).sum() == 10 * posed.strides
+    assert (fat < 0.5).sum() == 10 * problem.strides
 
 
 def test_a_thin_anchor_is_told_with_its_instants():
@@ -367,7 +367,7 @@ def test_a_pneumatic_robot_moves_by_the_closed_form_and_holds_on_where_it_is_inf
     forwards = robot.vary("forwards", loads=inflated, gait=swapped)
     backwards = robot.vary("backwards", loads=inflated)
     assert forwards.problem.thin_anchors() == []
-    assert len(backwards.problem.thin_anchors()) == len(own.moments(robot.problem.step))
+    assert len(backwards.problem.thin_anchors()) == len(own.instants(robot.problem.step))
     young, poisson, radius, length = 10e3, 0.3, 2.54e-2, 25.4e-2
     area, half = np.pi * radius**2, young / (1 + poisson)
     rod = PushPullRod(
@@ -411,8 +411,8 @@ def test_the_stride_does_not_depend_on_the_time_step_once_events_are_on_the_grid
     case = cosserat.case(name)
     count = 2 if name == "worm_clipped" else 1  # its first stride begins elsewhere
     lengths = [
-        strides(cosserat.run(case.vary("x", strides=count, step=share * case.problem.step)))[-1]
-        for share in (4, 1, 0.5)
+        strides(cosserat.run(case.vary("x", strides=count, step=fraction * case.problem.step)))[-1]
+        for fraction in (4, 1, 0.5)
     ]
     np.testing.assert_allclose(lengths, lengths[0], rtol=1e-9)
 
@@ -449,7 +449,8 @@ def test_a_crawl_run_backwards_in_mirror_image_is_the_same_crawl():
 def test_progress_is_told_and_a_failing_instant_is_named():
     told = []
     cosserat.run(
-        WORM.vary("x", strides=2, step=1), progress=lambda share, words: told.append((share, words))
+        WORM.vary("x", strides=2, step=1),
+        progress=lambda fraction, words: told.append((fraction, words)),
     )
     assert told == [(0.5, "stride 1 of 2"), (1.0, "stride 2 of 2")]
     with pytest.raises(
@@ -577,8 +578,8 @@ def test_a_power_of_a_strain_is_not_the_power_of_the_stretch():
 
 def test_scaled_worms_have_the_loads_of_their_law():
     for law, (force, pressure) in MUSCLE_LAWS.items():
-        posed = cosserat.case("worm_masses").vary("x", muscles=law).problem
-        big, small = posed.scaled(0.01), posed.scaled(0.001)
+        problem = cosserat.case("worm_masses").vary("x", muscles=law).problem
+        big, small = problem.scaled(0.01), problem.scaled(0.001)
         grown = big.crawler.radius / small.crawler.radius
         assert big.loads.anchoring / small.loads.anchoring == pytest.approx(grown**force)
         assert big.loads.advancing / small.loads.advancing == pytest.approx(grown**pressure)

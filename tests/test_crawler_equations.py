@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import cosserat
 from cosserat.peristalsis.crawler import Compressible, Crawler, Groups, Incompressible
-from cosserat.peristalsis.instant import Instant, Region
+from cosserat.peristalsis.instant import InstantProblem, Region
 from cosserat.rods.constrained_rod import INCOMPRESSIBLE
 from cosserat.rods.directed_rod import Section, integrated_stiffnesses, internal_forces, strain_energy
 from cosserat.solvers.regions import RegionSettings
@@ -97,9 +97,9 @@ def test_loads_on_the_directors_are_integrals_round_and_over_the_section():
     loads = np.einsum("ka,kb,k->ab", x, -pressure * x / RADIUS, dU)  # of both directors, along E_1, E_2
     np.testing.assert_allclose(loads, -pressure * np.pi * RADIUS**2 * np.eye(2), atol=1e-16)
     nodes, weights = np.polynomial.legendre.leggauss(8)
-    rings, share = (nodes + 1) * RADIUS / 2, weights * RADIUS / 2
+    rings, fraction = (nodes + 1) * RADIUS / 2, weights * RADIUS / 2
     body_force = np.array([1000.0 * -9.81, 0])
-    dA = np.outer(rings * share, np.full(64, 2 * np.pi / 64)).ravel()
+    dA = np.outer(rings * fraction, np.full(64, 2 * np.pi / 64)).ravel()
     inside = (rings[:, None, None] / RADIUS * x).reshape(-1, 2)
     np.testing.assert_allclose(np.einsum("ka,b,k->ab", inside, body_force, dA), 0, atol=1e-16)
     np.testing.assert_allclose(dA.sum() * body_force, [-9.81 * 1000 * BODY.area, 0], rtol=1e-12)
@@ -163,7 +163,7 @@ def test_the_lowest_line_stays_on_the_ground_and_the_centreline_is_as_long_as_it
     """(2.5.1)-(2.5.4) of a solved instant: x' = R mu_1', and x', z' together are mu_3 long."""
     regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
     fine = RegionSettings(elements=12, degree=10)
-    profile, _ = Instant(problem.crawler, problem.loads, regions, "test").solve(fine, None)
+    profile, _ = InstantProblem(problem.crawler, problem.loads, regions, "test").solve(fine, None)
     body, z = problem.crawler, np.linspace(0, 1, 20_001)
     stored = problem.replace(sections=z.size).fields(
         [profile], [problem.length_along(profile)], [regions]
@@ -184,20 +184,20 @@ def test_the_lowest_line_stays_on_the_ground_and_the_centreline_is_as_long_as_it
 def test_the_contact_force_goes_on_through_both_junctions():
     """(2.4.14) at gamma, (2.4.15) at eta: lambda_c mu_1 mu_2 is -delta on either side of each."""
     regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
-    posed = Instant(WORM.crawler, WORM.loads, regions, "test")
-    profile, _ = posed.solve(RegionSettings(), None)
+    problem = InstantProblem(WORM.crawler, WORM.loads, regions, "test")
+    profile, _ = problem.solve(RegionSettings(), None)
     force = profile.multiplier * profile.mu.prod(axis=2)
-    np.testing.assert_allclose(force, -posed.groups.force, rtol=1e-12)
+    np.testing.assert_allclose(force, -problem.groups.force, rtol=1e-12)
     at = np.array([0.3 - 1e-9, 0.3 + 1e-9, 0.7 - 1e-9, 0.7 + 1e-9])
     mu, _, _, multiplier = profile.at(at)
-    np.testing.assert_allclose(multiplier * mu.prod(axis=1), -posed.groups.force, rtol=1e-12)
+    np.testing.assert_allclose(multiplier * mu.prod(axis=1), -problem.groups.force, rtol=1e-12)
 
 
 def test_fronts_of_the_soft_robot_are_those_of_2_7():
     """gamma by (2.7.1) from the end of the pause on, eta by (2.7.2), both at the speed and with T of Fig. 2.8."""
-    gait, length, speed, pause, share = ROBOT.gait, ROBOT.crawler.length, 0.0254, 5.0, 0.25
+    gait, length, speed, pause, fraction = ROBOT.gait, ROBOT.crawler.length, 0.0254, 5.0, 0.25
     crossing = length / speed
-    later = pause + crossing * (1 - share)
+    later = pause + crossing * (1 - fraction)
     for phase in np.linspace(0.05, 3.95, 40):
         t = gait.time(phase)
         expected = []
@@ -209,4 +209,4 @@ def test_fronts_of_the_soft_robot_are_those_of_2_7():
         found = gait.fronts(phase)
         assert [kind for _, kind in found] == [kind for _, kind in sorted(expected)]
         assert [at for at, _ in found] == pytest.approx([at for at, _ in sorted(expected)], abs=1e-12)
-    assert gait.duration == pytest.approx(pause + crossing * (2 - share))
+    assert gait.duration == pytest.approx(pause + crossing * (2 - fraction))

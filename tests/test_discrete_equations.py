@@ -120,9 +120,9 @@ def test_the_consistent_mass_is_that_of_straight_edges_and_of_their_ends_in_the_
     for K, (a, b) in enumerate(itertools.pairwise(xi)):
         cuts = [a, *(p for p in (0.1, 0.37) if a < p < b), b]
         for low, high in itertools.pairwise(cuts):
-            for s, share in zip((low + high + (high - low) * nodes) / 2, weights / 2, strict=True):
+            for s, fraction in zip((low + high + (high - low) * nodes) / 2, weights / 2, strict=True):
                 density = np.interp(s, [0.1, 0.37], [1.0, 2.0]) if s < 0.37 else 0.5 * 1.4
-                mass, t = rod.line_density * density * share * (high - low), (s - a) / (b - a)
+                mass, t = rod.line_density * density * fraction * (high - low), (s - a) / (b - a)
                 straight += mass * section((1 - t) * v[K] + t * v[K + 1], (1 - t) * w[K] + t * w[K + 1])
                 ends += mass * ((1 - t) * section(v[K], w[K]) + t * section(v[K + 1], w[K + 1]))
     rate = np.hstack([v, w]).ravel()
@@ -136,14 +136,14 @@ def test_stiffnesses_are_made_of_the_means_of_table_3_1():
     Of a uniform rod the means over the parts of the vertices and over the edges are the same; of this one they are not.
     """
     at, low = [1.0, 3.1, 3.1, 4.0], 0.3
-    shares = {
+    fractions = {
         "height": [1.0, 0.6, 0.8, 0.5],
         "width": [1.0, 1.7, 0.9, 1.2],
         "young": [1.0, 2.0, 0.4, 0.7],
         "poisson": [1.0, 0.5, 1.2, 0.9],
     }
     stations = [
-        {"at": a, **{name: values[k] for name, values in shares.items()}} for k, a in enumerate(at)
+        {"at": a, **{name: values[k] for name, values in fractions.items()}} for k, a in enumerate(at)
     ]
     rod = cosserat.case("necking").vary("x", rod={"stations": stations, "centreline": low}).problem.rod
     rod = rod.replace(vertices=7)
@@ -152,7 +152,7 @@ def test_stiffnesses_are_made_of_the_means_of_table_3_1():
 
     def local(xi):
         side = [0, 1] if xi < 3.1 else [2, 3]
-        H, W, E, nu = (np.interp(xi, np.array(at)[side], np.array(v)[side]) for v in shares.values())
+        H, W, E, nu = (np.interp(xi, np.array(at)[side], np.array(v)[side]) for v in fractions.values())
         H, W, E, nu = 0.5 * H, 0.5 * W, 1e9 * E, 0.3 * nu
         return W * H, W * H**3 / 12 + W * H * ((0.5 - low) * H) ** 2, E, E / (2 * (1 + nu)), nu
 

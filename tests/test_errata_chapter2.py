@@ -9,7 +9,7 @@ from cosserat.errors import NotConvergedError, OutOfReachError
 from cosserat.exact.beams import rest_pressure
 from cosserat.peristalsis import doublets
 from cosserat.peristalsis.crawler import Compressible, Crawler, Groups, Loads
-from cosserat.peristalsis.instant import Instant, Region
+from cosserat.peristalsis.instant import InstantProblem, Region
 from cosserat.rods.directed_rod import internal_forces
 from cosserat.solvers.collocation import RegionSystem, collocate
 from cosserat.solvers.regions import RegionSettings
@@ -74,9 +74,9 @@ def printed_robot():
         return RegionSystem(left, right, 4, rate, guess)
 
     regions = [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")]
-    posed = Instant(ROBOT.crawler, ROBOT.loads, regions, "printed")
+    instant = InstantProblem(ROBOT.crawler, ROBOT.loads, regions, "printed")
     systems = [system(0, 0, 0.5), system(1, 0.5, 1)]
-    found = collocate(systems, posed._conditions, np.linspace(0, 1, 201), 1e-6, "printed")
+    found = collocate(systems, instant._conditions, np.linspace(0, 1, 201), 1e-6, "printed")
     y = found.solution(1, np.linspace(0.5, 1, 2001))
     return y, laws[1](y[0] + y[2])
 
@@ -140,7 +140,7 @@ def test_E2_4_an_anchoring_end_carries_the_force_of_its_muscles():
     held = {}
     for name, force in (("n = 0", 0.0), ("n = -D", WORM.loads.anchoring)):
         loads = WORM.loads.replace(anchoring=force)
-        profile, _ = Instant(WORM.crawler, loads, [Region(0, 1, "anchoring")], "x").solve(
+        profile, _ = InstantProblem(WORM.crawler, loads, [Region(0, 1, "anchoring")], "x").solve(
             RegionSettings(), None
         )
         _, k_g = WORM.crawler.incompressible_stiffnesses
@@ -160,7 +160,7 @@ def worm_in_circular_contraction(multiplier, length):
         Region(*cuts, "advancing"),
         Region(cuts[1], 1, "anchoring"),
     ]
-    profile, _ = Instant(WORM.crawler, loads, regions, "test").solve(RegionSettings(), None)
+    profile, _ = InstantProblem(WORM.crawler, loads, regions, "test").solve(RegionSettings(), None)
     mu, _, mu_3, lam = profile.at(np.array([0.5]))
     return mu[0, 0], mu_3[0], float(WORM.pressure(mu, lam)[0])
 
@@ -180,7 +180,7 @@ def test_E2_5_the_printed_dy9_breaks_the_integral_and_carries_the_published_numb
     for multiplier, constant in (("balanced", True), ("printed", False)):
         loads = WORM.loads.replace(multiplier=multiplier)
         regions = [Region(0, 0.4, "anchoring"), Region(0.4, 1, "advancing")]
-        profile, _ = Instant(WORM.crawler, loads, regions, "test").solve(RegionSettings(), None)
+        profile, _ = InstantProblem(WORM.crawler, loads, regions, "test").solve(RegionSettings(), None)
         force = (profile.multiplier * profile.mu.prod(axis=2))[profile.mesh.region == 1]
         assert (np.ptp(force) < 1e-12 * abs(force.mean())) == constant
         assert constant or np.ptp(force) > 0.05 * abs(force.mean())
@@ -202,7 +202,7 @@ def test_E2_6_the_printed_bulk_modulus_is_three_times_that_of_elasticity():
 
 def test_E2_7_weight_over_the_current_length_does_not_support_the_body():
     """Integrated over the reference length, rho_0 g / mu_3 is not the weight; and it has no potential."""
-    profile, _ = Instant(
+    profile, _ = InstantProblem(
         WORM.crawler, WORM.loads, [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")], "test"
     ).solve(RegionSettings(), None)
     supported = profile.mesh.cumulative(1 / profile.mu_3)[-1, -1]
@@ -227,13 +227,13 @@ def test_E2_7_moves_the_stretches_by_less_than_a_third_of_a_per_cent(solved):
 def test_E2_8_the_listed_conditions_do_not_determine_the_stretches():
     """(2.3.13) and (2.3.15) are eight conditions for twelve unknowns; continuous slopes are the other four."""
     regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
-    posed = Instant(ROBOT.crawler, ROBOT.loads, regions, "test")
-    systems = [posed._system(number) for number in range(3)]
+    instant = InstantProblem(ROBOT.crawler, ROBOT.loads, regions, "test")
+    systems = [instant._system(number) for number in range(3)]
     dofs = sum(system.size for system in systems)
 
     def conditions(ends):  # (24,): y at the left, then at the right ends of the regions
         left, right = ends.reshape(2, 3, 4)
-        return posed._conditions(list(left), list(right))
+        return instant._conditions(list(left), list(right))
 
     matrix = np.array([conditions(one) - conditions(np.zeros(24)) for one in np.eye(24)]).T
     slopes = np.zeros((2, 3, 4), dtype=bool)
@@ -249,7 +249,7 @@ def test_E2_8_the_listed_conditions_do_not_determine_the_stretches():
 
         def residual(left, right):
             free = [end[k] - mu for end in right[:-1] for k in (0, 2)]
-            return np.append(posed._conditions(left, right)[listed], free)
+            return np.append(instant._conditions(left, right)[listed], free)
 
         return collocate(systems, residual, np.linspace(0, 1, 201), 1e-6, "at will")
 
@@ -295,18 +295,18 @@ def test_E2_11_the_product_of_the_stretches_is_not_the_volume_where_sections_til
 def test_E2_12_a_terminal_advancing_region_is_closed_by_its_one_junction():
     """(2.4.19) takes lambda_c from the junction behind; without that, or a substitute, a condition is missing."""
     regions = [Region(0, 0.4, "advancing"), Region(0.4, 1, "anchoring")]
-    posed = Instant(WORM.crawler, WORM.loads, regions, "test")
-    systems = [posed._system(number) for number in range(2)]
+    instant = InstantProblem(WORM.crawler, WORM.loads, regions, "test")
+    systems = [instant._system(number) for number in range(2)]
     assert [system.size for system in systems] == [5, 4]
     left, right = ([np.ones(5), np.ones(4)] for _ in range(2))
     assert (
-        posed._conditions(left, right).size == 9
+        instant._conditions(left, right).size == 9
     )  # as many as unknowns, the ninth from the junction ahead
-    mirrored = Instant(
+    mirrored = InstantProblem(
         WORM.crawler, WORM.loads, [Region(0, 0.6, "anchoring"), Region(0.6, 1, "advancing")], "test"
     )
     z = np.linspace(0, 1, 101)
-    a, b = posed.collocate(RegionSettings(), 1e-5), mirrored.collocate(RegionSettings(), 1e-5)
+    a, b = instant.collocate(RegionSettings(), 1e-5), mirrored.collocate(RegionSettings(), 1e-5)
     np.testing.assert_allclose(a.at(z)[0], b.at(1 - z)[0], atol=1e-6)
 
 
@@ -342,18 +342,18 @@ EARLY = cosserat.case("worm_early").problem.gait.anchor
 LATE = WORM.gait.anchor
 
 
-def clipped(share, anchor):
+def clipped(fraction, anchor):
     """The stride of the second and all later strides with fronts that stop at that share of the length [mm]."""
     gamma = [
-        [0, 1 - share],
-        [2 * share, 1 - share],
+        [0, 1 - fraction],
+        [2 * fraction, 1 - fraction],
         [0.5, 0.75],
         [1, 0.5],
-        [2 - 2 * share, share],
-        [2, share],
+        [2 - 2 * fraction, fraction],
+        [2, fraction],
     ]
-    eta = [[[0, 0.5], [0.5 - share, share], [0.5, share]]]
-    eta += [[[1, 1 - share], [1 + 2 * share, 1 - share], [2, 0.5]]]
+    eta = [[[0, 0.5], [0.5 - fraction, fraction], [0.5, fraction]]]
+    eta += [[[1, 1 - fraction], [1 + 2 * fraction, 1 - fraction], [2, 0.5]]]
     gait = {"gamma": [gamma], "eta": eta, "anchor": anchor, "sudden": 0.07}
     return 1e3 * strides(cosserat.run(cosserat.case("worm").vary("x", strides=2, gait=gait)))[-1]
 
@@ -365,7 +365,10 @@ def test_E2_14_fronts_that_leave_early_change_nothing_and_fronts_that_stop_do_at
         for c in (1e-6, 1e-3, 1e-2)
     ]
     np.testing.assert_allclose(leaves, strides(solved["worm"])[-1], rtol=1e-9)
-    stop = {anchor: [clipped(share, anchor) for share in (0.01, 0.02, 0.03)] for anchor in (EARLY, LATE)}
+    stop = {
+        anchor: [clipped(fraction, anchor) for fraction in (0.01, 0.02, 0.03)]
+        for anchor in (EARLY, LATE)
+    }
     np.testing.assert_allclose(stop[EARLY], 1e3 * strides(solved["worm_early"])[-1], rtol=1e-9)
     np.testing.assert_allclose(stop[LATE], [60.000, 58.776, 57.551], atol=1e-3)
     assert 1e3 * strides(solved["worm_clipped"])[-1] == pytest.approx(stop[LATE][1])
@@ -406,9 +409,9 @@ LITERAL = (2 * T_P / 3, T_P)  # C: 0 at t_p, as printed, and 0.5 at 2 t_p / 3
 def test_E2_15_all_readings_of_gamma_stride_alike_and_differ_in_what_they_exclude(solved):
     for anchor, name in ((EARLY, "worm_early"), (LATE, "worm")):
         for times in (ONE_SPEED, LITERAL):
-            posed = cosserat.case("worm").vary("x", strides=1, gait=reading(anchor, *times))
-            assert posed.problem.gait.fronts(phase_of(times[0]))[0][0] == pytest.approx(0.5)
-            assert strides(cosserat.run(posed))[0] == pytest.approx(strides(solved[name])[-1], rel=1e-9)
+            case = cosserat.case("worm").vary("x", strides=1, gait=reading(anchor, *times))
+            assert case.problem.gait.fronts(phase_of(times[0]))[0][0] == pytest.approx(0.5)
+            assert strides(cosserat.run(case))[0] == pytest.approx(strides(solved[name])[-1], rel=1e-9)
     speeds = {
         "A": [0.25 / (T_P / 2), 0.25 / (T_P / 2)],
         "B": [0.25 / (T_P / 2), 0.75 / (T_P / 2 + T_S)],
@@ -531,7 +534,7 @@ def test_E2_23_no_doublet_has_both_no_width_and_areas_of_one():
 def test_E2_24_the_turning_of_the_force_is_not_small_in_the_layers_of_the_worm():
     """e_3' = 0 is assumed; where n = -D goes on into an advancing region only the ground balances its turning."""
     regions = [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")]
-    profile, _ = Instant(WORM.crawler, WORM.loads, regions, "test").solve(
+    profile, _ = InstantProblem(WORM.crawler, WORM.loads, regions, "test").solve(
         RegionSettings(elements=10, degree=10), None
     )
     body = WORM.crawler
@@ -543,8 +546,8 @@ def test_E2_24_the_turning_of_the_force_is_not_small_in_the_layers_of_the_worm()
     assert abs(total) < 1e-3 * body.line_density * 9.81 * body.length
 
 
-@pytest.mark.parametrize(("name", "share"), [("worm", 0.0054), ("soft_robot", 0.0354)])
-def test_E2_25_the_layers_are_thinner_than_the_radius(name, share):
+@pytest.mark.parametrize(("name", "fraction"), [("worm", 0.0054), ("soft_robot", 0.0354)])
+def test_E2_25_the_layers_are_thinner_than_the_radius(name, fraction):
     """Decay lengths of the linearised states: R / sqrt(8) or shorter, from k_G / (k_S - k_P) or k_G / k_I = R^2 / 8."""
     problem = cosserat.case(name).problem
     body, regions = problem.crawler, [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")]
@@ -555,13 +558,13 @@ def test_E2_25_the_layers_are_thinner_than_the_radius(name, share):
         stiffness = k_s - k_p
     longest = body.radius / np.sqrt(8)
     assert k_g / stiffness == pytest.approx(longest**2)
-    assert longest / body.length == pytest.approx(share, rel=0.01)
+    assert longest / body.length == pytest.approx(fraction, rel=0.01)
     idle = problem.loads.replace(anchoring=0, advancing=0, gravity=0)
     lengths = []
     for loads in (idle, problem.loads):
-        posed = Instant(body, loads, regions, "test")
-        mu, shortest = posed.plateaus
-        _, df, _ = posed._source(mu, np.ones(2), posed.force)
+        instant = InstantProblem(body, loads, regions, "test")
+        mu, shortest = instant.plateaus
+        _, df, _ = instant._source(mu, np.ones(2), instant.force)
         decay = body.length / np.sqrt(np.linalg.eigvals(df)) / longest
         assert decay.min() == pytest.approx(shortest * body.length / longest)
         lengths.append(decay)
@@ -601,15 +604,15 @@ def test_E2_27_what_was_measured_asks_for_other_parameters_than_the_page_calibra
         assert given > 0.19
         np.testing.assert_allclose(data.fitted_outcomes[2:], 1, atol=2e-3)  # both pressures are met
     for name in found:
-        posed = cosserat.case(name)
-        again = cosserat.run(posed.vary("x", worm=posed.problem.loaded(3000, 0.04, 2000).model_dump()))
+        case = cosserat.case(name)
+        again = cosserat.run(case.vary("x", worm=case.problem.loaded(3000, 0.04, 2000).model_dump()))
         parameters = [f"fitted_{v}" for v in ("young", "anchoring", "advancing")]
         for parameter in parameters:
             np.testing.assert_allclose(again[parameter], solved[name][parameter], rtol=1e-6)
-    posed, again = cosserat.case("worm_calibration"), solved["worm_calibration"]
-    fitted = posed.problem.loaded(*(float(again[parameter]) for parameter in parameters))
+    case, again = cosserat.case("worm_calibration"), solved["worm_calibration"]
+    fitted = case.problem.loaded(*(float(again[parameter]) for parameter in parameters))
     regions = [Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing")]
-    mu, _ = Instant(fitted.crawler, fitted.loads, regions, "x").plateaus
+    mu, _ = InstantProblem(fitted.crawler, fitted.loads, regions, "x").plateaus
     stretched = mu[1, 0] / mu[0, 0] / 0.75, mu[0].prod() / mu[1].prod() / 1.60
     np.testing.assert_allclose(stretched, again.fitted_outcomes[:2], rtol=1e-6)
 

@@ -476,14 +476,14 @@ def half_period(c4, k, end_area):
 def test_E3_25_the_same_beam_is_nearer_in_every_reading_of_areas_and_shear_correction():
     """Of (3.4.10), E3.9, and of k, E3.17; with halved areas the other beam has the printed 0.03 s."""
     by_formula = np.pi / beams.first_frequency(printed.beam("vibration_c4_20"))
-    for ends, share in (("full", 1.0), ("halved", 0.5)):
+    for ends, fraction in (("full", 1.0), ("halved", 0.5)):
         for k in (5 / 6, 1.0):
-            low, high = (half_period(c4, k, share) for c4 in (2, 20))
+            low, high = (half_period(c4, k, fraction) for c4 in (2, 20))
             assert abs(low - by_formula) < abs(high - by_formula)
             for c4, exact in ((2, low), (20, high)):
                 rod = {"end_sections": ends, "shear_correction": k}
-                posed = cosserat.case(f"vibration_c4_{c4}").vary("x", rod=rod).problem
-                found = np.pi / posed.modes(1).angular_frequency[0]
+                problem = cosserat.case(f"vibration_c4_{c4}").vary("x", rod=rod).problem
+                found = np.pi / problem.modes(1).angular_frequency[0]
                 assert found == pytest.approx(exact, rel=1e-8)
     assert half_period(2, 5 / 6, 0.5) == pytest.approx(0.0318, abs=5e-5)
     assert half_period(20, 5 / 6, 0.5) == pytest.approx(0.0300, abs=5e-5)
@@ -512,8 +512,8 @@ def test_E3_27_normals_half_a_voronoi_length_away_meet_at_the_printed_radius(ang
     """The radius of eq. (3.3.22) by crossing the normals of two edges; a whole length away it is twice as much."""
     before, after = np.array([1.0, 0.0]), np.array([np.cos(angle), np.sin(angle)])
     voronoi = 0.7
-    for share, factor in ((0.5, 1.0), (1.0, 2.0)):
-        feet = [-share * voronoi * before, share * voronoi * after]
+    for fraction, factor in ((0.5, 1.0), (1.0, 2.0)):
+        feet = [-fraction * voronoi * before, fraction * voronoi * after]
         normals = [np.array([-t[1], t[0]]) for t in (before, after)]
         lengths = np.linalg.solve(np.column_stack([normals[0], -normals[1]]), feet[1] - feet[0])
         np.testing.assert_allclose(lengths, factor * voronoi / 2 / np.tan(angle / 2))
@@ -564,11 +564,14 @@ def test_E3_30_the_printed_share_of_a_director_is_a_length(unit):
     lean = np.arcsin(edge / 2 / reach)
     directors = [length * np.array([sign * np.sin(lean), np.cos(lean)]) for sign in (-1, 1)]
 
-    def apart(share):
-        return np.linalg.norm(share * directors[0] + np.array([edge, 0]) - share * directors[1]) / edge
+    def distance(fraction):
+        return (
+            np.linalg.norm(fraction * directors[0] + np.array([edge, 0]) - fraction * directors[1])
+            / edge
+        )
 
-    assert apart(height / length - 1) < 1e-12
-    assert apart(height - length) > 0.1
+    assert distance(height / length - 1) < 1e-12
+    assert distance(height - length) > 0.1
 
 
 def test_E3_31_sections_of_a_rod_that_is_only_bent_cross_with_a_finite_energy():

@@ -424,7 +424,7 @@ def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
 
 
 def test_moves_need_a_support_and_statics_no_frequency():
-    with pytest.raises(cosserat.InputError, match="moves x2 of vertex last, which no support holds"):
+    with pytest.raises(cosserat.InputError, match="moves x2 of vertex last, which no support fixes"):
         BEAM.vary("bad", prescribed_displacements=[{"at": "last", "dof": "x2", "by": 0.1}])
     with pytest.raises(cosserat.InputError, match="a static problem has no time"):
         BEAM.vary(
@@ -474,7 +474,7 @@ def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
     [
         (
             {"prescribed_rotations": [{"at": "last", "by": 1.0}]},
-            "'prescribed_rotations' turns the section of vertex last, which no support holds; add d3 to 'fixed'",
+            "'prescribed_rotations' rotates the section of vertex last, which no support fixes; add d3 to 'fixed'",
         ),
         (
             {

@@ -78,5 +78,5 @@ def test_ctrl_c_says_how_to_go_on(tmp_path):
     running.send_signal(signal.SIGINT)
     _, errors = running.communicate()
     assert running.returncode in (130, -signal.SIGINT)  # Python itself may choose the latter
-    assert "interrupted; run the same command again to go on from cut.nc.parts" in errors
+    assert "interrupted; run the same command again to resume from cut.nc.parts" in errors
     assert errors.count("\n") == 1

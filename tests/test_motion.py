@@ -213,11 +213,11 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
     rod = column.problem.rod
     euler = np.pi**2 * rod.young * rod.second_moment / (4 * rod.length**2)
 
-    def lowest(share):
-        load = {"at": "last", "along": "-E3", "force": share * euler}
+    def lowest(fraction):
+        load = {"at": "last", "along": "-E3", "force": fraction * euler}
         return column.vary("column", forces=[load]).problem.modes(1, "the column").angular_frequency[0]
 
-    frequencies = [lowest(share) for share in (0.0, 0.5, 0.9)]
+    frequencies = [lowest(fraction) for fraction in (0.0, 0.5, 0.9)]
     assert frequencies[1] == pytest.approx(frequencies[0] * np.sqrt(0.5), rel=0.1)
     assert 0 < frequencies[2] < 0.4 * frequencies[0]
     problem = column.problem
@@ -229,7 +229,7 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
     for factor, directions in ((1.2, "1 direction,"), (12.0, "2 directions")):
         straight = solver.correct(system.space.reference, factor, system.history).q
         with pytest.raises(UnstableError, match=f"the column: .* unstable in {directions}"):
-            modes(system, straight, 1, "the column", anchored=True)
+            modes(system, straight, 1, "the column", supported=True)
 
 
 def test_damping_of_a_free_rod_is_a_share_of_that_of_its_first_bending():
@@ -390,10 +390,10 @@ def test_damping_takes_energy_and_never_gives_it(solved):
 def test_the_stability_limit_is_where_the_motion_diverges():
     _, system, state = parts_of(BEAM)
     limit = integrate.stable_step(system, state.q)
-    for share, bounded in ((0.95, True), (1.15, False)):
-        settings = integrate.IntegratorSettings(method="rk4", step=share * limit)
+    for fraction, bounded in ((0.95, True), (1.15, False)):
+        settings = integrate.IntegratorSettings(method="rk4", step=fraction * limit)
         try:
-            after, _ = integrate.integrate(system, state, 3000 * share * limit, settings, "beam")
+            after, _ = integrate.integrate(system, state, 3000 * fraction * limit, settings, "beam")
             energy = system.internal.energy(after.q) + integrate.kinetic_energy(system, after)
             at_load = energy > 10 * system.internal.energy(state.q)
         except DivergedError:
@@ -419,8 +419,8 @@ def test_modes_of_a_motion_are_those_of_the_unloaded_rod():
     ).problem
     assert (motor.modes(3).angular_frequency == plain.modes(3).angular_frequency).all()
     assert plain.modes(1).angular_frequency[0] == 0
-    drags = [problem.system(problem.rod.geometry()).damping_rate for problem in (plain, motor)]
-    assert drags[0] == drags[1] == pytest.approx(2 * plain.modes(2).angular_frequency[1])
+    damping_rates = [problem.system(problem.rod.geometry()).damping_rate for problem in (plain, motor)]
+    assert damping_rates[0] == damping_rates[1] == pytest.approx(2 * plain.modes(2).angular_frequency[1])
 
 
 def test_a_step_beyond_the_limit_is_refused_with_the_limit():
@@ -457,8 +457,8 @@ def test_drag_shortens_the_stable_step():
     for damping in (0.0, 100.0, 700.0):
         _, system, state = parts_of(BEAM.vary("beam", damping=damping, start={"amplitude": 1e-6}))
         limit = integrate.stable_step(system, state.q)
-        for share, bounded in ((0.97, True), (1.05, False)):
-            assert stays(system, state, share * limit) == bounded, (damping, share)
+        for fraction, bounded in ((0.97, True), (1.05, False)):
+            assert stays(system, state, fraction * limit) == bounded, (damping, fraction)
 
 
 def stays(system, state, step, count=1500):
@@ -502,7 +502,7 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
     class StopError(Exception):
         pass
 
-    def stop(share, words):
+    def stop(fraction, words):
         raise StopError
 
     for expected in range(1, CheckpointedRun.of(case.problem, "beam").parts):
@@ -525,14 +525,18 @@ def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
     )
     steps, vertices = 80, 20  # a frame is 10 ms, one step 0.125 ms
     monkeypatch.setattr(checkpoints, "WORK_PER_PART", steps * vertices / 6.5)
-    course = CheckpointedRun.of(case.problem, "beam")
-    assert (course.substeps_per_frame, course.stops_per_part, course.parts) == (7, 1, 21)
+    checkpointed = CheckpointedRun.of(case.problem, "beam")
+    assert (checkpointed.substeps_per_frame, checkpointed.stops_per_part, checkpointed.parts) == (
+        7,
+        1,
+        21,
+    )
     whole = cosserat.run(case)
     np.testing.assert_allclose(whole.time, [0.0, 0.01, 0.02, 0.03], rtol=1e-15)
     cosserat.save(whole, tmp_path / "whole.nc")
     told = []
 
-    def stop(share, words):
+    def stop(fraction, words):
         told.append(words)
         if len(told) in (3, 4, 12):
             raise KeyboardInterrupt
@@ -556,20 +560,20 @@ def test_parts_hold_as_much_work_whatever_the_method(method, vertices, step, ste
     """Of a run of 20 s with a frame every 5 s, which is longer than a part may be: half a million vertices stepped."""
     integrator = {"method": method, "step": step}
     case = BEAM.vary("long", rod={"vertices": vertices}, duration=20, every=5, integrator=integrator)
-    course = CheckpointedRun.of(case.problem, "long")
-    outcome, _, stopped = course.part(0, case.problem.begin())
+    checkpointed = CheckpointedRun.of(case.problem, "long")
+    outcome, _, stopped = checkpointed.part(0, case.problem.begin())
     assert stopped is None
     assert outcome.statistics["steps"] == steps
-    assert course.parts * steps * step == pytest.approx(20)
+    assert checkpointed.parts * steps * step == pytest.approx(20)
 
 
 def _once(stop, part):
     seen = []
 
-    def progress(share, words):
-        seen.append(share)
+    def progress(fraction, words):
+        seen.append(fraction)
         if len(seen) == part:
-            stop(share, words)
+            stop(fraction, words)
 
     return progress
 
@@ -578,7 +582,7 @@ def test_parts_of_another_run_are_refused(tmp_path):
     short = {"duration": 0.02, "every": 2.5e-4}
     first = BEAM.vary("beam", **short)
 
-    def stop(share, words):
+    def stop(fraction, words):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

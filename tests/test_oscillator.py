@@ -70,11 +70,11 @@ def rate_of_decay(omega, damping_rate, h):
 
 
 @pytest.mark.parametrize("omega_h", [0.01, 0.1, 1.0, 10.0, 100.0])
-@pytest.mark.parametrize("drag_h", [0.01, 0.001])
-def test_a_drag_takes_energy_at_its_rate_whether_or_not_the_step_resolves_the_period(omega_h, drag_h):
-    found, right = rate_of_decay(omega_h, drag_h, 1.0)
+@pytest.mark.parametrize("damping_h", [0.01, 0.001])
+def test_a_drag_takes_energy_at_its_rate_whether_or_not_the_step_resolves_the_period(omega_h, damping_h):
+    found, right = rate_of_decay(omega_h, damping_h, 1.0)
     assert found == pytest.approx(right, rel=1e-2)
-    assert right == pytest.approx(drag_h, rel=1e-2)
+    assert right == pytest.approx(damping_h, rel=1e-2)
 
 
 def test_beyond_the_stated_limit_the_rate_is_another():

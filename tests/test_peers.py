@@ -12,9 +12,9 @@ from cosserat.thesis.peers import compare
 
 
 def test_the_problems_are_the_same_for_everyone():
-    posed = compare.problems()
-    assert [problem.elements for problem in posed] == [19, 20, 40, 80, 20, 200, 2000]
-    for problem, ours in posed.items():
+    problems = compare.problems()
+    assert [problem.elements for problem in problems] == [19, 20, 40, 80, 20, 200, 2000]
+    for problem, ours in problems.items():
         assert ours.rod.vertices == problem.elements + 1
         assert problem.bending * 1e2 < problem.axial * problem.length**2
 
@@ -47,8 +47,8 @@ def fakes(tmp_path, monkeypatch):
 
 
 def some(monkeypatch, *kept):
-    posed = {p: ours for p, ours in compare.problems().items() if (p.kind, p.elements) in kept}
-    monkeypatch.setattr(compare, "problems", lambda: posed)
+    problems = {p: ours for p, ours in compare.problems().items() if (p.kind, p.elements) in kept}
+    monkeypatch.setattr(compare, "problems", lambda: problems)
 
 
 def test_packages_take_turns_and_the_table_says_where_it_was_measured(fakes, monkeypatch):

@@ -9,8 +9,8 @@ import cosserat
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.peristalsis import doublets
 from cosserat.peristalsis.crawler import Compressible, Crawler, Groups, Incompressible, Loads
-from cosserat.peristalsis.instant import Instant, Region
-from cosserat.peristalsis.nearly_incompressible import apart
+from cosserat.peristalsis.instant import InstantProblem, Region
+from cosserat.peristalsis.nearly_incompressible import largest_difference
 from cosserat.solvers.regions import RegionSettings
 
 WORM = cosserat.case("worm").problem
@@ -35,7 +35,7 @@ def instant(problem, pattern, **loads):
         Region(left, right, load)
         for left, (load, right) in zip(cuts[:-1], PATTERNS[pattern], strict=True)
     ]
-    return Instant(problem.crawler, problem.loads.replace(**loads), regions, "test")
+    return InstantProblem(problem.crawler, problem.loads.replace(**loads), regions, "test")
 
 
 # ---------------------------------------------------------------- materials (section 2.6)
@@ -136,8 +136,8 @@ def test_sources_are_the_gradient_of_a_potential_and_their_derivative_is_its_hes
 
     def at(state):
         if groups.incompressible:
-            share = -n / problem.loads.anchoring * groups.force
-            return sources(groups, state, lam=-share / state.prod(), c=c)
+            fraction = -n / problem.loads.anchoring * groups.force
+            return sources(groups, state, lam=-fraction / state.prod(), c=c)
         return sources(groups, state, n=n / body.stiffnesses[0], c=c)
 
     f, df, _ = at(mu)
@@ -236,9 +236,9 @@ def test_without_load_and_weight_the_reference_is_exact(name, solver, pattern):
 @pytest.mark.parametrize("pattern", PATTERNS)
 @pytest.mark.parametrize("contact", ["weight", "printed"])
 def test_both_solvers_agree_on_any_sequence_of_regions(name, pattern, contact):
-    posed = instant(BODIES[name], pattern, contact=contact)
-    banded, _ = posed.solve(RegionSettings(), None)
-    reference = posed.collocate(FINE, 1e-5)
+    problem = instant(BODIES[name], pattern, contact=contact)
+    banded, _ = problem.solve(RegionSettings(), None)
+    reference = problem.collocate(FINE, 1e-5)
     for ours, theirs in zip(banded.at(Z), reference.at(Z), strict=True):
         if ours.shape == (Z.size, 2) and np.abs(theirs).max() > 5:
             continue  # slopes, in 1 / l_0
@@ -247,19 +247,19 @@ def test_both_solvers_agree_on_any_sequence_of_regions(name, pattern, contact):
 
 @pytest.mark.parametrize("pattern", ["two", "thesis", "worm", "six"])
 def test_both_solvers_agree_on_the_printed_multiplier(pattern):
-    posed = instant(WORM, pattern, multiplier="printed", contact="printed")
-    banded, _ = posed.solve(RegionSettings(), None)
-    reference = posed.collocate(FINE, 1e-5)
+    problem = instant(WORM, pattern, multiplier="printed", contact="printed")
+    banded, _ = problem.solve(RegionSettings(), None)
+    reference = problem.collocate(FINE, 1e-5)
     assert banded.effort <= 8
     assert np.abs(banded.at(Z)[0] - reference.at(Z)[0]).max() < 1e-6
     assert np.abs(banded.at(Z)[2] - reference.at(Z)[2]).max() < 1e-6
 
 
 def test_the_banded_solver_converges_with_the_mesh():
-    posed = instant(WORM, "thesis")
-    reference = posed.solve(RegionSettings(elements=24, degree=10), None)[0].at(Z)[0]
+    problem = instant(WORM, "thesis")
+    reference = problem.solve(RegionSettings(elements=24, degree=10), None)[0].at(Z)[0]
     errors = [
-        np.abs(posed.solve(RegionSettings(elements=n, degree=4), None)[0].at(Z)[0] - reference).max()
+        np.abs(problem.solve(RegionSettings(elements=n, degree=4), None)[0].at(Z)[0] - reference).max()
         for n in (12, 24, 48)
     ]
     assert errors[0] < 1e-5
@@ -283,14 +283,14 @@ def test_the_incompressible_rod_keeps_the_product_of_its_stretches(multiplier):
 @pytest.mark.parametrize("name", ["worm", "worm_printed", "worm_at_rest", "worm_reference"])
 def test_the_delivered_stretches_keep_their_product_and_the_pressure_goes_with_them(name):
     """In the Dataset, between the points of the mesh; the contact force that p_coelom holds is constant there too."""
-    posed = cosserat.case(name)
-    if posed.problem.kind == "crawl":
-        posed = posed.vary("x", strides=1, step="0.35 s")
-    data = cosserat.run(posed)
+    problem = cosserat.case(name)
+    if problem.problem.kind == "crawl":
+        problem = problem.vary("x", strides=1, step="0.35 s")
+    data = cosserat.run(problem)
     product = (data.mu_1 * data.mu_2 * data.mu_3).to_numpy()
     np.testing.assert_allclose(product, 1, rtol=1e-15)
     if name == "worm":
-        body, loads = posed.problem.crawler, posed.problem.loads
+        body, loads = problem.problem.crawler, problem.problem.loads
         k_i, _ = body.incompressible_stiffnesses
         passive = k_i * (2 - data.mu_1 - data.mu_2) * data.mu_1 * data.mu_2
         force = (
@@ -314,7 +314,7 @@ def test_the_true_volume_strays_where_sections_tilt_and_nowhere_else():
 @pytest.mark.parametrize("name", BODIES)
 def test_a_mirrored_pattern_gives_the_mirrored_state(name):
     one = instant(BODIES[name], "two")
-    other = Instant(
+    other = InstantProblem(
         BODIES[name].crawler,
         BODIES[name].loads,
         [Region(0, 0.6, "advancing"), Region(0.6, 1, "anchoring")],
@@ -326,20 +326,22 @@ def test_a_mirrored_pattern_gives_the_mirrored_state(name):
 
 def test_a_vanishing_region_changes_nothing_in_the_limit():
     """The rule that drops regions shorter than the clearance is the limit of keeping them."""
-    alone = Instant(WORM.crawler, WORM.loads, [Region(0, 1, "anchoring")], "test").solve(
+    alone = InstantProblem(WORM.crawler, WORM.loads, [Region(0, 1, "anchoring")], "test").solve(
         RegionSettings(), None
     )[0]
     change = []
     for short in (1e-4, 1e-5, 1e-6):
         regions = [Region(0, 1 - short, "anchoring"), Region(1 - short, 1, "advancing")]
-        profile = Instant(WORM.crawler, WORM.loads, regions, "test").solve(RegionSettings(), None)[0]
+        profile = InstantProblem(WORM.crawler, WORM.loads, regions, "test").solve(
+            RegionSettings(), None
+        )[0]
         change.append(np.abs(profile.at(Z)[0] - alone.at(Z)[0]).max())
     assert change[0] < 0.02
     np.testing.assert_allclose(np.diff(np.log10(change)), -1, atol=0.05)
 
 
-def nearly_incompressible(poisson, share):
-    return apart(WORM.crawler, WORM.loads, poisson, share)
+def nearly_incompressible(poisson, fraction):
+    return largest_difference(WORM.crawler, WORM.loads, poisson, fraction)
 
 
 def test_for_small_loads_the_compressible_rod_tends_to_the_incompressible_one_with_first_order():
@@ -349,7 +351,7 @@ def test_for_small_loads_the_compressible_rod_tends_to_the_incompressible_one_wi
 
 def test_at_finite_loads_the_linear_volume_parts_the_two_rods():
     """(2.2.14) in the one, (2.2.13) in the other: what remains at nu = 1/2 grows with the square of the load."""
-    remains = [nearly_incompressible(0.5 - 1e-7, share) for share in (1.25e-2, 2.5e-2, 5e-2)]
+    remains = [nearly_incompressible(0.5 - 1e-7, fraction) for fraction in (1.25e-2, 2.5e-2, 5e-2)]
     np.testing.assert_allclose(np.diff(np.log2(remains)), 2, atol=0.01)
 
 
@@ -358,18 +360,18 @@ def test_at_finite_loads_the_linear_volume_parts_the_two_rods():
 
 def test_neither_solver_returns_an_unconverged_answer():
     """Both name the loads and the junctions, the parameters that may be out of reach, (2.3.19)."""
-    posed = instant(WORM, "thesis")
+    problem = instant(WORM, "thesis")
     known = (
         r"test with 'loads.anchoring' = 0.02616 N, 'loads.advancing' = 1356.6 Pa and regions that meet at 0.25 and "
         r"0.75: "
     )
     with pytest.raises(NotConvergedError, match=known + "no solution on the regions found"):
-        posed.solve(RegionSettings(max_iterations=1), None)
+        problem.solve(RegionSettings(max_iterations=1), None)
     with pytest.raises(
         NotConvergedError,
         match=known + r"solve_bvp found no solution \(The maximum number of mesh nodes",
     ):
-        posed.collocate(RegionSettings(), 1e-12)
+        problem.collocate(RegionSettings(), 1e-12)
 
 
 @pytest.mark.parametrize("poisson", [-0.9999999999, -0.99995])
@@ -383,9 +385,9 @@ def test_next_to_that_both_solvers_still_agree():
     near = ROBOT.replace(
         crawler=ROBOT.crawler.replace(material=Compressible(young=1e4, poisson=-0.9998))
     )
-    posed = instant(near, "thesis", anchoring=0.05, advancing=300, gravity=0.5)
-    banded, _ = posed.solve(RegionSettings(), None)
-    reference = posed.collocate(FINE, 1e-5)
+    problem = instant(near, "thesis", anchoring=0.05, advancing=300, gravity=0.5)
+    banded, _ = problem.solve(RegionSettings(), None)
+    reference = problem.collocate(FINE, 1e-5)
     assert np.abs(banded.at(Z)[0] - 1).max() > 0.01
     np.testing.assert_allclose(banded.at(Z)[0], reference.at(Z)[0], atol=1e-6)
 

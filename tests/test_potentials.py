@@ -260,7 +260,7 @@ def test_options_of_another_energy_are_refused(name, number):
     own = rod(name, number)
     for other in set(ENERGIES) - {name}:
         foreign = {"barrier": True} if other == "consistent" else {"end_sections": "halved"}
-        with pytest.raises(InputError, match=f"only energy = '{other}' knows"):
+        with pytest.raises(InputError, match=f"only energy = '{other}' takes"):
             own.replace(**foreign)
 
 

@@ -116,12 +116,12 @@ def test_inputs_of_chapter_2_follow_from_the_numbers_behind_them():
     def worm(place):
         return printed.number("worm", place)
 
-    through, share = robot("crawler.length") / robot("v"), robot("T")
-    alone = (1 - share) * through
+    through, fraction = robot("crawler.length") / robot("v"), robot("T")
+    alone = (1 - fraction) * through
     phases = printed.PRINTED["soft_robot"]["gait.phases"].plain
-    assert phases == pytest.approx([robot("t_pause"), alone, share * through, alone])
-    assert sum(phases) == pytest.approx(robot("t_pause") + through * (2 - share))
-    assert printed.PRINTED["soft_robot"]["gait.gamma"].plain[0][1] == [2, share]
+    assert phases == pytest.approx([robot("t_pause"), alone, fraction * through, alone])
+    assert sum(phases) == pytest.approx(robot("t_pause") + through * (2 - fraction))
+    assert printed.PRINTED["soft_robot"]["gait.gamma"].plain[0][1] == [2, fraction]
     assert robot("crawler.length") == pytest.approx(robot("l_0 in inches"))
     assert robot("loads.advancing") == pytest.approx(robot("p in psi"), abs=5)
     assert worm("loads.anchoring") == pytest.approx(worm("share of D_peak") * worm("D_peak"), rel=1e-12)

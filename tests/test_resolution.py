@@ -120,19 +120,19 @@ def test_the_filter_agrees_with_the_modes():
     problem = cosserat.case("vibration_c4_20").problem
     geometry = problem.rod.geometry()
     system, q = problem.system(geometry), geometry.q
-    found = modes(system, q, 80, "x", anchored=True)
+    found = modes(system, q, 80, "x", supported=True)
     rng = np.random.default_rng(0)
     v = np.where(system.constrained, 0.0, rng.uniform(-1, 1, q.size))
-    share = found.coordinates(system.mass, [v])[0] ** 2 / 2
+    fraction = found.coordinates(system.mass, [v])[0] ** 2 / 2
     gradient, band = np.empty(q.size), np.empty((q.size, 14))
     system.internal.assemble(q, gradient, band)
     for h in (1e-6, 1e-5, 1e-4, 1e-3):
         x = found.angular_frequency * h
-        right = float((share * x**16 / (1 + x**16)).sum())
+        right = float((fraction * x**16 / (1 + x**16)).sum())
         assert unresolved_energy(band, system.mass, system.constrained, v, h) == pytest.approx(
-            right, rel=1e-6, abs=1e-9 * share.sum()
+            right, rel=1e-6, abs=1e-9 * fraction.sum()
         )
-    assert share.sum() == pytest.approx(v @ to_dense(system.mass) @ v / 2, rel=1e-9)
+    assert fraction.sum() == pytest.approx(v @ to_dense(system.mass) @ v / 2, rel=1e-9)
 
 
 def test_modes_too_fast_for_the_step_are_named_and_those_it_follows_are_not():
@@ -153,7 +153,7 @@ def test_an_energy_that_runs_away_is_named(monkeypatch):
 
 def test_turning_too_far_in_a_step_is_named():
     data = cosserat.run(spinning(0.05, 5).vary("fast", every=0.7))
-    assert "fast turning" in named(data)
+    assert "fast rotation" in named(data)
 
 
 @pytest.mark.parametrize("hertz", [160.0, 500.0, 999.0, 1000.0])
@@ -167,15 +167,15 @@ def test_a_drive_too_fast_for_the_step_is_named(hertz):
         every=1e-3,
         integrator={"step": 1e-3},
     )
-    assert "fast drive" in named(cosserat.run(shaken))
+    assert "fast support" in named(cosserat.run(shaken))
     step = 0.9 / (2 * np.pi * hertz)
-    assert "fast drive" not in named(cosserat.run(shaken.vary("x", integrator={"step": step})))
+    assert "fast support" not in named(cosserat.run(shaken.vary("x", integrator={"step": step})))
     rocked = shaken.vary(
         "rocked",
         prescribed_displacements=[],
         prescribed_rotations=[{"at": "first", "by": 1e-3, "frequency": hertz}],
     )
-    assert "fast drive" in named(cosserat.run(rocked))
+    assert "fast support" in named(cosserat.run(rocked))
 
 
 def test_a_drag_beyond_what_the_method_follows_is_named():
@@ -279,9 +279,9 @@ def test_sections_that_shear_into_each_other_are_refused_where_their_surfaces_me
     rod = cosserat.case("clamped_free").vary("x", rod={"centreline": centreline, **own}).problem.rod
     for gap in (0.01, -0.01):
         geometry, x, d = leaning(rod, surface, gap)
-        share = -1.0 if surface == "upper" else rod.below
-        apart = np.linalg.norm(share * d[1] + x[2] - x[1] - share * d[2])
-        assert apart == pytest.approx(0.01 * geometry.edge_length[1], rel=1e-9)
+        fraction = -1.0 if surface == "upper" else rod.below
+        distance = np.linalg.norm(fraction * d[1] + x[2] - x[1] - fraction * d[2])
+        assert distance == pytest.approx(0.01 * geometry.edge_length[1], rel=1e-9)
         assert np.isfinite(rod.strain_energy.potential(rod, geometry).energy(np.hstack([x, d]).ravel()))
         if gap > 0:
             check_crossing(geometry, x, d, rod.below, "x")

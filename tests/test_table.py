@@ -73,8 +73,10 @@ def test_just_inside_and_just_outside_fall_on_the_right_sides(row, solved):
         middle, allowed = row.found, row.found_tolerance
     for sign in (-1, 1):
         inside, outside = (
-            Judged.model_construct(row=row, expected=expected, measured=middle + sign * allowed * share)
-            for share in (0.999, 1.001)
+            Judged.model_construct(
+                row=row, expected=expected, measured=middle + sign * allowed * fraction
+            )
+            for fraction in (0.999, 1.001)
         )
         assert inside.holds
         assert not outside.holds
@@ -243,7 +245,7 @@ def test_incomplete_rows_do_not_load(change, sentence):
 def test_an_id_that_stands_twice_is_refused(tmp_path):
     lines = TABLE.read_text().splitlines()
     (tmp_path / "t.csv").write_text("\n".join([*lines, lines[1]]))
-    with pytest.raises(InputError, match="the id 2.7-displacement stands more than once"):
+    with pytest.raises(InputError, match="the id 2.7-displacement occurs more than once"):
         read_table(tmp_path / "t.csv")
 
 

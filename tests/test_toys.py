@@ -149,13 +149,13 @@ def linear_truss(rod, load):
 
 def test_an_energy_of_its_own_unknowns_rests_moves_and_vibrates(trussed):
     forces = [{"at": "last", "along": "E2", "force": 1e-4}]
-    posed = cosserat.case("elastica").vary("braced", rod=trussed, forces=forces, supports=[CLAMP])
-    data = cosserat.run(posed)
+    braced = cosserat.case("elastica").vary("braced", rod=trussed, forces=forces, supports=[CLAMP])
+    data = cosserat.run(braced)
     load = np.zeros((9, 3, 2))
     load[-1, 0, 1] = 1e-4
-    right = linear_truss(posed.problem.rod, load.ravel())
+    right = linear_truss(braced.problem.rod, load.ravel())
     np.testing.assert_allclose(data.u, right[:, 0], atol=1e-6 * np.abs(right).max())
-    assert posed.problem.modes(3).angular_frequency[0] > 0
+    assert braced.problem.modes(3).angular_frequency[0] > 0
     moved = cosserat.case("vibration_consistent")
     free = moved.vary(
         "thrown",
@@ -254,16 +254,18 @@ def follower_angle(load):
 
 
 def test_a_load_that_follows_the_rod_meets_the_elastica(pushes):
-    posed = cosserat.case("elastica").problem
-    base = posed.replace(rod=posed.rod.replace(height=posed.rod.height / 8, width=posed.rod.width / 8))
+    problem = cosserat.case("elastica").problem
+    base = problem.replace(
+        rod=problem.rod.replace(height=problem.rod.height / 8, width=problem.rod.width / 8)
+    )
     bending = base.rod.young * base.rod.second_moment / base.rod.length**2
     table = base.model_dump() | {"kind": "pushed statics", "forces": []}
     found = []
     for vertices in (21, 41, 81):
         table["rod"] = table["rod"] | {"vertices": vertices}
         table["pushes"] = [{"force": 2.0 * bending}]
-        posed = PushedStatics.read(table, "pushed", units_required=False)
-        solution = posed.solve("pushed")
+        problem = PushedStatics.read(table, "pushed", units_required=False)
+        solution = problem.solve("pushed")
         d = solution["d"][-1]
         found.append(np.arctan2(-d[0], d[1]))
         assert solution.statistics["iterations"] < 60

@@ -143,7 +143,11 @@ def test_one_case_edited_reruns_its_batch_and_their_descendants_only(checkout, e
 
 
 def test_the_solver_edited_reruns_every_simulation(checkout, edited):
-    edited("cosserat/solvers/equilibrium.py", "_SURE = 5.0", "_SURE = 6.0")
+    edited(
+        "cosserat/solvers/equilibrium.py",
+        "_DECISIVE_ROUND_OFF_RATIO = 5.0",
+        "_DECISIVE_ROUND_OFF_RATIO = 6.0",
+    )
     _, outputs = planned(checkout)
     assert {f"cases/{name}.nc" for name in KEPT} <= outputs
     assert set(KEPT) < set(cosserat.published())

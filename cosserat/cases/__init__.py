@@ -1,1 +1,1 @@
-"""Cases: what is asked for."""
+"""Cases: computations as data."""

@@ -1,4 +1,4 @@
-"""Cases: what is asked for, read from TOML.  The published ones ship with the package; anyone can write their own."""
+"""Cases from TOML files.  The published ones are part of the package; users write their own."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ def _check_name(name: str) -> str:
 
 
 class Case(Parameters):
-    """One computation: a name, a title, where in the thesis it stands, and the problem itself."""
+    """One computation: a name, a title, its place in the thesis, and the problem itself."""
 
     name: Annotated[str, AfterValidator(_check_name)]
-    """What the case is called: the name of its table in a file, and of the file of its result."""
+    """Name of the case: of its table in a file, and of its result file."""
     title: str
-    """What it is, in a few words; its name, if not given."""
+    """Description in a few words; the name by default."""
     source: str = ""
-    """Where it stands in the thesis, or comes from."""
+    """Its place in the thesis, or its origin."""
     problem: SerializeAsAny[Problem]
-    """What is asked."""
+    """The problem to solve."""
 
     def vary(self, name: str, **changes: Any) -> Case:
         """A case of another name with parts of the problem changed: `case.vary("long", rod={"length": "10 m"})`.
@@ -137,7 +137,7 @@ def _read(file: str | Path) -> dict[str, Any]:
     stray = [key for key, value in tables.items() if not isinstance(value, dict)]
     if stray:
         raise InputError(
-            f"{file}: '{stray[0]}' stands outside a case; put it below the case's name, such as [my_rod]"
+            f"{file}: '{stray[0]}' is outside a case; put it below the case's name, such as [my_rod]"
         )
     if not tables:
         raise InputError(f"{file} holds no case; begin one with its name, such as [my_rod]")
@@ -145,7 +145,7 @@ def _read(file: str | Path) -> dict[str, Any]:
 
 
 def _remedy(error: str, text: str) -> str:
-    """What to do about a line that is no TOML, for the two ways in which people write numbers most."""
+    """The remedy for a line that is not TOML: decimal commas and numbers with units outside quotation marks."""
     place = re.search(r"at line (\d+)", error)
     line = text.split("\n")[int(place[1]) - 1] if place else ""
     number = r"=\s*[+-]?\d[\d_]*"
@@ -157,7 +157,7 @@ def _remedy(error: str, text: str) -> str:
 
 
 def parse(parameters: str) -> Case:
-    """The case that a Dataset's `parameters` attribute holds, as JSON in SI units.
+    """The case in the `parameters` attribute of a Dataset, JSON in SI units.
 
     Raises
     ------
@@ -190,7 +190,7 @@ def _build(name: str, known: Mapping[str, Any]) -> Case:
 
 
 def _read_problem(table: dict[str, Any], name: str, *, units_required: bool) -> Problem:
-    """The problem of a table, as the class of its kind reads it."""
+    """The problem of a table, read by the class of its kind."""
     kind = table.pop("kind", "")
     if not isinstance(kind, str) or kind not in kinds():
         raise InputError(f"{name}: 'kind' is {kind!r}{nearest(str(kind), list(kinds()))}")
@@ -198,10 +198,10 @@ def _read_problem(table: dict[str, Any], name: str, *, units_required: bool) -> 
 
 
 def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:
-    """The table of a case with everything that `like` brings in."""
+    """The table of a case with everything inherited by `like`."""
     if name in seen:
         raise InputError(
-            f"case '{name}': its 'like' leads back to itself ({' -> '.join((*seen, name))}); break the circle"
+            f"case '{name}': its 'like' refers back to itself ({' -> '.join((*seen, name))}); break the circle"
         )
     if name not in known:
         raise InputError(

@@ -1,1 +1,1 @@
-"""Outcomes as Datasets with units and origin, and their files."""
+"""Solutions as Datasets with units and origin, and their files."""

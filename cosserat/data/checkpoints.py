@@ -1,4 +1,4 @@
-"""Parts of a long run on disk: each a whole netCDF file, so that a run can be cut anywhere and go on."""
+"""Parts of a long run on disk: each a whole netCDF file, so an interrupted run can resume."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Parts:
 
     @property
     def folder(self) -> Path:
-        """Where the parts are."""
+        """The folder of the parts."""
         return self.result.with_name(f"{self.result.name}.parts")
 
     def load(self, number: int) -> xr.Dataset | None:
@@ -31,12 +31,12 @@ class Parts:
         return load(path) if path.is_file() else None
 
     def save(self, number: int, part: xr.Dataset, *, whole: bool = True) -> None:
-        """Store a part; one that its run could not finish goes to `stopped.nc`, from which nothing goes on."""
+        """Store a part; an unfinished one goes to `stopped.nc`, and no run resumes from it."""
         self.folder.mkdir(exist_ok=True)
         save(part, self._path(number) if whole else self.folder / "stopped.nc")
 
     def remove(self) -> None:
-        """Forget the parts once the result stands, and the folder if there is nothing else in it."""
+        """Delete the parts after the result is saved, and the folder if it is empty."""
         for ours in ("[0-9]*.nc", "stopped.nc", ".*.nc.*.part"):
             for part in self.folder.glob(ours):
                 part.unlink(missing_ok=True)
@@ -44,12 +44,12 @@ class Parts:
             self.folder.rmdir()
 
     def check_same_run(self, part: xr.Dataset, fresh: xr.Dataset) -> None:
-        """Raise InputError if a stored part is of another case, code or environment than the run that goes on."""
+        """Raise InputError if a stored part is of another case, code or environment than the resuming run."""
         for key in _MUST_AGREE:
             if part.attrs.get(key) != fresh.attrs.get(key):
                 raise InputError(
                     f"{self.folder} holds parts of a run with other {key}; continuing would mix the two: "
-                    "remove that folder to begin anew, or go back to what it was begun with"
+                    f"remove that folder to start again, or restore the earlier {key}"
                 )
 
     def _path(self, number: int) -> Path:

@@ -19,16 +19,16 @@ from cosserat.solution import Solution
 
 P = TypeVar("P")
 _FRAME = "frame"
-"""Name of a file's dimension of instants, with `time` along it: a dimension named `time` is, to the tools of CF, one of
-dates, and theirs alone may have it.  Here times count from the start, in plain seconds."""
+"""Dimension of instants in a file, with `time` along it.  Tools of CF take a dimension named `time` for dates; here
+times are plain seconds from the start."""
 _ALONG = ("time", "point")
 """Dimensions that may come before those of one state."""
 
 
 def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
-    """Dress a solution: `units`, `long_name`, `symbol` and `equation` on every variable.
+    """A solution with `units`, `long_name`, `symbol` and `equation` on every variable.
 
-    Global attributes hold the case's parameters, the solver's statistics and the origin; never a clock.
+    Global attributes hold the case's parameters, the solver's statistics and the origin, but no date.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
 
 
 def warnings_of(dataset: xr.Dataset) -> list[str]:
-    """What a user should know before using the numbers, a sentence each; none where all is well."""
+    """Sentences about the use of the numbers; empty if all is well."""
     return str(dataset.attrs.get("warnings", "")).splitlines()
 
 
@@ -102,7 +102,7 @@ def case_of(dataset: xr.Dataset) -> Case:
 
 
 def _name(dataset: xr.Dataset) -> str:
-    """What to call a Dataset in a sentence: the file that it was read from, if it was."""
+    """Name of a Dataset in a sentence: the file that it was read from, if any."""
     return str(dataset.encoding.get("source", "this Dataset"))
 
 
@@ -132,7 +132,7 @@ def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
 
 
 def effort(dataset: xr.Dataset) -> str:
-    """What solving took, in a few words, as the problem's kind puts it."""
+    """The effort of the solution in a few words, by the problem's kind."""
     sizes = {str(dim): size for dim, size in dataset.sizes.items()}
     return case_of(dataset).problem.summary(statistics_of(dataset), sizes)
 

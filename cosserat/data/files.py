@@ -1,4 +1,4 @@
-"""Files that are whole or absent, and refused before anything is computed for them."""
+"""Files that are whole or absent, checked before anything is computed for them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from cosserat.errors import InputError
 
 
 def check_destination(path: Path, suffix: str = "") -> None:
-    """Refuse a file that could not be written, before anything is computed.
+    """Raise InputError for a file that cannot be written, before anything is computed.
 
     Raises
     ------
@@ -41,9 +41,9 @@ def check_destination(path: Path, suffix: str = "") -> None:
 
 @contextlib.contextmanager
 def whole_or_absent(path: Path) -> Iterator[Path]:
-    """A temporary name beside `path` to write to; it takes the place of `path` when the block ends well.
+    """A temporary file beside `path`; it replaces `path` when the block succeeds.
 
-    What a killed process of this machine was writing for the same `path` is swept away first.
+    Temporary files of killed processes of this machine for the same `path` are deleted first.
 
     Raises
     ------
@@ -66,7 +66,7 @@ def whole_or_absent(path: Path) -> Iterator[Path]:
 
 
 def _is_running(process: str) -> bool:
-    """Whether a process of this machine, by its number, is alive; what is no number is somebody else's file."""
+    """Whether a process of this machine, by its number, is alive; True if it is not a number: another's file."""
     if not process.isdecimal():
         return True
     try:
@@ -80,9 +80,9 @@ def _is_running(process: str) -> bool:
 
 @contextlib.contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Let a Ctrl-C wait until the block has ended: xarray's locks stay taken, for ever, where one strikes inside.
+    """Delay a Ctrl-C until the block has ended: inside, it would leave xarray's locks taken for ever.
 
-    Only Python's main thread is ever interrupted; elsewhere this does nothing.
+    Only Python's main thread is interrupted; in other threads this does nothing.
     """
     if (
         threading.current_thread() is not threading.main_thread()

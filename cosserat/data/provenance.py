@@ -1,4 +1,4 @@
-"""Where a result comes from: the version and the code that computed it, without a clock."""
+"""Origin of a result: the version and the code that computed it, without a date."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _COMPUTING = (
 
 
 def computing_sources() -> list[Path]:
-    """The modules that can change a computed result, sorted: the code a simulation has to be run again for.
+    """The modules that can change a computed result, sorted: a change of one makes simulations run again.
 
     Case files are not among them: each case is an input by itself.
     """
@@ -56,6 +56,6 @@ def source() -> str:
 
 
 def environment() -> dict[str, str]:
-    """Versions that may move the last digits of a result."""
+    """Versions that may change the last digits of a result."""
     versions = {name: importlib.metadata.version(name) for name in ("numpy", "scipy", "numba")}
     return {"python": platform.python_version(), **versions}

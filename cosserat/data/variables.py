@@ -1,4 +1,4 @@
-"""What every stored variable is: dimensions, unit, meaning, symbol and equation of the thesis, and rounding floor."""
+"""The table of stored variables: dimensions, unit, meaning, symbol and equation of the thesis, and round-off floor."""
 
 from __future__ import annotations
 
@@ -163,7 +163,7 @@ for _problem, _dim in (
     _name = _problem.replace("_", " ")
     _directions = f"{_dim}_direction"
     VARIABLES |= {
-        # what a fit leaves open is known to no better than the root of the rounding of its misfit
+        # undetermined directions of a fit are known to the root of the round-off of its misfit
         f"{_problem}_coefficients": Variable(
             ("mesh", f"{_dim}_coefficient"),
             "1",

@@ -1,1 +1,1 @@
-"""What a case may say: one list of keys, read from the parameter classes, and the forms in which it is given."""
+"""The keys of a case: one list from the parameter classes, as text and as schemas."""

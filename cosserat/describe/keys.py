@@ -1,6 +1,6 @@
-"""Every key that a case may have, with its type, unit, default, range and meaning, as the parameter classes have them.
+"""Every key of a case, with its type, unit, default, range and meaning from the parameter classes.
 
-The text of `cosserat describe`, the schemas for editors and the page of the book are made from this list.
+The text of `cosserat describe`, the schemas for editors and the page of the book come from this list.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ Form = Literal["quantity", "count", "vertex", "word", "name", "text", "truth", "
 
 @dataclass(frozen=True)
 class Value:
-    """What may be written at a key.
+    """The type of a value.
 
     about : unit and range of a quantity or a count.
-    words : the words of which one is written.
-    tables : the classes of which one says what keys the table has; several differ in their `kind`.
-    items : of a list, what each item is; of a row, what stands at each place.
-    none : whether the word "none" takes the value away.
+    words : the allowed words.
+    tables : the possible classes of a table; several differ in their `kind`.
+    items : types of the items of a list, or of the places of a row.
+    none : whether the word "none" removes the value.
     """
 
     form: Form
@@ -44,7 +44,7 @@ class Value:
 
     @property
     def innermost(self) -> Value:
-        """The value itself, or what the lists hold in the end."""
+        """The value itself, or the innermost item of nested lists."""
         return self.items[0].innermost if self.form == "list" else self
 
     @property
@@ -57,9 +57,9 @@ class Value:
 class Key:
     """One key.
 
-    path : as a case file has it, dotted; "forces[].at" is a key of each table of a list.
-    when : the `kind` of the table in which it is a key, if there is a choice.
-    default : as it would be written in a case file; None if the key is required or stands for nothing when left out.
+    path : as in a case file, dotted; "forces[].at" is a key of each table of a list.
+    when : the `kind` of its table, if there is a choice.
+    default : as in a case file; None if the key is required or has no default.
     """
 
     path: str
@@ -76,7 +76,7 @@ class Key:
 
     @property
     def inside(self) -> str:
-        """What the paths of the keys inside it begin with, if it is a table or a list of tables."""
+        """Prefix of the paths of the keys inside it, if it is a table or a list of tables."""
         return f"{self.path}[]." if self.value.form == "list" else f"{self.path}."
 
 
@@ -85,14 +85,14 @@ LIKE = Key(
     Value("name"),
     required=False,
     default=None,
-    meaning="The case, or a list of cases, from which this one takes what it does not say itself.",
+    meaning="The case, or a list of cases, from which this one inherits what it does not give itself.",
 )
-"""The key that every case may have and no class: the reader follows it."""
+"""The key of every case that is in no class: the reader follows it."""
 
 
 @functools.cache
 def common_keys() -> tuple[Key, ...]:
-    """The keys that every case may have beside those of its kind."""
+    """The keys of every case, in addition to those of its kind."""
     about = [
         Key(name, Value("text"), required=False, default=None, meaning=docstrings(Case)[name])
         for name in ("title", "source")
@@ -117,7 +117,7 @@ def keys(kind: str) -> tuple[Key, ...]:
 
 
 def title(kind: str) -> str:
-    """What a kind is, in the first paragraph of its class."""
+    """Description of a kind: the first paragraph of its class."""
     return _paragraph(kinds()[kind].problem_class())
 
 
@@ -154,12 +154,12 @@ def _keys(owner: type[BaseModel], before: str, when: str) -> Iterator[Key]:
 
 
 def _whole(field: FieldInfo) -> Any:
-    """The annotation of a field as its class has it: pydantic takes it apart."""
+    """The annotation of a field in its class, before pydantic splits it."""
     return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
 
 
 def _meaning(owner: type[BaseModel], name: str, value: Value) -> str:
-    """The text below a field; of a `kind`, of a table and of a list of tables without one, that of the class."""
+    """The docstring of a field; for a `kind`, a table or a list of tables without one, that of the class."""
     if name in docstrings(owner):
         return docstrings(owner)[name]
     tables = (owner,) if name == "kind" else value.innermost.tables
@@ -171,7 +171,7 @@ def _paragraph(owner: type[BaseModel]) -> str:
 
 
 def _value(annotation: Any) -> Value | None:
-    """What an annotation lets be written; None if that is nothing."""
+    """The values allowed by an annotation; None if there are none."""
     about: list[Any] = []
     while get_origin(annotation) is Annotated:
         about += annotation.__metadata__

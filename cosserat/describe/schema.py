@@ -1,8 +1,8 @@
 """JSON Schemas of cases, draft 2020-12, from the list of keys: for editors that complete and check TOML files.
 
-Editors follow `anyOf` and `oneOf` but no conditions, and some see nothing of what stands beside a `$ref`; so each key
-has its own text, and what is shared stands in an `anyOf` of one.  What a schema cannot say is left to the reader: rules
-that join several keys, ranges of texts with units, what `like` brings in, and that 3.0 is no whole number.
+Editors follow `anyOf` and `oneOf` but no conditions, and some ignore everything beside a `$ref`.  So each key has its
+own text, and shared parts are in an `anyOf` of one.  Some rules are left to the reader: those that join several keys,
+ranges of texts with units, values inherited by `like`, and that 3.0 is no whole number.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def as_written() -> Schema:
-    """The schema of a file of cases: tables by name, in which `like` may stand for whatever is left out."""
+    """The schema of a file of cases: tables by name, which may inherit missing keys by `like`."""
     part = {"description": "A part to build on, which is read where it is used.", "type": "object"}
     return {
         "$schema": _DRAFT,
@@ -39,7 +39,7 @@ def as_written() -> Schema:
 
 
 def merged() -> Schema:
-    """The schema of one case with everything that `like` brings in: its `kind` says which keys it has and needs."""
+    """The schema of one case with everything inherited by `like`: its `kind` determines its keys."""
     cases = [_case(kind, whole=True) for kind in kinds()]
     return {
         "$schema": _DRAFT,
@@ -70,12 +70,12 @@ def _scalars(value: Value) -> Iterable[Value]:
 
 
 def _word(text: str) -> str:
-    """The name of a shared schema, without blanks, which an address may not have."""
+    """The name of a shared schema, without blanks, as in an address."""
     return text.removeprefix("a ").removeprefix("an ").replace(" ", "-")
 
 
 def _case(kind: str, *, whole: bool) -> Schema:
-    """A case of one kind; unless it is whole, tables right inside it may build on a case too."""
+    """A case of one kind; if it is not whole, tables directly inside it may have a `like` too."""
     common = [key for key in common_keys() if not (whole and key.name == "like")]
     nodes = {key.name: _node(key, (), whole=whole) for key in common}
     table = _table(keys(kind), "", "", whole=whole, parts=not whole)
@@ -88,9 +88,9 @@ def _case(kind: str, *, whole: bool) -> Schema:
 
 
 def _case_of_any_kind() -> Schema:
-    """A case whose `kind` may come from `like`: every key of any kind, then which of them go together.
+    """A case whose `kind` may come from `like`: every key of any kind, then their combinations.
 
-    So an editor shows a key of several kinds once, and a fault where it is.
+    So an editor shows a key of several kinds once, and a fault in its place.
     """
     cases = {kind: _case(kind, whole=False)["properties"] for kind in kinds()}
     names = dict.fromkeys(name for nodes in cases.values() for name in nodes)
@@ -125,7 +125,8 @@ def _table(
 ) -> Schema:
     """The table of the keys whose paths are `before` and a name.
 
-    whole : no required key may be left out.  like, parts : the table, or the tables right inside it, may have a `like`.
+    whole : required keys must be present.  like, parts : the table, or the tables directly inside it, may have a
+    `like`.
     """
     own = [key for key in found if key.path == before + key.name and key.when == when]
     nodes = {key.name: _node(key, found, whole=whole, like=parts) for key in own}
@@ -136,7 +137,7 @@ def _table(
 
 
 def _node(key: Key, found: tuple[Key, ...], *, whole: bool, like: bool = False) -> Schema:
-    """What may be written at a key, with what an editor shows of it."""
+    """The schema of a key, with its text for editors."""
     value, inside = key.value, key.inside
     described = ". ".join(
         filter(None, (f"{type_of(key)}; {need(key)}", " ".join(key.meaning.split()), thesis(key)))
@@ -149,7 +150,7 @@ def _node(key: Key, found: tuple[Key, ...], *, whole: bool, like: bool = False) 
     if value.form == "table" and not value.problem:
         choices = dict.fromkeys(k.when for k in found if k.path == inside + k.name)
         form = _any([_table(found, inside, when, whole=whole, like=like) for when in choices])
-    elif value.form == "list" and value.items[0].tables:  # what `like` brings in is replaced as a whole
+    elif value.form == "list" and value.items[0].tables:  # an inherited list is replaced as a whole
         form = {"type": "array", "items": _table(found, inside, key.when, whole=True)}
     else:
         form = _form(value)
@@ -165,7 +166,7 @@ def _example(about: Quantity) -> str | float:
 
 
 def _form(value: Value) -> Schema:
-    """What may be written, without what an editor shows."""
+    """The schema of a value, without its text for editors."""
     about = value.about
     if isinstance(about, Quantity):
         text = {"$ref": f"#/$defs/{_word(what_is_in(about.unit))}"}

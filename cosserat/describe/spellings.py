@@ -1,8 +1,7 @@
-"""Patterns of the texts that say a quantity with its unit, for editors, which cannot call the reader.
+"""Patterns of quantities with units, for editors, which cannot call the reader.
 
-A unit of one word has to be among those that are listed here and that the reader takes for the dimension.  Of units
-put together, such as "N/mm^2", a pattern refuses those that it knows to be of another dimension.  All others pass, and
-the reader judges them.
+A unit of one word must be listed here and must have the right dimension.  Of compound units, such as "N/mm^2", a
+pattern rejects those that it knows to be of another dimension.  All others pass, and the reader checks them.
 """
 
 from __future__ import annotations
@@ -20,12 +19,12 @@ _WORDS = (
     "ksi atm Hz J Nm kNm MNm mNm µNm Nmm Ncm rad deg degree ° º turn rpm % percent ppm g_0 g_n g0 standard_gravity"
 )
 WORDS = (*_WORDS.split(), *_PREFIXED)
-"""Units of one word that the patterns know."""
+"""Units of one word in the patterns."""
 COMPOUNDS = (
     *("m^2", "m^3", "m^-1", "s^-1", "kg/m", "kg/m^2", "kg/m^3", "kg*m"),
     *("m/s", "m/s^2", "N/m", "N/m^2", "N/m^3", "N*m", "rad/m", "rad/s"),
 )
-"""Units put together, of which the patterns know every spelling with known words."""
+"""Compound units; the patterns have each of their spellings with these words."""
 
 _SIGN = "[-+−‐‑–]"
 _TIMES = r"\s*[*x×·⋅∙•]\s*"
@@ -43,7 +42,7 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @functools.cache
 def accepted(unit: str) -> str:
-    """The pattern of what may be a text in a unit: a number, then a word of its dimension, or units put together."""
+    """The pattern of a text in a unit: a number, then a word of its dimension, or a compound unit."""
     words = "|".join(map(re.escape, _words(unit)))
     nothing = "|" if unit == "1" else ""
     return rf"^{_NUMBER}(?:{words}|{_PUT_TOGETHER}{nothing})\s*$"
@@ -51,7 +50,7 @@ def accepted(unit: str) -> str:
 
 @functools.cache
 def refused(unit: str) -> str:
-    """The pattern of texts in known units put together that are of another dimension."""
+    """The pattern of texts in known compound units of another dimension."""
     others = [compound for compound in COMPOUNDS if not is_read_as(compound, unit)]
     return rf"^{_NUMBER}(?:{'|'.join(map(_spelled, others))})\s*$"
 
@@ -63,7 +62,7 @@ def _words(unit: str) -> list[str]:
 
 
 def _spelled(compound: str) -> str:
-    """The pattern of every spelling of units put together: "kg/m^3" is also "g/cm³" and "kg m-3"."""
+    """The pattern of every spelling of a compound unit: "kg/m^3" is also "g/cm³" and "kg m-3"."""
     pattern = ""
     for sign, word, power in re.findall(r"([*/]?)(\w+)(?:\^(-?\d))?", compound):
         alike = f"(?:{'|'.join(map(re.escape, _words(word)))})"

@@ -1,4 +1,4 @@
-"""What a case may say, as plain text of at most 100 columns: `cosserat describe`."""
+"""The keys of a case as plain text of at most 100 columns: `cosserat describe`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WIDTH = 100
 
 
 def list_of_kinds() -> str:
-    """Every kind with what it is, a line each, and the keys that every case may have."""
+    """Every kind with its description, a line each, and the keys of every case."""
     width = max(map(len, kinds()))
     lines = [f"{kind:<{width}}  {title(kind)}" for kind in kinds()]
     return "\n".join(
@@ -41,7 +41,7 @@ def list_of_keys(kind: str) -> str:
 
 
 def paragraph(key: Key) -> str:
-    """What a key is, in a few lines."""
+    """Description of a key, in a few lines."""
     where = f'   (where kind = "{key.when}")' if key.when and key.name != "kind" else ""
     lines = [f"{type_of(key)}; {need(key)}", key.meaning, thesis(key)]
     wrapped = [
@@ -53,12 +53,12 @@ def paragraph(key: Key) -> str:
 
 
 def type_of(key: Key) -> str:
-    """What is written at a key, with unit and range."""
+    """Type of a key, with unit and range."""
     return _type(key.value) + (' or "none"' if key.value.none else "")
 
 
 def need(key: Key) -> str:
-    """Whether a key is required, and what counts if it is left out."""
+    """Whether a key is required, and its default."""
     if key.required:
         return "required"
     return "may be left out" if key.default in (None, "{}") else f"default {key.default}"

@@ -1,4 +1,4 @@
-"""Closed forms that judge the models: section 3.5, in small displacements.  Nothing here knows our models.
+"""Closed forms of section 3.5, in small displacements, independent of the models of this package.
 
 Lengths in m, forces in N, moduli in Pa; xi is an array of arc lengths from the left end.
 """
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 NeckingTheory = Literal["printed", "two directors", "plane strain", "free section"]
-"""Which one-dimensional theory gives the decay of a necked end; see `necking_decay`."""
+"""The one-dimensional theory of the decay of a necked end; see `necking_decay`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +58,7 @@ def hanging_bar_displacement(beam: Beam, g: float, xi: Array) -> Array:
 
 
 def sigma(beam: Beam, g: float) -> tuple[float, float]:
-    """sigma_1, sigma_2 of eq. (3.5.5) [1]: what the weight does by bending and by shear."""
+    """sigma_1, sigma_2 of eq. (3.5.5) [1]: the effects of the weight by bending and by shear."""
     weight = beam.line_density * g
     sigma_1 = weight * beam.length**3 / (beam.young * beam.second_moment)
     sigma_2 = (
@@ -124,9 +124,9 @@ def clamped_free_tip_of_published_rod(beam: Beam, g: float, c3: float, c4: float
     """Tip displacement to which the published rod tends under refinement [m]; not in the thesis.
 
     derived: in the limit the energy is that of k3 alpha'^2 + k4 theta^2 + k5 theta'^2 over 2, alpha the angle of the
-    tangent and theta of shear.  The director carries no load, so k5 theta'' = k4 theta: shear lives in a layer beside
-    the clamp, theta = -alpha(0) exp(-xi sqrt(k4 / k5)), whose energy sqrt(k4 k5) alpha(0)^2 / 2 is a spring between
-    clamp and tangent.  The moment M there turns the beam by M / sqrt(k4 k5); the rest bends with k3.
+    tangent and theta of shear.  The director carries no load, so k5 theta'' = k4 theta: shear is confined to a layer
+    beside the clamp, theta = -alpha(0) exp(-xi sqrt(k4 / k5)), whose energy sqrt(k4 k5) alpha(0)^2 / 2 is a spring
+    between clamp and tangent.  The moment M there rotates the beam by M / sqrt(k4 k5); the rest bends with k3.
     """
     weight, length = beam.line_density * g, beam.length
     shear = beam.shear_stiffness
@@ -136,10 +136,10 @@ def clamped_free_tip_of_published_rod(beam: Beam, g: float, c3: float, c4: float
 
 
 def necking_decay(beam: Beam, theory: NeckingTheory) -> float:
-    """beta [1/m]: how fast the section stretch reaches its far value beside an end that cannot contract.
+    """beta [1/m]: decay rate of the section stretch beside an end that cannot contract.
 
     "printed" is eq. (3.5.9).  The others follow from k6 lambda'' = k2 (lambda - 1) + k7 (mu - 1) with the axial force
-    constant, k6 = mu I as in eqs. (1.2.98) and (2.6.20), and what the page leaves open chosen in three ways:
+    constant, k6 = mu I as in eqs. (1.2.98) and (2.6.20), and three choices where the page is silent:
 
     "two directors": both lateral stretches equal, the theory of Chapter 1.
     "plane strain": no stretch along E1.
@@ -162,8 +162,8 @@ def necking_decay(beam: Beam, theory: NeckingTheory) -> float:
 def necking_strain(beam: Beam, n: float, beta: float, xi: Array) -> Array:
     """lambda - 1 in a bar pulled by n whose end sections cannot contract, eq. (3.5.8) [1].
 
-    Eq. (3.5.8) rearranged: as printed it subtracts numbers of size cosh(beta l), which leaves no digits at the far
-    end of a long bar.
+    Eq. (3.5.8) rearranged: as printed it subtracts numbers of size cosh(beta l), which leaves no digits at the far end
+    of a long bar.
     """
     profile: Array = (np.exp(beta * (xi - beam.length)) + np.exp(-beta * xi)) / (
         1 + np.exp(-beta * beam.length)
@@ -172,7 +172,7 @@ def necking_strain(beam: Beam, n: float, beta: float, xi: Array) -> Array:
 
 
 def necking_strain_as_printed(beam: Beam, n: float, beta: float, xi: Array) -> Array:
-    """Eq. (3.5.8) in the order of operations of the page; kept for the evidence that it loses its digits."""
+    """Eq. (3.5.8) in the order of operations of the page, as evidence that it loses its digits."""
     decay = (1 - np.cosh(beta * beam.length)) / np.sinh(beta * beam.length)
     shape: Array = decay * np.sinh(beta * xi) + np.cosh(beta * xi) - 1
     return beam.poisson * n / beam.axial_stiffness * shape
@@ -189,7 +189,7 @@ def rest_pressure(line_density: float, g: float, radius: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class PushPullRod:
-    """A compressible crawler under its weight, section 2.3, as the closed form knows it.
+    """A compressible crawler under its weight, section 2.3: the constants of the closed form.
 
     k_s, k_p [N], k_g [N m^2] : stiffnesses.  length, radius [m].  weight : rho_0 g [N/m].
     anchoring : D [N].  advancing : p pi R^2 [N].
@@ -208,8 +208,8 @@ class PushPullRod:
         """Length along the ground, eq. (2.5.8) [m], with anchoring loads on [0, junction] and advancing ones beyond.
 
         derived: with the weight per reference length and mu_3 of (2.3.2) put in, y = mu_1 + mu_2 obeys
-        y'' = a^2 (y - b) with another b on either side of the junction, while mu_1 - mu_2 is constant; y and y'
-        continuous and y' = 0 at the ends give y = b + C cosh(a xi) on the left and so on the right.
+        y'' = a^2 (y - b) with a different b on each side of the junction, while mu_1 - mu_2 is constant; y and y'
+        continuous and y' = 0 at the ends give y = b + C cosh(a xi) on the left, and likewise on the right.
         """
         from scipy.integrate import quad
 
@@ -246,8 +246,8 @@ def _two_plateaus(
     if left + right == 0 or junction in (0.0, length):
         return b[0] if junction == length else b[1], 0.0
     if xi < junction:
-        share = jump * right / (left + right) / np.cosh(a * junction)
-        return b[0] + share * np.cosh(a * xi), share * a * np.sinh(a * xi)
-    share = -jump * left / (left + right) / np.cosh(a * (length - junction))
+        fraction = jump * right / (left + right) / np.cosh(a * junction)
+        return b[0] + fraction * np.cosh(a * xi), fraction * a * np.sinh(a * xi)
+    fraction = -jump * left / (left + right) / np.cosh(a * (length - junction))
     back = a * (length - xi)
-    return b[1] + share * np.cosh(back), -share * a * np.sinh(back)
+    return b[1] + fraction * np.cosh(back), -fraction * a * np.sinh(back)

@@ -1,4 +1,4 @@
-"""Exact answers for rods that bend far or vibrate with shear.  Nothing here knows our models.
+"""Exact answers for rods with large deflections or vibrations with shear, independent of the models of this package.
 
 Lengths in lengths of the rod, forces in EI / L^2, unless a unit is given.
 """
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def transverse_tip(force: float) -> tuple[float, float]:
-    """Sideways displacement and shortening of the tip of a clamped inextensible rod under a dead force across it.
+    """Lateral displacement and shortening of the tip of a clamped inextensible rod under a dead force across it.
 
     Elliptic integrals of the parameter k^2 = (1 + sin(tip angle)) / 2 (Bisshopp and Drucker 1945; Mattiasson 1981).
     """
@@ -34,13 +34,13 @@ def transverse_tip(force: float) -> tuple[float, float]:
 
 
 def shearable_tip(force: float, axial: float, shear: float) -> tuple[float, float]:
-    """The same of Reissner's rod with axial stiffness EA and shear stiffness kGA."""
+    """Lateral displacement and shortening of the tip of Reissner's rod with stiffnesses EA and kGA."""
     x, y, _ = shearable_shape(force, axial, shear, np.array([1.0]))[-1]
     return float(y), float(1 - x)
 
 
 def shearable_shape(force: float, axial: float, shear: float, s: Array) -> Array:
-    """That rod by shooting: x, y and the angle of its sections at the arc lengths s, shape (len(s), 3)."""
+    """Reissner's rod by shooting: x, y and the angle of its sections at the arc lengths s, shape (len(s), 3)."""
     from scipy.integrate import solve_ivp
     from scipy.optimize import brentq
 
@@ -68,18 +68,18 @@ def shearable_shape(force: float, axial: float, shear: float, s: Array) -> Array
 
 
 def column_load(sideways_angle: float) -> float:
-    """Load of a clamped-free inextensible column whose tip has turned by an angle [rad]: K(k)^2, k = sin(angle / 2)."""
+    """Load of a clamped-free inextensible column at an angle [rad] of its tip: K(k)^2, k = sin(angle / 2)."""
     from scipy.special import ellipk
 
     return float(ellipk(np.sin(sideways_angle / 2) ** 2) ** 2)
 
 
 def column_tip(load: float) -> tuple[float, float]:
-    """Sideways displacement and height of the tip of a clamped-free inextensible column beyond its buckling load.
+    """Lateral displacement and height of the tip of a clamped-free inextensible column beyond its buckling load.
 
     Raises
     ------
-    ValueError : the load is below pi^2 / 4, where the column stands straight.
+    ValueError : the load is below pi^2 / 4, where the column is straight.
     """
     from scipy.optimize import brentq
     from scipy.special import ellipe, ellipk

@@ -18,10 +18,10 @@ from cosserat.problems.crawl import Crawl, CrawlerProblem
 Array = NDArray[np.float64]
 
 THINNED = "#f3d3a8"  # where advancing loads act
-GAMMA, ETA, ANCHOR = "#3a7d44", "#0b5fa5", "#c1121f"  # green, blue and red, as Fig. 2.7 has them
+GAMMA, ETA, ANCHOR = "#3a7d44", "#0b5fa5", "#c1121f"  # green, blue and red, as in Fig. 2.7
 FRONTS = {"gamma": GAMMA, "eta": ETA}
 STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
-WIDTHS = {"mu_1": 2.4, "mu_2": 1.0, "mu_3": 1.4}  # mu_2 lies on mu_1 but for the weight
+WIDTHS = {"mu_1": 2.4, "mu_2": 1.0, "mu_3": 1.4}  # mu_2 lies on mu_1 apart from the weight
 _WIDTH, _MARGIN = 720, 14  # of an animation, in pixels
 _SHOWN = 126  # sections of an animated outline
 
@@ -37,10 +37,10 @@ def draw_crawler(
 ) -> None:
     """The lateral surface of one instant from the side, the ground at `base`, in cm.
 
-    mark : share of the length at which a section is marked in black.  tall : how much heights are magnified.
+    mark : fraction of the length at which a section is marked in black.  tall : magnification of heights.
     """
     along = state.along.to_numpy() * 1e2
-    # the ground is where the sections touch it, (2.2.16)
+    # the sections touch the ground, (2.2.16)
     top = 2 * tall * radius * state.mu_1.to_numpy() * 1e2 + base
     thin = state.advancing.to_numpy() > 0.5
     ax.fill_between(along, base, top, color=BODY, linewidth=0)
@@ -110,22 +110,22 @@ def draw_fronts(ax: Axes, data: xr.Dataset, indices: list[int]) -> None:
 
 
 def fronts_on_the_body(problem: Crawl, time: float) -> list[tuple[float, str]]:
-    """Places in shares of the length, and kinds, of the fronts at a time [s]; one that is at an end has left."""
+    """Places, as fractions of the length, and kinds of the fronts at a time [s]; a front at an end has left."""
     gait = problem.gait
-    share = time / gait.duration - min(int(time / gait.duration + 1e-9), problem.strides - 1)
+    fraction = time / gait.duration - min(int(time / gait.duration + 1e-9), problem.strides - 1)
     starts = np.concatenate([[0.0], np.cumsum(gait.phases)])
-    phase = float(np.interp(share * gait.duration, starts, np.arange(starts.size)))
+    phase = float(np.interp(fraction * gait.duration, starts, np.arange(starts.size)))
     near = gait.clearance
     return [front for front in gait.fronts(phase) if near < front[0] < 1 - near]
 
 
 def lane_height(data: xr.Dataset, tall: float = 1.0) -> float:
-    """Height that a crawler takes in a row of snapshots, in cm."""
+    """Height of a crawler in a row of snapshots, in cm."""
     return 2e2 * tall * problem_of(data, Crawl).crawler.radius * 1.4
 
 
 def legend_of_bodies() -> list[Artist]:
-    """What the colours and the triangle of a drawn crawler mean."""
+    """Legend of the colours and the triangle of a drawn crawler."""
     return [
         Patch(facecolor=BODY, label="anchoring load"),
         Patch(facecolor=THINNED, label="advancing load"),
@@ -139,7 +139,7 @@ def nearest(data: xr.Dataset, time: float) -> int:
 
 
 def picture(data: xr.Dataset) -> Figure:
-    """Body, stretches and, of a crawl, its path: what `cosserat plot` shows of a crawler."""
+    """The picture of `cosserat plot` for a crawler: body, stretches and, for a crawl, its path."""
     problem = problem_of(data, CrawlerProblem)
     figure, (body, curves, path) = canvas(7.2, 6.4, 3, 1)
     last = data.isel(time=-1) if "time" in data.sizes else data
@@ -217,7 +217,7 @@ def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) ->
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[slice]:
-    """Slices over which the flags are set, each reaching one section further so that neighbours meet."""
+    """Slices of set flags, each extended by one section so that neighbours meet."""
     edges = np.flatnonzero(np.diff(np.r_[False, flags, False].astype(int)))
     return [
         slice(int(a), int(min(b + 1, flags.size))) for a, b in zip(edges[::2], edges[1::2], strict=True)

@@ -15,7 +15,7 @@ _SHAPES = 7  # frames of a motion in one picture
 
 
 def picture(data: xr.Dataset) -> Figure:
-    """What `cosserat plot` shows of a motion: the body in some frames, the path of the last vertex, energies."""
+    """The picture of `cosserat plot` for a motion: the body in some frames, the path of the last vertex, energies."""
     figure, (left, right) = canvas(7.2, 3.4, 1, 2)
     problem = problem_of(data, RodProblem)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def picture(data: xr.Dataset) -> Figure:
-    """Shapes along a path, and the load over the largest displacement: what `cosserat plot` shows of a path."""
+    """The picture of `cosserat plot` for a path: shapes, and the load over the largest displacement."""
     figure, (left, right) = canvas(7.2, 3.4, 1, 2)
     draw_shapes(left, data)
     left.set_aspect("equal", adjustable="datalim")

@@ -1,4 +1,4 @@
-"""A static rod as the body it stands for, and a page that shows any stored result."""
+"""Pictures of a static rod: its body, and its displacement and strains."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
 
-_SHOWN = 0.1  # largest displacement in a picture, as a share of the rod's length
-_ARROW = 0.14  # length of an arrow, as a share of the rod's length
+_SHOWN = 0.1  # largest displacement in a picture, as a fraction of the rod's length
+_ARROW = 0.14  # length of an arrow, as a fraction of the rod's length
 
 
 def picture(data: xr.Dataset) -> Figure:
@@ -47,13 +47,13 @@ def picture(data: xr.Dataset) -> Figure:
 
 
 def magnification(displacement: Array, length: float) -> float:
-    """How much larger than they are displacements are drawn, so that small ones are seen: one digit, at least 1."""
+    """Magnification of displacements in a picture: one digit, at least 1."""
     largest = float(np.abs(displacement).max())
     return max(1.0, float(f"{_SHOWN * length / largest:.0e}")) if largest > 0 else 1.0
 
 
 def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
-    """The rod as the body it stands for, with its supports and loads; the directors reach the upper surface."""
+    """The body of the rod with its supports and loads; the directors reach the upper surface."""
     problem = problem_of(data, RodProblem)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
     x, d = X + magnified * data.u.to_numpy(), D + magnified * data.delta.to_numpy()
@@ -69,8 +69,8 @@ def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
 
 def outline(x: Array, d: Array, problem: RodProblem) -> Array:
     """Both lateral surfaces and both ends as one closed curve, shape (..., 2 N, 2), of x and d of shape (..., N, 2)."""
-    share = problem.rod.centreline
-    return np.concatenate([x + d, (x - share / (1 - share) * d)[..., ::-1, :]], axis=-2)
+    fraction = problem.rod.centreline
+    return np.concatenate([x + d, (x - fraction / (1 - fraction) * d)[..., ::-1, :]], axis=-2)
 
 
 def draw_outline(ax: Axes, x: Array, d: Array, problem: RodProblem, **colours: Any) -> None:
@@ -79,7 +79,7 @@ def draw_outline(ax: Axes, x: Array, d: Array, problem: RodProblem, **colours: A
 
 
 def draw_supports(ax: Axes, problem: RodProblem, x: Array, D: Array) -> None:
-    """A bar across each held section, thick where the section cannot stretch either."""
+    """A bar across each fixed section, thick if the section cannot stretch either."""
     for support in problem.supports:
         index = problem.rod.index(support.at)
         section = np.column_stack([x[index] - 1.7 * D[index], x[index] + 1.7 * D[index]])
@@ -109,7 +109,7 @@ def draw_loads(ax: Axes, problem: RodProblem, x: Array, d: Array) -> None:
 
 
 def _foot(x: Array, index: int, along: Array, size: float) -> Array:
-    """Where the arrow of a force begins: at its vertex, or outside an end that it presses."""
+    """Start of the arrow of a force: at its vertex, or outside an end that it compresses."""
     outward = {0: x[0] - x[1], x.shape[0] - 1: x[-1] - x[-2]}.get(index, np.zeros(2))
     pressed = outward @ along < -0.5 * np.linalg.norm(outward)
     foot: Array = x[index] - along * size if pressed else x[index]
@@ -117,7 +117,7 @@ def _foot(x: Array, index: int, along: Array, size: float) -> Array:
 
 
 def _draw_row(ax: Axes, x: Array, d: Array, places: Array, arrow: Array) -> None:
-    """Arrows that end on the body, at shares of its length, and the line from which they come."""
+    """Arrows that end on the body, at fractions of its length, and the line that joins their starts."""
     at = np.linspace(0, 1, x.shape[0])
     centre, reach = (np.column_stack([np.interp(places, at, v[:, k]) for k in (0, 1)]) for v in (x, d))
     across = np.abs(reach @ arrow)[:, None] / (arrow @ arrow)
@@ -146,7 +146,7 @@ def _draw_arrow(ax: Axes, foot: Array, arrow: Array, label: str = "") -> None:
         "mutation_scale": 11,
     }
     ax.annotate("", tuple(foot + arrow), tuple(foot), arrowprops=style, zorder=5)
-    ax.update_datalim([foot, foot + arrow])  # an annotation makes no room for itself
+    ax.update_datalim([foot, foot + arrow])  # an annotation does not extend the limits
     ax.autoscale_view()
     if label:
         _label(ax, foot + 0.7 * arrow, label)

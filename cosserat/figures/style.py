@@ -1,4 +1,4 @@
-"""How every figure looks, and how it is written: the same bytes for the same data."""
+"""Style and files of all figures: the same bytes for the same data."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ _SETTINGS: Any = {
 
 
 def settings() -> AbstractContextManager[None]:
-    """The settings that hold while a figure is drawn."""
+    """The settings of matplotlib for a figure."""
     return mpl.rc_context(_SETTINGS)
 
 
@@ -60,7 +60,7 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
 
 
 def note(figure: Figure | str, warnings: list[str]) -> None:
-    """Set warnings below a picture; an animation shows none."""
+    """Put warnings below a picture; an animation shows none."""
     if warnings and isinstance(figure, Figure):
         width = int(20 * figure.get_size_inches()[0])
         lines = [textwrap.fill(f"Warning: {warning}", width) for warning in warnings]
@@ -68,7 +68,7 @@ def note(figure: Figure | str, warnings: list[str]) -> None:
 
 
 def write(figure: Figure | str, path: Path) -> None:
-    """Write an SVG without a date, whole or not at all; a text is an SVG already."""
+    """Write an SVG without a date, whole or not at all; a text is already an SVG."""
     with settings(), whole_or_absent(path) as temporary:
         if isinstance(figure, str):
             temporary.write_text(figure, encoding="utf-8")
@@ -82,7 +82,7 @@ def exact_curve(ax: Axes, xi: Array, values: Array, label: str, *, dashed: bool 
 
 
 def computed_points(ax: Axes, xi: Array, values: Array, label: str, *, variant: bool = False) -> None:
-    """Computed values, one marker a vertex; a variant is drawn hollow."""
+    """Computed values, one marker per vertex; a variant is drawn hollow."""
     colour = VARIANT if variant else COMPUTED
     ax.plot(
         xi,
@@ -97,7 +97,7 @@ def computed_points(ax: Axes, xi: Array, values: Array, label: str, *, variant: 
 
 
 def plain_points(ax: Axes, xi: Array, values: Array) -> None:
-    """Values of the consistent rod, one small diamond a vertex."""
+    """Values of the consistent rod, one small diamond per vertex."""
     ax.plot(
         xi,
         values,

@@ -24,11 +24,9 @@ from cosserat.rods.directed_rod import Section, integrated_stiffnesses
 Array = NDArray[np.float64]
 
 
-_INCOMPRESSIBLE = 0.5 - 1e-9  # beyond this Poisson's ratio the two Lame stiffnesses differ by rounding
-_AUXETIC = (
-    -1 + 1e-4
-)  # nearer to -1 the resistance to a change of volume, 1 + 2 p of (2.3.19), is lost in rounding
-_SLENDER = 1e6  # longest body in radii: beyond, its layers are lost in rounding
+_INCOMPRESSIBLE = 0.5 - 1e-9  # above this nu the two Lame stiffnesses differ only by round-off
+_AUXETIC = -1 + 1e-4  # below this nu the volume stiffness, 1 + 2 p of (2.3.19), is round-off
+_MAX_SLENDERNESS = 1e6  # longest body in radii; in a longer one the layers are below round-off
 
 
 class Compressible(Parameters):
@@ -93,7 +91,7 @@ class Crawler(Parameters):
     radius: Annotated[float, Quantity("m", "R", "2.2.8", above=0)]
     """Radius of the resting body."""
     material: Annotated[Compressible | Incompressible, Field(discriminator="kind")]
-    """What the body is made of."""
+    """Material of the body."""
     mass: Annotated[Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None, NONE_BY_WORD] = (
         None
     )
@@ -111,10 +109,10 @@ class Crawler(Parameters):
                 "mass",
                 f"{fault} a mass and a density; give one of them (and 'none' for what 'like' brought in)",
             )
-        if self.length > _SLENDER * self.radius:
+        if self.length > _MAX_SLENDERNESS * self.radius:
             raise PydanticCustomError(
                 "slender",
-                f"has length / radius = {self.length / self.radius:.3g}; it must be below {_SLENDER:g}",
+                f"has length / radius = {self.length / self.radius:.3g}; it must be below {_MAX_SLENDERNESS:g}",
             )
         return self
 
@@ -157,7 +155,7 @@ Multiplier = Literal["balanced", "printed"]
 
 
 class Loads(Parameters):
-    """What acts on a crawler, and which of the page's forms is taken."""
+    """Loads on a crawler, and the form of the equations."""
 
     anchoring: Annotated[float, Quantity("N", r"\bar{D}", "2.2.7", at_least=0)]
     """Force of the longitudinal muscles."""
@@ -170,7 +168,7 @@ class Loads(Parameters):
     advancing_force: AdvancingForce | None = None
     """Force n in advancing regions: zero (section 2.3) or that of the anchoring regions beside them (section 2.4).
 
-    By default as the section on the material has it: "none" if compressible, "continuous" if incompressible.
+    Default as in the section on the material: "none" if compressible, "continuous" if incompressible.
     """
     multiplier: Multiplier = "balanced"
     """Advancing regions of the incompressible rod: lambda_c mu_1 mu_2 constant, or eq. (2.4.18) as printed (E2.5)."""
@@ -178,9 +176,10 @@ class Loads(Parameters):
 
 @dataclass(frozen=True)
 class Groups:
-    """The dimensionless parameters of eqs. (2.3.4), (2.3.8) and (2.4.9); i and delta only where incompressible.
+    """The dimensionless parameters of eqs. (2.3.4), (2.3.8) and (2.4.9).
 
-    g : k_S l_0^2 / k_G, or i : k_I l_0^2 / k_G.  p : k_P / k_S.  d : D / k_S, or delta : D l_0^2 / k_G.
+    stiffness : g = k_S l_0^2 / k_G, or i = k_I l_0^2 / k_G if incompressible.  p : k_P / k_S.
+    force : d = D / k_S, or delta = D l_0^2 / k_G if incompressible.
     c : p pi R^2 l_0^2 / k_G.  m : R rho_0 g l_0^2 / k_G.
     """
 
@@ -240,7 +239,7 @@ def _compressible(
         )  # n of (2.3.2), for (2.3.5) and (2.3.10); erratum E2.1
         contact = m / mu_3[k] if printed_contact else m
         d_contact = m * p / mu_3[k] ** 2 if printed_contact else 0.0
-        # k^alpha of (2.3.2) over k_S with mu_3 put in, so that nothing is lost as nu tends to 1/2
+        # k^alpha of (2.3.2) over k_S with mu_3 substituted, to keep digits as nu tends to 1/2
         k_1 = (1 - p) * ((1 + p) * (mu_1 - 1) + p * (mu_2 - 1)) + p * n[k]
         k_2 = (1 - p) * ((1 + p) * (mu_2 - 1) + p * (mu_1 - 1)) + p * n[k]
         f[k, 0] = contact + g * k_1 + c[k]

@@ -1,7 +1,7 @@
 """Longitudinal muscles as opposed forces along the centreline, section 2.2: doublets of finite width and their limit.
 
-A muscle at gamma pulls its neighbourhood together: forces of resultant P push forward on half a window of width w
-behind gamma and backward on the half before it.  As w tends to zero that is the doublet (2.2.1).
+A muscle at gamma contracts its neighbourhood: forces of resultant P push forward on half a window of width w behind
+gamma and backward on the half before it.  Their limit as w tends to zero is the doublet (2.2.1).
 """
 
 from __future__ import annotations

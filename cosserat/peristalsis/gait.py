@@ -1,7 +1,7 @@
-"""Gaits as data, section 2.5: fronts that travel through the body, and the point that holds on to the ground.
+"""Gaits as data, section 2.5: fronts that travel through the body, and the point anchored to the ground.
 
-Times count phases: 0 is the start of the first phase, 1 its end, 1.5 the middle of the second.  Places are shares of
-the reference length: 0 the rear end, 1 the front end.
+Times count phases: 0 is the start of the first phase, 1 its end, 1.5 the middle of the second.  Places are fractions
+of the reference length: 0 the rear end, 1 the front end.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ Place = Annotated[float, Quantity("1", r"\tilde{z}", "2.3.14")]
 Track = tuple[tuple[Phase, Place], ...]
 """A piecewise-linear path: points (phase, place)."""
 
-_SAME = 1e-9  # phases closer than this are one
-_BESIDE = 1e-7  # how far beside a break its two sides are compared, in phases
-_CARRIED = 1e-4  # share of the body that fronts may have passed between those sides, and the clearance
-_MOST_MOMENTS = 100_000
+_PHASE_TOLERANCE = 1e-9  # phases closer than this are one
+_BREAK_OFFSET = 1e-7  # distance from a break at which its two sides are compared, in phases
+_CHANGE_TOLERANCE = 1e-4  # fraction of the body that fronts pass between those sides, and the clearance
+_MAX_INSTANTS = 100_000
 
 
 @dataclass(frozen=True)
-class Moment:
-    """What a gait asks for at one time: time [s] since the start of the stride, the regions, the anchored place."""
+class Instant:
+    """One instant of a gait: time [s] since the start of the stride, the regions, the anchored place."""
 
     phase: float
     time: float
@@ -41,31 +41,31 @@ class Moment:
 
     @property
     def holding(self) -> Muscle:
-        """The load on the place that holds on; a gait has no anchor on a front inside the body."""
+        """The load on the anchored place; a gait has no anchor on a front inside the body."""
         return next(r.load for r in self.regions if r.left <= self.anchor <= r.right)
 
 
 class Gait(Parameters):
     """A periodic gait.
 
-    A front gamma has anchoring loads behind it and advancing loads before it; a front eta the other way round.  At the
-    time at which one track ends and another begins, the one that ends counts.
+    A front gamma has anchoring loads behind it and advancing loads before it; a front eta the other way round.  If one
+    track ends when another begins, the first one counts at that time.
     """
 
     phases: tuple[Annotated[float, Quantity("s", "t_p, t_s", "section 2.8", above=0)], ...]
-    """Durations of the phases of one stride; tracks count phases from 0 on."""
+    """Durations of the phases of one stride; tracks count phases from 0."""
     gamma: tuple[Track, ...] = ()
-    """Tracks of the fronts gamma, each of points [phase, place]; a place is a share of the length from the rear."""
+    """Tracks of the fronts gamma, each of points [phase, place]; a place is a fraction of the length from the rear."""
     eta: tuple[Track, ...] = ()
     """Tracks of the fronts eta, each a list of points [phase, place]."""
     anchor: tuple[Track, ...]
-    """Tracks of the point that holds on to the ground, likewise; they follow each other without gaps."""
+    """Tracks of the point anchored to the ground, likewise; they follow each other without gaps."""
     at_rest: Muscle = "anchoring"
     """The load on the whole body while no front is on it."""
     clearance: Annotated[float, Quantity("1", "", "2.5.9", above=0, below=0.1)] = 1e-6
     """A front nearer to an end than this has left the body.  ASSUME next to nothing: no stride depends on it, E2.14."""
     sudden: Annotated[float, Quantity("1", at_least=0)] = 0.0
-    """Largest share of the body whose load may change at once, where tracks end and begin."""
+    """Largest fraction of the body whose load may change at once, where tracks end and begin."""
 
     @model_validator(mode="after")
     def _is_a_gait(self) -> Self:
@@ -110,10 +110,10 @@ class Gait(Parameters):
             for track in getattr(self, kind):
                 place = _follow(track, phase)
                 if place is not None:
-                    inside = phase - _BESIDE if phase > track[0][0] else phase + _BESIDE
+                    inside = phase - _BREAK_OFFSET if phase > track[0][0] else phase + _BREAK_OFFSET
                     found.append(
                         (place, _place(track, inside), kind)
-                    )  # two at one end: as they stand inside
+                    )  # two at one end: in their order inside the body
         return [(place, kind) for place, _, kind in sorted(found)]
 
     def regions(self, phase: float) -> tuple[Region, ...]:
@@ -121,11 +121,11 @@ class Gait(Parameters):
         load: Muscle = self.at_rest
         fronts = self.fronts(phase)
         if fronts:
-            load = _behind(fronts[0][1])
+            load = _load_behind(fronts[0][1])
         cuts = [0.0]
         loads = [load]
         for place, kind in fronts:
-            load = _ahead(kind)
+            load = _load_ahead(kind)
             if place < self.clearance:
                 loads[-1] = load
             elif place <= 1 - self.clearance:
@@ -134,32 +134,32 @@ class Gait(Parameters):
         return tuple(Region(a, b, m) for a, b, m in zip(cuts, [*cuts[1:], 1.0], loads, strict=True))
 
     def anchored(self, phase: float) -> float:
-        """The place that holds on to the ground."""
+        """The place anchored to the ground."""
         for track in self.anchor:
             place = _follow(track, phase)
             if place is not None:
                 return place
         raise AssertionError("the tracks of the anchor were checked to cover the stride")
 
-    def moments(self, step: float) -> list[Moment]:
+    def instants(self, step: float) -> list[Instant]:
         """The stride from its start to its end, in equal steps of at most `step` [s] within each phase.
 
-        Every break of a track is among the times: off the grid, strides come out wrong by millimetres.
+        Every break of a track is among the times; without them strides are wrong by millimetres.
 
         Raises
         ------
-        InputError : the step is so short that there would be too many.
+        InputError : the step is too short.
         """
-        if self.duration > _MOST_MOMENTS * step:
+        if self.duration > _MAX_INSTANTS * step:
             raise InputError(
-                f"'step' = {step:g} s divides a stride of {self.duration:g} s into more than {_MOST_MOMENTS} instants; "
+                f"'step' = {step:g} s divides a stride of {self.duration:g} s into more than {_MAX_INSTANTS} instants; "
                 "take a longer one"
             )
         phases = self.breaks()
         for number, duration in enumerate(self.phases):
-            count = math.ceil(duration / step - _SAME)
+            count = math.ceil(duration / step - _PHASE_TOLERANCE)
             phases.extend(number + k / count for k in range(count + 1))
-        return [Moment(p, self.time(p), self.regions(p), self.anchored(p)) for p in _distinct(phases)]
+        return [Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in _distinct(phases)]
 
     def _check_track(self, name: str, track: Track) -> None:
         if len(track) < 2:
@@ -171,7 +171,7 @@ class Gait(Parameters):
                 raise PydanticCustomError(
                     "gait", f"{name} goes from phase {a:g} to phase {b:g}; let its times increase"
                 )
-        if track[-1][0] > len(self.phases) + _SAME:
+        if track[-1][0] > len(self.phases) + _PHASE_TOLERANCE:
             raise PydanticCustomError(
                 "gait",
                 f"{name} ends at phase {track[-1][0]:g}, but 'phases' has {len(self.phases)}; end it there",
@@ -187,7 +187,7 @@ class Gait(Parameters):
         expected = 0.0
         for track in (*self.anchor, None):
             begins = len(self.phases) if track is None else track[0][0]
-            if abs(begins - expected) > _SAME:
+            if abs(begins - expected) > _PHASE_TOLERANCE:
                 what = "overlaps" if begins < expected else "has a gap"
                 raise PydanticCustomError(
                     "gait",
@@ -200,15 +200,15 @@ class Gait(Parameters):
     def _refuse_sudden_change(self, phase: float) -> None:
         """Fronts carry every change of load; the end of the stride is its start."""
         last = float(len(self.phases))
-        before = self.regions((last if phase == 0 else phase) - _BESIDE)
-        after = self.regions((0.0 if phase == last else phase) + _BESIDE)
+        before = self.regions((last if phase == 0 else phase) - _BREAK_OFFSET)
+        after = self.regions((0.0 if phase == last else phase) + _BREAK_OFFSET)
         changed = sum(
             max(0.0, min(a.right, b.right) - max(a.left, b.left))
             for a in before
             for b in after
             if a.load != b.load
         )
-        if changed > self.sudden + _CARRIED:
+        if changed > self.sudden + _CHANGE_TOLERANCE:
             raise PydanticCustomError(
                 "gait",
                 f"at phase {phase % last:g} the load on {changed:.3g} of the body changes at once; let fronts enter "
@@ -254,15 +254,16 @@ class Gait(Parameters):
 
 
 def _distinct(phases: list[float]) -> list[float]:
-    """Increasing, those that are one taken once."""
+    """Phases in increasing order, without duplicates."""
     ordered = sorted(phases)
-    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > _SAME]
+    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > _PHASE_TOLERANCE]
 
 
 def _follow(track: Track, phase: float) -> float | None:
-    """The place of a track at a time; it has begun after its first point, but for the start of the stride."""
+    """The place of a track at a time; it begins just after its first point, except at the start of the stride."""
     begin, end = track[0][0], track[-1][0]
-    if phase > end + _SAME or phase < begin - _SAME or (phase < begin + _SAME and begin > _SAME):
+    near = _PHASE_TOLERANCE
+    if phase > end + near or phase < begin - near or (phase < begin + near and begin > near):
         return None
     return _place(track, phase)
 
@@ -271,9 +272,9 @@ def _place(track: Track, phase: float) -> float:
     return float(np.interp(phase, *np.transpose(track)))
 
 
-def _behind(kind: str) -> Muscle:
+def _load_behind(kind: str) -> Muscle:
     return "anchoring" if kind == "gamma" else "advancing"
 
 
-def _ahead(kind: str) -> Muscle:
+def _load_ahead(kind: str) -> Muscle:
     return "advancing" if kind == "gamma" else "anchoring"

@@ -1,7 +1,7 @@
 """One instant of a crawler: anchoring and advancing loads in consecutive regions, and the stretches they cause.
 
 Conditions, the same for both solvers: stretches and their slopes (hence m^alpha) are continuous where regions meet,
-slopes vanish at the ends (2.3.13), and n in advancing regions is what `Loads.advancing_force` says.
+slopes vanish at the ends (2.3.13), and `crawler.Loads.advancing_force` gives n in advancing regions.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from cosserat.solvers.regions import RegionSettings, Remote, Source, solve
 Array = NDArray[np.float64]
 Muscle = Literal["anchoring", "advancing"]
 
-_LEAST = 0.02  # a plateau with a stretch below this counts as collapsed
-_LOCAL_STEPS = 60
-_SETTLED = 1e-12  # correction of a plateau that counts as converged
+_MIN_STRETCH = 0.02  # a plateau with a stretch below this has collapsed
+_MAX_PLATEAU_STEPS = 60
+_PLATEAU_TOLERANCE = 1e-12  # largest correction of a converged plateau
 
 
 @dataclass(frozen=True)
 class Region:
-    """Where one of the loads acts, in shares of the length."""
+    """Range of one of the loads, in fractions of the length."""
 
     left: float
     right: float
@@ -57,8 +57,8 @@ class Profile:
     def at(self, z: Array) -> tuple[Array, Array, Array, Array]:
         """mu (K, 2), slope (K, 2), mu_3 (K,) and multiplier (K,) at given places.
 
-        Interpolated are the stretches and n = lambda_c mu_1 mu_2, which is constant where it is balanced; mu_3 and
-        lambda_c follow from them, so that (2.4.1) holds to rounding there too.
+        The stretches and n = lambda_c mu_1 mu_2, constant in balance, are interpolated.  mu_3 and lambda_c follow from
+        them, so (2.4.1) holds to round-off there too.
         """
         scalars = np.stack([self.mu_3, self.multiplier * self.mu.prod(axis=2)], axis=2)
         found = self.mesh.interpolate(np.concatenate([self.mu, self.slope, scalars], axis=2), z)
@@ -84,7 +84,7 @@ def _merged(regions: Sequence[Region]) -> tuple[Region, ...]:
     return tuple(merged)
 
 
-class Instant:
+class InstantProblem:
     """One boundary value problem: a body, its loads, and the regions in which they act."""
 
     def __init__(self, body: Crawler, loads: Loads, regions: Sequence[Region], name: str) -> None:
@@ -108,21 +108,21 @@ class Instant:
         InputError : the loads collapse a section.
         """
         mu = np.ones((len(self.regions), 2))
-        for _ in range(_LOCAL_STEPS):
+        for _ in range(_MAX_PLATEAU_STEPS):
             f, df, mu_3 = self._source(mu, np.ones_like(self.exponent), self.force)
             step = -np.linalg.solve(df, f[:, :, None])[:, :, 0]
-            if np.abs(step).max() < _SETTLED:
+            if np.abs(step).max() < _PLATEAU_TOLERANCE:
                 break
             bound = np.where(step < 0, -0.9 * mu / np.minimum(step, -1e-300), 1.0)
             mu = mu + np.minimum(1.0, bound.min(axis=1))[:, None] * step
         for region, (mu_1, mu_2), along in zip(self.regions, mu, mu_3, strict=True):
             for number, value in ((1, mu_1), (2, mu_2), (3, along)):
-                if not value > _LEAST:
+                if not value > _MIN_STRETCH:
                     raise self._collapse(region, number)
-        if not np.abs(step).max() < _SETTLED:
+        if not np.abs(step).max() < _PLATEAU_TOLERANCE:
             raise NotConvergedError(
-                f"{self.asked}: no homogeneous state found in {_LOCAL_STEPS} steps; take weaker loads",
-                iterations=_LOCAL_STEPS,
+                f"{self.asked}: no homogeneous state found in {_MAX_PLATEAU_STEPS} steps; take weaker loads",
+                iterations=_MAX_PLATEAU_STEPS,
                 residual=float(np.abs(step).max()),
             )
         fastest = np.abs(np.linalg.eigvals(df)).max()
@@ -130,7 +130,7 @@ class Instant:
 
     @property
     def asked(self) -> str:
-        """The instant with the parameters that may put it out of reach, eq. (2.3.19), for a message."""
+        """The instant with the parameters that may prevent a solution, eq. (2.3.19), for a message."""
         cuts = " and ".join(f"{region.right:.4g}" for region in self.regions[:-1]) or "no place"
         return (
             f"{self.name} with 'loads.anchoring' = {self.loads.anchoring:g} N, 'loads.advancing' = "
@@ -168,7 +168,7 @@ class Instant:
         return graded(edges, layer, settings.elements, settings.degree)
 
     def guess(self, z: Array, region: Array) -> Array:
-        """Plateaus joined by layers, shape (K, 2), at places z that lie in the regions of these numbers."""
+        """Plateaus joined by layers, shape (K, 2), at places z in the regions with these indices."""
         mu, layer = self.plateaus
         result: Array = mu[region]
         for number, junction in enumerate(self.regions[:-1]):
@@ -178,13 +178,13 @@ class Instant:
                 result = result + sign * fade[:, None] * jump
         return result
 
-    def _cold(self, mesh: Mesh) -> Array:
+    def _first_guess(self, mesh: Mesh) -> Array:
         """The guess at the nodes of a mesh."""
         z = np.append(mesh.places[:, :-1].ravel(), mesh.ends[-1])
         return self.guess(z, np.append(np.repeat(mesh.region, mesh.degree), mesh.region[-1]))
 
     def solve(self, settings: RegionSettings, before: Array | None) -> tuple[Profile, Array]:
-        """The banded solver, warm-started from the last instant's nodal values where their number is the same.
+        """The banded solver, started from the last instant's nodal values if their number is the same.
 
         Returns the profile and its nodal values, shape (nodes, 2).
 
@@ -195,12 +195,12 @@ class Instant:
         mesh = self.mesh(settings)
         equation = _Equation(self, mesh)
         if before is None or before.shape[0] != mesh.nodes:
-            solved = solve(mesh, equation, self._cold(mesh), settings, self.asked)
+            solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked)
         else:
             try:
                 solved = solve(mesh, equation, before, settings, self.asked)
             except NotConvergedError:
-                solved = solve(mesh, equation, self._cold(mesh), settings, self.asked)
+                solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked)
         mu = mesh.split(solved.u)
         mu_3, multiplier = equation.along(mu)
         slope, incompressible = mesh.slope(mu), self.groups.incompressible
@@ -252,11 +252,9 @@ class Instant:
             multiplier = y[4] if followed else force / (y[0] * y[2])
             f, _, _ = self.groups.incompressible_source(mu, multiplier, count, c * count)
             dy = [y[1], f[:, 0], y[3], f[:, 1]]
-            if (
-                followed
-            ):  # (2.4.13)_3; as printed in (2.4.18) the length of the region is in it once too often
-                share = self.exponent[number]
-                dy.append(-share * y[4] * (y[1] / y[0] + y[3] / y[2]))
+            if followed:  # (2.4.13)_3; as printed, (2.4.18) has the length of the region once too often
+                exponent = self.exponent[number]
+                dy.append(-exponent * y[4] * (y[1] / y[0] + y[3] / y[2]))
             return np.array(dy)
 
         def guess(z: Array) -> Array:
@@ -282,9 +280,9 @@ class Instant:
 
 
 class _Equation:
-    """The sources of an instant at the points of a mesh, as the banded solver asks for them."""
+    """The sources of an instant at the points of a mesh, for the banded solver."""
 
-    def __init__(self, instant: Instant, mesh: Mesh) -> None:
+    def __init__(self, instant: InstantProblem, mesh: Mesh) -> None:
         self.instant, self.mesh = instant, mesh
         points = mesh.degree + 1
         self.force = np.repeat(instant.force[mesh.region], points)
@@ -302,7 +300,7 @@ class _Equation:
         return int(elements[0] if region > 0 else elements[-1] + 1) * self.mesh.degree
 
     def source(self, u: Array) -> Source | None:
-        """f, its derivative, and what it takes from the junctions."""
+        """f, its derivative, and its dependence on the junctions."""
         if not (u > 0).all():
             return None
         mu = u.reshape(-1, 2)
@@ -322,12 +320,12 @@ class _Equation:
         volume = (u[..., 0] * u[..., 1]).ravel()
         multiplier: Array = self.force * volume**-self.exponent
         for number, node in self.far:
-            at_junction = self._at(u, node).prod()
+            at_junction = self._node_value(u, node).prod()
             inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
             multiplier[inside] *= at_junction ** (self.instant.exponent[number] - 1)
         return multiplier
 
-    def _at(self, u: Array, node: int) -> Array:
+    def _node_value(self, u: Array, node: int) -> Array:
         element = min(node // self.mesh.degree, u.shape[0] - 1)
         value: Array = u[element, node - element * self.mesh.degree]
         return value
@@ -336,7 +334,7 @@ class _Equation:
         """f changes with the logarithm of mu_1 mu_2 at the junction through lambda_c there."""
         inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
         change = np.where(inside, (self.instant.exponent[number] - 1) * multiplier, 0.0)
-        return Remote(node, change.reshape(u.shape[:2])[..., None] / u, 1 / self._at(u, node))
+        return Remote(node, change.reshape(u.shape[:2])[..., None] / u, 1 / self._node_value(u, node))
 
     def along(self, u: Array) -> tuple[Array, Array]:
         """mu_3 and lambda_c, shape (M, p + 1) each."""

@@ -1,11 +1,11 @@
-"""How near the compressible rod of section 2.3 comes to the incompressible one of section 2.4 as nu tends to 1/2."""
+"""The compressible rod of section 2.3 compared with the incompressible one of section 2.4 as nu tends to 1/2."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from cosserat.peristalsis.crawler import Compressible, Crawler, Loads
-from cosserat.peristalsis.instant import Instant, Region
+from cosserat.peristalsis.instant import InstantProblem, Region
 from cosserat.solvers.regions import RegionSettings
 
 _REGIONS = (
@@ -16,28 +16,28 @@ _REGIONS = (
 _PLACES = np.linspace(0.0, 1.0, 2001)
 
 
-def apart(crawler: Crawler, loads: Loads, poisson: float, share: float) -> float:
+def largest_difference(crawler: Crawler, loads: Loads, poisson: float, fraction: float) -> float:
     """Largest difference of mu_1, mu_2 between an incompressible body and one of Poisson's ratio `poisson`.
 
-    Both of the same Young's modulus, under the same share of the loads and of the weight, with the junctions of section
-    2.4: the contact force goes on through the advancing half between two anchoring quarters.
+    Both have the same Young's modulus and the same fraction of the loads and of the weight, with the junctions of
+    section 2.4: the contact force continues through the advancing half between two anchoring quarters.
 
-    derived: the linear volume mu_1 + mu_2 + mu_3 = 3, which the one keeps at nu = 1/2, eq. (2.3.2), and the product of
-    the stretches, which the other keeps, eq. (2.4.1), differ by products of two strains.
+    derived: at nu = 1/2 the compressible rod keeps the sum mu_1 + mu_2 + mu_3 = 3, eq. (2.3.2), the incompressible one
+    the product of the stretches, eq. (2.4.1); they differ by products of two strains.
 
     Raises
     ------
     InputError : the loads collapse a section.  NotConvergedError : no solution.
     """
     weak = loads.replace(
-        anchoring=share * loads.anchoring,
-        advancing=share * loads.advancing,
-        gravity=share * loads.gravity,
+        anchoring=fraction * loads.anchoring,
+        advancing=fraction * loads.advancing,
+        gravity=fraction * loads.gravity,
         advancing_force="continuous",
     )
     soft = crawler.replace(material=Compressible(young=crawler.material_young, poisson=poisson))
     mu = [
-        Instant(body, weak, _REGIONS, f"nu = {poisson:g}")
+        InstantProblem(body, weak, _REGIONS, f"nu = {poisson:g}")
         .solve(RegionSettings(), None)[0]
         .at(_PLACES)[0]
         for body in (soft, crawler)

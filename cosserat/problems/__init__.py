@@ -1,1 +1,1 @@
-"""Problems that a case may pose, one kind a file."""
+"""Problems of cases, one kind per file."""

@@ -1,4 +1,4 @@
-"""The course of a motion: in parts that take a second or two each, so that a long run can be cut and goes on."""
+"""A motion split into checkpoints of one or two seconds, so that an interrupted run can resume."""
 
 from __future__ import annotations
 
@@ -44,17 +44,17 @@ Array = NDArray[np.float64]
 FRAMES_PER_PART = 50
 """Most frames in one stored part of a run."""
 JUDGED = 100
-"""Most states of a motion that are asked for modes its step does not follow."""
+"""Most states of a motion that are checked for unresolved modes."""
 WORK_PER_PART = 5e5
-"""Most vertices times implicit steps in one part: a second, at some two microseconds each (`cosserat speed`)."""
+"""Work limit of one part, in vertex-steps: about 1 s at 2 us each (`cosserat speed`)."""
 
 _COST = {"implicit": (0.0, 1.0), "rk4": (30.0, 0.5), "rk45": (300.0, 2.0)}
-"""A step costs as an implicit one of a + b N vertices; of "rk45", one that is as long as is stable."""
+"""(a, b): a step costs as much as an implicit one of a + b N vertices; for "rk45", the longest stable step."""
 
 
 @dataclass(frozen=True)
 class CheckpointedRun:
-    """A motion on its way through stops at equal times, of which every `legs`-th is a frame.
+    """A motion with stops at equal times; every `substeps_per_frame`-th stop is a frame.
 
     geometry, system : of the problem, made once.  stops_per_part : stops from one stored part to the next.
     """
@@ -68,7 +68,7 @@ class CheckpointedRun:
 
     @classmethod
     def of(cls, problem: RodMotion, name: str) -> CheckpointedRun:
-        """Lay a motion out; `name` is what errors call the case.
+        """Plan the parts of a motion; `name` : name of the case in errors.
 
         Raises
         ------
@@ -85,13 +85,13 @@ class CheckpointedRun:
 
     @property
     def parts(self) -> int:
-        """Number of parts in which the run is stored."""
+        """Number of stored parts."""
         return -(-self.problem.frames * self.substeps_per_frame // self.stops_per_part)
 
     def part(self, number: int, state: State) -> tuple[Solution, State, CosseratError | None]:
-        """States at the stops of one part, from that in which the part before it ended; the first has the start too.
+        """States at the stops of one part, from the end of the part before; the first part includes the start.
 
-        Where the integrator cannot go on, the states before that and its error come back.
+        If the integrator fails, the states before that are returned with its error.
         """
         first = number * self.stops_per_part
         last = min(first + self.stops_per_part, self.problem.frames * self.substeps_per_frame)
@@ -111,7 +111,7 @@ class CheckpointedRun:
             except (NotConvergedError, DivergedError, CrossingError) as error:
                 stopped = error
                 break
-            # the time that is stored: a run that goes on from it must not differ by rounding
+            # the stored time: a resumed run must not differ by round-off
             state = replace(state, time=stop / self.substeps_per_frame * self.problem.between_frames)
             states.append(state)
             steps += done
@@ -121,20 +121,20 @@ class CheckpointedRun:
 
     @property
     def step(self) -> float:
-        """The time step of a method that takes equal ones; zero if it chooses them [s]."""
+        """The time step of a method with equal steps; zero for an adaptive one [s]."""
         if self.problem.integrator.method == "rk45":
             return 0.0
         substep = self.problem.between_frames / self.substeps_per_frame
         return substep / step_count(substep, self.problem.integrator)
 
     def _judged(self, states: list[State]) -> dict[str, float]:
-        """Kinetic energy of some states, and what of it is in modes that the step does not follow [J]."""
+        """Kinetic energy of some states, and its part in unresolved modes [J]."""
         system, kinetic, unresolved = self.system, 0.0, 0.0
-        apart = -(-self.problem.frames * self.substeps_per_frame // JUDGED)
+        interval = -(-self.problem.frames * self.substeps_per_frame // JUDGED)
         tangent = Tangent(system)
         for state in states:
             stop = round(state.time / self.problem.between_frames * self.substeps_per_frame)
-            if not self.step or stop % apart:
+            if not self.step or stop % interval:
                 continue
             system.assemble(state.q, state.history, 1.0, tangent)
             kinetic += kinetic_energy(system, state)
@@ -144,7 +144,7 @@ class CheckpointedRun:
         return {"judged_kinetic_J": kinetic, "unresolved_kinetic_J": unresolved}
 
     def warnings(self, whole: Solution) -> tuple[str, ...]:
-        """What a whole motion does not resolve."""
+        """Warnings about the resolution of a whole motion."""
         return (
             *self._unbalanced(whole),
             *self._unresolved(whole.statistics),
@@ -167,12 +167,12 @@ class CheckpointedRun:
             )
 
     def _unresolved(self, statistics: Mapping[str, float]) -> Iterator[str]:
-        kinetic, share = statistics["judged_kinetic_J"], statistics["unresolved_kinetic_J"]
-        if share > UNRESOLVED * kinetic:
+        kinetic, unresolved = statistics["judged_kinetic_J"], statistics["unresolved_kinetic_J"]
+        if unresolved > UNRESOLVED * kinetic:
             yield (
-                f"unresolved modes: {100 * share / kinetic:.2g} % of the kinetic energy is in modes too fast for the "
-                f"step of {self.step:.3g} s (omega h > 1), which keep their energy but not their phase; take a shorter "
-                "'integrator.step' if they matter, or a start that does not set them off"
+                f"unresolved modes: {100 * unresolved / kinetic:.2g} % of the kinetic energy is in modes too fast "
+                f"for the step of {self.step:.3g} s (omega h > 1), which keep their energy but not their phase; take a "
+                "shorter 'integrator.step' if they matter, or a start that does not set them off"
             )
 
     def _too_fast(self, whole: Solution) -> Iterator[str]:
@@ -181,7 +181,7 @@ class CheckpointedRun:
         fastest = float(np.abs(turning).max()) * self.step
         if fastest > FAST:
             yield (
-                f"fast turning: a section turns by up to {fastest:.2g} rad in a step of {self.step:.3g} s; "
+                f"fast rotation: a section rotates by up to {fastest:.2g} rad in a step of {self.step:.3g} s; "
                 "take a shorter 'integrator.step'"
             )
 
@@ -190,8 +190,8 @@ class CheckpointedRun:
         frequency = max([0.0, *(move.frequency for move in moves), *(turn.frequency for turn in turns)])
         if 2 * np.pi * frequency * self.step > FAST:
             yield (
-                f"fast drive: a support moves to and fro at {frequency:.4g} Hz, which steps of {self.step:.3g} s do "
-                "not follow (omega h > 1); take a shorter 'integrator.step'"
+                f"fast support: a support oscillates at {frequency:.4g} Hz, which steps of {self.step:.3g} s do not "
+                "resolve (omega h > 1); take a shorter 'integrator.step'"
             )
 
     def _damped_beyond(self) -> Iterator[str]:
@@ -202,12 +202,12 @@ class CheckpointedRun:
         if c * highest * h**2 > DAMPED:
             yield (
                 f"damping: modes faster than {DAMPED / (c * h**2):.3g} rad/s (the fastest has {highest:.3g}) lose "
-                f"energy at another rate than the drag of {c:.3g} 1/s says; take a shorter 'integrator.step'"
+                f"energy at another rate than the damping rate of {c:.3g} 1/s; take a shorter 'integrator.step'"
             )
 
 
 def resumed(part: Solution, system: MechanicalSystem) -> State:
-    """The state in which a stored part ended."""
+    """The state at the end of a stored part."""
     history, used = list(system.history), 0
     for number, own in enumerate(history):
         if number == _winding(system):
@@ -228,12 +228,12 @@ def resumed(part: Solution, system: MechanicalSystem) -> State:
 
 
 def _winding(system: MechanicalSystem) -> int:
-    """Which potential has the winding angle of the first director as its internal variable."""
+    """Index of the potential whose internal variable is the winding angle of the first director."""
     return next(k for k, potential in enumerate(system.potentials) if potential.terms == TERMS)
 
 
 def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
-    """One solution: fields along the time are joined, every `legs`-th instant a frame; statistics are summed."""
+    """One solution of all parts: fields joined along the time, one instant per frame; statistics summed."""
     first = parts[0]
     fields = {
         name: (
@@ -249,7 +249,7 @@ def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
 
 
 def _work_of_a_frame(problem: RodMotion, system: MechanicalSystem, geometry: Geometry) -> float:
-    """Vertices times implicit steps that cost as much as going from one frame to the next."""
+    """Cost of one frame, in vertex-steps of the implicit method."""
     settings = problem.integrator
     if settings.method == "rk45":
         stable = stable_step(system, geometry.q)

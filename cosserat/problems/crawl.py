@@ -14,25 +14,25 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.peristalsis.crawler import Crawler, Loads
-from cosserat.peristalsis.gait import Gait, Moment
-from cosserat.peristalsis.instant import Instant, Muscle, Profile, Region, check_tilt, holds_force
+from cosserat.peristalsis.gait import Gait, Instant
+from cosserat.peristalsis.instant import InstantProblem, Muscle, Profile, Region, check_tilt, holds_force
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
-_EMPTY = 1e-6  # a region shorter than this share of the length counts as empty
-_ALIKE = 1e-9  # regions whose mu_1 differs by less are equally fat
+_MIN_REGION_LENGTH = 1e-6  # as a fraction of the length; a shorter region is empty
+_EQUAL_STRETCH_TOLERANCE = 1e-9  # regions whose mu_1 differs by less are equally thick
 
 
 class CrawlerProblem(Problem):
-    """What an instant and a crawl have in common."""
+    """The common part of an instant and a crawl."""
 
     thinned: ClassVar[Mapping[str, int]] = {"section": 20}
     crawler: Crawler
     loads: Loads
     solver: Literal["banded", "collocation"] = "banded"
-    """How an instant is solved: "collocation" is the thesis's way, `scipy.integrate.solve_bvp`, and slower."""
+    """Solver of an instant: "collocation" is the thesis's, `scipy.integrate.solve_bvp`, and slower."""
     collocation_tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-2)] = 1e-4
     """Tolerance of "collocation"."""
     mesh: RegionSettings = RegionSettings()
@@ -47,12 +47,12 @@ class CrawlerProblem(Problem):
     def solve_instant(
         self, regions: Sequence[Region], before: Array | None, name: str
     ) -> tuple[Profile, Array | None, float]:
-        """Stretches under loads in these regions, what warms up the next solve, and the largest sine of tilt."""
-        instant = Instant(self.crawler, self.loads, regions, name)
+        """Stretches under loads in these regions, the start of the next solve, and the largest sine of tilt."""
+        problem = InstantProblem(self.crawler, self.loads, regions, name)
         if self.solver == "banded":
-            profile, nodal = instant.solve(self.mesh, before)
+            profile, nodal = problem.solve(self.mesh, before)
         else:
-            profile, nodal = instant.collocate(self.mesh, self.collocation_tolerance), None
+            profile, nodal = problem.collocate(self.mesh, self.collocation_tolerance), None
         return profile, nodal, check_tilt(profile, self.crawler, name)
 
     def length_along(self, profile: Profile) -> Array:
@@ -102,14 +102,14 @@ class CrawlerProblem(Problem):
 
 
 class Segment(Parameters):
-    """Where a load acts, in shares of the reference length."""
+    """Range of a load, in fractions of the reference length."""
 
     begin: Annotated[float, Quantity("1", r"\tilde{\gamma}", "2.3.14")]
-    """Where the region begins, counted from the rear end."""
+    """Start of the region, from the rear end."""
     end: Annotated[float, Quantity("1", r"\tilde{\eta}", "2.3.14")]
-    """Where the region ends, counted from the rear end."""
+    """End of the region, from the rear end."""
     load: Muscle
-    """Which muscles act: longitudinal ones anchor, circular ones advance."""
+    """The active muscles: longitudinal ones anchor, circular ones advance."""
 
 
 class Posture(CrawlerProblem):
@@ -117,18 +117,18 @@ class Posture(CrawlerProblem):
 
     kind: Literal["posture"] = "posture"
     regions: tuple[Segment, ...]
-    """Where which load acts; from the rear end to the front end, without gaps."""
+    """Ranges of the loads, from the rear end to the front end, without gaps."""
 
     @model_validator(mode="after")
     def _cover_the_body(self) -> Self:
         expected = 0.0
         for number, region in enumerate(self.regions):
-            if region.end - region.begin < _EMPTY:
+            if region.end - region.begin < _MIN_REGION_LENGTH:
                 raise PydanticCustomError(
                     "regions",
                     f"'regions.{number}' from {region.begin:g} to {region.end:g} is empty; leave it out or widen it",
                 )
-            if abs(region.begin - expected) > _EMPTY:
+            if abs(region.begin - expected) > _MIN_REGION_LENGTH:
                 what = (
                     "overlaps the one before it" if region.begin < expected else "leaves a gap before it"
                 )
@@ -137,7 +137,7 @@ class Posture(CrawlerProblem):
                     f"'regions.{number}' begins at {region.begin:g} and {what}; let it begin at {expected:g}",
                 )
             expected = region.end
-        if abs(expected - 1) > _EMPTY:
+        if abs(expected - 1) > _MIN_REGION_LENGTH:
             raise PydanticCustomError(
                 "regions", f"'regions' end at {expected:g}; they must cover the body from 0 to 1"
             )
@@ -166,7 +166,7 @@ class _Step:
     """One time of a crawl and the body there, its points placed along the ground."""
 
     stride: int
-    moment: Moment
+    instant: Instant
     profile: Profile
     placed: Array
 
@@ -184,41 +184,41 @@ class Crawl(CrawlerProblem):
 
     @model_validator(mode="after")
     def _is_possible(self) -> Self:
-        moments = self.gait.moments(self.step)
+        instants = self.gait.instants(self.step)
         if not holds_force(self.crawler, self.loads):
             return self
-        for moment in moments:
-            if all(region.load == "advancing" for region in moment.regions):
+        for instant in instants:
+            if all(region.load == "advancing" for region in instant.regions):
                 raise PydanticCustomError(
                     "gait",
-                    f"at phase {moment.phase:g} no region anchors, and the force that the advancing ones carry would "
-                    "vanish at once; keep an anchoring region, or set loads.advancing_force = 'none'",
+                    f"at phase {instant.phase:g} no region anchors, and the force in the advancing ones would vanish "
+                    "at once; keep an anchoring region, or set loads.advancing_force = 'none'",
                 )
         return self
 
-    def thin_anchors(self) -> list[Moment]:
-        """The instants of a stride at which the body holds on with a part that its loads make thinner than the other.
+    def thin_anchors(self) -> list[Instant]:
+        """The instants of a stride whose anchor lies in the thinner kind of region.
 
-        A worm holds on where it fattens, section 2.1: with its anchoring regions.  Of artificial muscles under negative
-        pressure the advancing regions are the fat ones.
+        A worm anchors where it thickens, section 2.1: in its anchoring regions.  Under artificial muscles with negative
+        pressure the advancing regions are the thicker ones.
         """
-        moments = self.gait.moments(self.step)
-        if {r.load for m in moments for r in m.regions} != {"anchoring", "advancing"}:
+        instants = self.gait.instants(self.step)
+        if {r.load for m in instants for r in m.regions} != {"anchoring", "advancing"}:
             return []
         halves = (Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing"))
-        mu, _ = Instant(self.crawler, self.loads, halves, "the anchor").plateaus
+        mu, _ = InstantProblem(self.crawler, self.loads, halves, "the anchor").plateaus
         anchoring, advancing = mu[:, 0]
-        if abs(anchoring - advancing) < _ALIKE:
+        if abs(anchoring - advancing) < _EQUAL_STRETCH_TOLERANCE:
             return []
         thinner = "advancing" if advancing < anchoring else "anchoring"
-        return [m for m in moments if m.holding == thinner]
+        return [m for m in instants if m.holding == thinner]
 
     def thin_anchor_warning(self) -> str | None:
         """One sentence on `thin_anchors`, None if there are none."""
         found = {m.time for m in self.thin_anchors()}
         if not found:
             return None
-        times = [m.time for m in self.gait.moments(self.step)]
+        times = [m.time for m in self.gait.instants(self.step)]
         runs = [list(run) for thin, run in itertools.groupby(times, found.__contains__) if thin]
         spans = " and ".join(f"{run[0]:.4g} to {run[-1]:.4g} s" for run in runs)
         return (
@@ -234,21 +234,21 @@ class Crawl(CrawlerProblem):
         InputError : the loads collapse a section.  NotConvergedError : an instant has no solution.
         OutOfReachError : the surface cannot stay on the ground.
         """
-        moments = self.gait.moments(self.step)
-        self.check_collapse(moments, name)
+        instants = self.gait.instants(self.step)
+        self.check_collapse(instants, name)
         steps: list[_Step] = []
         nodal, tilt = None, 0.0
         for stride in range(self.strides):
-            for moment in moments if stride == 0 else moments[1:]:
-                when = f"{name} at t = {stride * self.gait.duration + moment.time:.4g} s"
-                profile, nodal, sine = self.solve_instant(moment.regions, nodal, when)
+            for instant in instants if stride == 0 else instants[1:]:
+                when = f"{name} at t = {stride * self.gait.duration + instant.time:.4g} s"
+                profile, nodal, sine = self.solve_instant(instant.regions, nodal, when)
                 placed = self.length_along(profile)
                 if steps:
-                    at = np.array([moment.anchor])
+                    at = np.array([instant.anchor])
                     before, after = steps[-1].profile.mesh, profile.mesh
                     held = before.interpolate(steps[-1].placed, at)
                     placed = placed + float((held - after.interpolate(placed, at))[0])
-                steps.append(_Step(stride, moment, profile, placed))
+                steps.append(_Step(stride, instant, profile, placed))
                 tilt = max(tilt, sine)
             run.progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
         thin = self.thin_anchor_warning()
@@ -258,33 +258,33 @@ class Crawl(CrawlerProblem):
             warnings=() if thin is None else (thin,),
         )
 
-    def check_collapse(self, moments: Sequence[Moment], name: str) -> None:
-        """The homogeneous states of all moments, before anything is solved.
+    def check_collapse(self, instants: Sequence[Instant], name: str) -> None:
+        """Check the homogeneous states of all instants, before anything is solved.
 
-        They depend on which loads act, not on where: each such set is looked at once, at its first moment.
+        They depend on which loads act, not on where: each such set is checked once, at its first instant.
 
         Raises
         ------
-        InputError : the loads collapse a section; names the load and that moment.
+        InputError : the loads collapse a section; names the load and that instant.
         """
         seen: set[frozenset[Muscle]] = set()
-        for moment in moments:
-            acting = frozenset(region.load for region in moment.regions)
+        for instant in instants:
+            acting = frozenset(region.load for region in instant.regions)
             if acting not in seen:
                 seen.add(acting)
-                when = f"{name} at t = {moment.time:.4g} s"
-                Instant(self.crawler, self.loads, moment.regions, when).check_collapse()
+                when = f"{name} at t = {instant.time:.4g} s"
+                InstantProblem(self.crawler, self.loads, instant.regions, when).check_collapse()
 
     def _fields(self, steps: list[_Step]) -> dict[str, Field]:
         fields = self.fields(
-            [s.profile for s in steps], [s.placed for s in steps], [s.moment.regions for s in steps]
+            [s.profile for s in steps], [s.placed for s in steps], [s.instant.regions for s in steps]
         )
-        anchors = np.array([s.moment.anchor for s in steps])
-        ground = [s.profile.mesh.interpolate(s.placed, np.array([s.moment.anchor]))[0] for s in steps]
+        anchors = np.array([s.instant.anchor for s in steps])
+        ground = [s.profile.mesh.interpolate(s.placed, np.array([s.instant.anchor]))[0] for s in steps]
         return {
             "time": (
                 ("time",),
-                np.array([s.stride * self.gait.duration + s.moment.time for s in steps]),
+                np.array([s.stride * self.gait.duration + s.instant.time for s in steps]),
             ),
             **fields,
             "anchor": (("time",), anchors * self.crawler.length),

@@ -27,10 +27,10 @@ Array = NDArray[np.float64]
 
 
 class Start(Parameters):
-    """Where a motion begins: a shape, and velocities of the whole rod."""
+    """Start of a motion: a shape, and velocities of the whole rod."""
 
     shape: Literal["reference", "first beam mode"] = "reference"
-    """"first beam mode" bends the rod as eq. (3.5.16) says and turns the directors with it."""
+    """"first beam mode" bends the rod by eq. (3.5.16) and rotates the directors with it."""
     amplitude: Annotated[float, Quantity("m")] = 0.0
     """Displacement of the tip in the first beam mode, twice A_1 of eq. (3.5.16)."""
     speed: Annotated[float, Quantity("m/s")] = 0.0
@@ -42,7 +42,7 @@ class Start(Parameters):
 
 
 class RodMotion(RodProblem):
-    """A rod moving from a start, perhaps damped, under dead loads."""
+    """Motion of a rod from a start, perhaps damped, under dead loads."""
 
     kind: Literal["rod motion"] = "rod motion"
     in_increments: ClassVar[bool] = False
@@ -54,7 +54,7 @@ class RodMotion(RodProblem):
     every: Annotated[float, Quantity("s", above=0)]
     """Time between two frames."""
     damping: Annotated[float, Quantity("1", r"\zeta", "section 3.5", at_least=0)] = 0.0
-    """Share of the critical damping of the lowest mode that deforms the rod.
+    """Mass-proportional damping, as a fraction of the critical damping of the lowest mode that deforms the rod.
 
     ASSUME a force -2 zeta omega_1 M v: the page names none.
     """
@@ -86,7 +86,7 @@ class RodMotion(RodProblem):
         if not self.damping:
             return system
         lowest = first_elastic_frequency(
-            system.unloaded(), system.space.reference, anchored=self._anchored(geometry)
+            system.unloaded(), system.space.reference, supported=self._anchored(geometry)
         )
         return replace(system, damping_rate=2 * self.damping * lowest)
 
@@ -100,10 +100,10 @@ class RodMotion(RodProblem):
         geometry = self.rod.geometry()
         system = self.system(geometry)
         rest = system.space.reference
-        return modes(system.unloaded(), rest, count, name, anchored=self._anchored(geometry))
+        return modes(system.unloaded(), rest, count, name, supported=self._anchored(geometry))
 
     def _anchored(self, geometry: Geometry) -> bool:
-        """Whether no rigid motion is left free."""
+        """Whether no rigid motion is free."""
         at_rest = self.rod.strain_energy.reference(geometry)
         return not self.rod.kinematics.free_motions(at_rest, self.constrained()).any()
 
@@ -116,7 +116,7 @@ class RodMotion(RodProblem):
             turn = np.arctan(self.start.amplitude * slope)
             X[:, 1] += self.start.amplitude * shape
             D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
-            D = self.rod.strain_energy.shaped(self.rod, geometry, X, D)
+            D = self.rod.strain_energy.start_directors(self.rod, geometry, X, D)
         system, kinematics = super().system(geometry, displacements=False), self.rod.kinematics
         start = kinematics.split(system.space.reference.copy())
         start[:, 0], start[:, 1] = X, D
@@ -137,23 +137,23 @@ class RodMotion(RodProblem):
         InputError : the integrator's fixed step is beyond its stability limit, or stored parts are of another run.
         NotConvergedError, DivergedError, CrossingError : a step has no solution; the parts before it are stored.
         """
-        course, state = CheckpointedRun.of(self, name), self.begin()
+        checkpointed, state = CheckpointedRun.of(self, name), self.begin()
         done: list[Solution] = []
-        for number in range(course.parts):
+        for number in range(checkpointed.parts):
             part = run.checkpoints.load(number) if run.checkpoints else None
             if part is not None:
-                state = resumed(part, course.system)
+                state = resumed(part, checkpointed.system)
             else:
-                part, state, stopped = course.part(number, state)
+                part, state, stopped = checkpointed.part(number, state)
                 if run.checkpoints and part.fields:
                     run.checkpoints.save(number, part, whole=stopped is None)
                 if stopped:
                     raise stopped
             done.append(part)
             reached = part["time"][-1]
-            run.progress((number + 1) / course.parts, f"{reached:.4g} of {self.duration:g} s")
-        whole = joined(done, course.substeps_per_frame)
-        return replace(whole, warnings=course.warnings(whole))
+            run.progress((number + 1) / checkpointed.parts, f"{reached:.4g} of {self.duration:g} s")
+        whole = joined(done, checkpointed.substeps_per_frame)
+        return replace(whole, warnings=checkpointed.warnings(whole))
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

@@ -1,4 +1,4 @@
-"""The path of equilibria that a consistent rod goes through as its loads grow, past limits and branches."""
+"""The equilibrium path of a consistent rod as its loads grow, past limit points and bifurcations."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 class ArcSettings(Parameters):
-    """How the path is followed; arcs are counted in radians of the fastest turning section, and shares of the load."""
+    """Settings of the path; arcs combine radians of the section that rotates most with fractions of the load."""
 
     first: Annotated[float, Quantity("1", above=0)] = 0.05
     """Length of the first arc."""
@@ -36,13 +36,13 @@ class ArcSettings(Parameters):
     count: Annotated[int, Count(at_least=1, at_most=100_000)] = 500
     """Most arcs."""
     limit: Annotated[float, Quantity("1", above=1)] = 3.0
-    """Share of the load, either way, beyond which the path is given up."""
+    """Fraction of the load, in either direction, beyond which the path fails."""
     branch: Literal["leave", "stay"] = "leave"
-    """At a branching point, whether to leave along the softest motion or to stay on the path."""
+    """At a bifurcation, whether to leave along the softest motion or to stay on the path."""
 
 
 class RodPath(RodProblem):
-    """Equilibria along a path, as all loads grow together from nothing.
+    """Equilibria along a path, as all loads grow together from zero.
 
     The path ends when they reach their full size, or after the last arc.
     """
@@ -53,7 +53,7 @@ class RodPath(RodProblem):
 
     @model_validator(mode="after")
     def _is_consistent(self) -> Self:
-        if not self.rod.strain_energy.far:
+        if not self.rod.strain_energy.large_rotations:
             raise PydanticCustomError(
                 "energy", "needs rod.energy = 'consistent'; the published rod has no paths"
             )
@@ -66,12 +66,12 @@ class RodPath(RodProblem):
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """Every point of the path; after 'arc.count' arcs it ends where it is, which the statistics say.
+        """Every point of the path; it ends after 'arc.count' arcs at the latest, which the statistics record.
 
         Raises
         ------
         UnsupportedRodError : a rigid motion is left free.
-        NotConvergedError : the path could not be followed; the error says how far, and holds the last state.
+        NotConvergedError : the path could not be followed; the error has the load reached and the last state.
         """
         geometry = self.rod.geometry()
         system = self.system(geometry)
@@ -102,9 +102,9 @@ class RodPath(RodProblem):
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
-        """Points, and how far the load came."""
+        """Number of points, and the load reached."""
         reached = statistics["load_factor_reached"]
-        end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to go on"
+        end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to continue"
         return (
             f"{statistics['points']} points, {statistics['unstable_points']} of them unstable, up to {reached:.4g} of "
             f"the load, {statistics['iterations']} Newton iterations{end}"
@@ -150,6 +150,6 @@ def _solution(
     warnings = [*solver.warnings(), *coarse(d)]
     if not points[-1].stable:
         warnings.append(
-            "unstable end: the last point of the path is an unstable equilibrium, in which a body does not stay"
+            "unstable end: the last point of the path is an unstable equilibrium, where a body does not stay"
         )
     return Solution(fields, statistics, {"axis": rod.kinematics.axes}, tuple(warnings))

@@ -44,7 +44,7 @@ class RodStatics(RodProblem):
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """Find the equilibrium; `name` is what errors call the case.
+        """Find the equilibrium; `name` : name of the case in errors.
 
         Raises
         ------
@@ -61,7 +61,7 @@ class RodStatics(RodProblem):
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
-        """Iterations and the unbalanced force that is left."""
+        """Iterations and the remaining unbalanced force."""
         return (
             f"{statistics['iterations']} Newton iterations, largest unbalanced force "
             f"{statistics['residual_N']:.2g} N (allowed {statistics['tolerance_N']:.2g} N)"
@@ -72,18 +72,18 @@ class RodStatics(RodProblem):
 
         Raises
         ------
-        UnsupportedRodError, NotConvergedError : there is no equilibrium to move about.
-        UnstableError : there is one, but small motions about it grow.
+        UnsupportedRodError, NotConvergedError : there is no equilibrium.
+        UnstableError : small motions about the equilibrium grow.
         """
         geometry = self.rod.geometry()
         system = self.system(geometry)
         point, _ = self.equilibrium(geometry, system, name)
-        return modes(system, point.q, count, name, anchored=True, history=point.history)
+        return modes(system, point.q, count, name, supported=True, history=point.history)
 
     def equilibrium(
         self, geometry: Geometry, system: MechanicalSystem, name: str
     ) -> tuple[Equilibrium, EquilibriumSolver]:
-        """The equilibrium that the loads lead to as they grow together, as displacements, and how it was found."""
+        """The equilibrium as all loads grow together, in displacements, with its solver."""
         check_supports(self.rod, geometry, system.constrained, name)
         solver = EquilibriumSolver(system, self.newton, name)
         try:
@@ -104,7 +104,7 @@ def check_supports(rod: Rod, geometry: Geometry, constrained: NDArray[np.bool_],
     if left:
         raise UnsupportedRodError(
             f"{name}: the supports leave the rod free to move ({', '.join(left)}); "
-            "hold more numbers in 'supports', such as at = 'first', fixed = ['x3', 'x2', 'd3', 'd2']"
+            "fix more DOFs in 'supports', such as at = 'first', fixed = ['x3', 'x2', 'd3', 'd2']"
         )
 
 

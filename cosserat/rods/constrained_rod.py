@@ -1,8 +1,8 @@
 """A uniform rod that keeps its volume or its length: both forms of an internal constraint, section 1.3.
 
-Uniform means that one section turns into the next: d_i' = omega x d_i with the same omega everywhere.  Without loads
-between its ends the balances (1.2.71) and (1.2.82) then read omega x n = 0 and omega x m^alpha = k^alpha; so n is along
-omega.  An omega along E_3 twists the rod, one across it bends it into a circle.
+Uniform means that each section is rotated into the next: d_i' = omega x d_i with the same omega everywhere.  Without
+loads between its ends the balances (1.2.71) and (1.2.82) then read omega x n = 0 and omega x m^alpha = k^alpha; so n is
+along omega.  An omega along E_3 twists the rod, one across it bends it into a circle.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from cosserat.rods.directed_rod import energy_gradient, forces, measures
 
 Array = NDArray[np.float64]
 
-_BALANCED = 1e-12  # largest force left over, as a share of the largest stiffness
-_TRIALS = 60  # of directors and multiplier; a rod that is not turned too much takes a dozen
-_LEAST = 0.1  # volume of a section over that at rest below which it counts as collapsed
+_FORCE_TOLERANCE = 1e-12  # largest unbalanced force, as a fraction of the largest stiffness
+_MAX_ITERATIONS = 60  # for directors and multiplier; moderate turns take a dozen
+_MIN_VOLUME_RATIO = 0.1  # volume of a section over that at rest below which it has collapsed
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Constraint:
     """phi^I(d_1, d_2, r') = 0 of eq. (1.3.21).
 
     value : phi^I at directors (3, 3).  gradient : its derivatives by d_1, d_2, r' = d_3, rows of a (3, 3) array.
-    eliminate : gamma (3, 3) with gamma_33 put in from phi^I = 0, and the derivatives (3, 3) of that gamma_33 by
+    eliminate : gamma (3, 3) with gamma_33 from phi^I = 0, and the derivatives (3, 3) of that gamma_33 by
     gamma_ij, with -1 in place of the one by gamma_33 itself.
     """
 
@@ -103,12 +103,12 @@ def uniform_state(
     """Directors d_1, d_2, d_3, rows of a (3, 3) array, and the multiplier [N] of a uniform rod.
 
     k : k_1 ... k_16 of eq. (1.2.98).  turn : omega, shape (3,) [1/m].  pull : n along omega [N].
-    Of the states that a rotation about omega leaves equal, the one nearest to E_i.
+    States that differ by a rotation about omega are equivalent; this is the one nearest to E_i.
 
     Raises
     ------
     InputError : omega is zero, or a number is not finite.  NotConvergedError : no equilibrium found.
-    OutOfReachError : the sections collapse, where this energy means nothing any more.
+    OutOfReachError : the sections collapse, where this energy has no meaning.
     """
     from scipy.optimize import least_squares
 
@@ -123,23 +123,23 @@ def uniform_state(
     def unbalanced(x: Array) -> Array:
         d, multiplier = x[:9].reshape(3, 3), x[9] * scale
         n, intrinsic, m = constrained_forces(k, constraint, form, d, np.cross(turn, d[:2]), multiplier)
-        turned = (d * np.cross(axis, np.eye(3))).sum()  # about omega, which no force resists
+        turned = (d * np.cross(axis, np.eye(3))).sum()  # about omega, against no resistance
         left = np.concatenate([n - pull * axis, (intrinsic - np.cross(turn, m)).ravel()])
         return np.append(left / scale, [constraint.value(d), turned])
 
     start = np.append(np.eye(3).ravel(), 0.0)
     found = least_squares(
-        unbalanced, start, jac="cs", xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=_TRIALS
+        unbalanced, start, jac="cs", xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=_MAX_ITERATIONS
     )
     d, residual = found.x[:9].reshape(3, 3), float(np.abs(found.fun).max())
-    asked = f"a uniform rod that turns by {turn} per metre under {pull:g} N"
-    if not residual < _BALANCED:
+    asked = f"a uniform rod that rotates by {turn} per metre under {pull:g} N"
+    if not residual < _FORCE_TOLERANCE:
         raise NotConvergedError(
             f"{asked}: no equilibrium found; turn or pull it less",
             iterations=int(found.nfev),
             residual=residual * scale,
-            tolerance=_BALANCED * scale,
+            tolerance=_FORCE_TOLERANCE * scale,
         )
-    if np.linalg.det(d) < _LEAST:
+    if np.linalg.det(d) < _MIN_VOLUME_RATIO:
         raise OutOfReachError(f"{asked}: its sections collapse; turn or push it less")
     return d, float(found.x[9]) * scale

@@ -1,4 +1,4 @@
-"""Constrained degrees of freedom (DOFs): fixed, or prescribed to move with the load or to and fro in time."""
+"""Constrained degrees of freedom (DOFs): fixed, moved with the load, or moved sinusoidally in time."""
 
 from __future__ import annotations
 
@@ -17,33 +17,31 @@ from cosserat.rods.rod import Rod
 from cosserat.solvers.banded import Mask
 
 Array = NDArray[np.float64]
-_MAX_ROTATION = (
-    1.0  # of a section in one load increment [rad]: angles are unwrapped, so less than half a turn
-)
+_MAX_ROTATION = 1.0  # of a section in one load increment [rad]; unwrapping needs less than pi
 
 
 class PrescribedPart(Protocol):
-    """Neighbouring DOFs, prescribed together."""
+    """Prescribed motion of neighbouring DOFs."""
 
     @property
     def index(self) -> int:
-        """The first of its DOFs."""
+        """First of its DOFs."""
 
     @property
     def frequency(self) -> float:
-        """Of moving to and fro [Hz]; zero where it moves once."""
+        """Frequency of sinusoidal motion [Hz]; zero for a single move."""
 
     @property
     def rotation(self) -> float:
         """Largest angle by which it rotates a section [rad]."""
 
     def place(self, fraction: float) -> tuple[Array, Array, Array]:
-        """Displacement at a fraction of the whole, and two derivatives by the fraction, each (number of DOFs,)."""
+        """Displacement at a fraction of the full motion, and two derivatives by it, each (number of DOFs,)."""
 
 
 @dataclass(frozen=True)
 class DisplacedDof:
-    """One DOF, moved by an amount [m], to and fro if it has a frequency [Hz]."""
+    """One DOF, moved by an amount [m], sinusoidally if it has a frequency [Hz]."""
 
     index: int
     by: float
@@ -51,13 +49,13 @@ class DisplacedDof:
     rotation: float = 0.0
 
     def place(self, fraction: float) -> tuple[Array, Array, Array]:
-        """In proportion."""
+        """Proportional displacement."""
         return np.array([fraction * self.by]), np.array([self.by]), np.zeros(1)
 
 
 @dataclass(frozen=True)
 class RotatedDirector:
-    """A director D (2,), the DOFs from `index` on, rotated by an angle [rad] as it is."""
+    """A director D (2,), the two DOFs at `index`, rotated by an angle [rad] without stretch."""
 
     index: int
     D: Array
@@ -70,7 +68,7 @@ class RotatedDirector:
         return abs(self.by)
 
     def place(self, fraction: float) -> tuple[Array, Array, Array]:
-        """Along a circle."""
+        """Displacement along a circle."""
         c, s = np.cos(fraction * self.by), np.sin(fraction * self.by)
         d = np.array([c * self.D[0] - s * self.D[1], s * self.D[0] + c * self.D[1]])
         return d - self.D, self.by * np.array([-d[1], d[0]]), -(self.by**2) * d
@@ -78,14 +76,14 @@ class RotatedDirector:
 
 @dataclass(frozen=True)
 class RodConstraints:
-    """Which DOFs of a rod are constrained, shape (n,), and those that are prescribed."""
+    """Mask of the constrained DOFs of a rod, shape (n,), and the prescribed motions."""
 
     mask: Mask
     parts: tuple[PrescribedPart, ...]
 
     @property
     def moving(self) -> bool:
-        """Whether some constrained DOFs do not keep their reference value."""
+        """Whether some constrained DOFs move."""
         return bool(self.parts)
 
     @property
@@ -97,7 +95,7 @@ class RodConstraints:
     def at_time(self, time: float) -> tuple[Array, Array, Array]:
         """Displacement, velocity and acceleration at a time [s], each (n,).
 
-        By sin(2 pi f t) of the whole; without a frequency by the whole from the start.
+        The full motion times sin(2 pi f t); without a frequency the full motion from the start.
         """
         motion = np.zeros((3, self.mask.size))
         for part in self.parts:
@@ -120,39 +118,39 @@ class RodConstraints:
 
 
 class Constraint(Parameters):
-    """A constraint at one vertex, as a case says it."""
+    """A constraint at one vertex of a case."""
 
     at: Vertex
     """The vertex that is constrained."""
 
     @property
     def fixes(self) -> tuple[DofName, ...]:
-        """The DOFs of the vertex that it constrains."""
+        """The DOFs of the vertex that it fixes."""
         return ()
 
     @property
     def moves(self) -> tuple[DofName, ...]:
-        """The DOFs of the vertex that it moves; another constraint has to fix them."""
+        """The DOFs of the vertex that it moves; another constraint must fix them."""
         return ()
 
     @property
     def action(self) -> str:
-        """What it does, in words that follow its key."""
+        """What it does, as words after its key."""
         return ""
 
-    def check(self, *, far: bool) -> None:
-        """Raise PydanticCustomError where it asks for more than a rod can follow; far : sections may rotate far."""
+    def check(self, *, large_rotations: bool) -> None:
+        """Raise PydanticCustomError if the rod cannot follow; large_rotations : beyond a quarter turn it can."""
 
     @abstractmethod
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart | None:
-        """What is prescribed; None if it moves nothing."""
+        """The prescribed motion; None if it moves nothing."""
 
 
 class Support(Constraint):
-    """Numbers of one vertex that keep their reference value."""
+    """Fixed DOFs of one vertex."""
 
     fixed: tuple[DofName, ...]
-    """Degrees of freedom that keep their reference value: components of the position (x) and of the director (d)."""
+    """Degrees of freedom fixed at their reference value: components of the position (x) and of the director (d)."""
 
     @property
     def fixes(self) -> tuple[DofName, ...]:
@@ -160,21 +158,21 @@ class Support(Constraint):
         return self.fixed
 
     def part(self, rod: Rod, geometry: Geometry) -> None:
-        """Nothing moves."""
+        """No motion."""
 
 
 class PrescribedDisplacement(Constraint):
-    """A fixed number that is moved: at rest to a new place, in motion there at once or to and fro.
+    """Prescribed displacement of a fixed DOF.  Static: applied with the load.  Dynamic: a step, or sinusoidal.
 
-    With a frequency f it stands at by sin(2 pi f t) from its reference value.
+    With a frequency f its displacement is by sin(2 pi f t).
     """
 
     dof: DofName
-    """Which of its fixed degrees of freedom is moved."""
+    """The fixed degree of freedom that is moved."""
     by: Annotated[float, Quantity("m")]
-    """How far it is moved from its reference value; to and fro, the amplitude."""
+    """Displacement from its reference value; with a frequency, the amplitude."""
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
-    """Frequency of moving to and fro; with zero it is moved once."""
+    """Frequency of sinusoidal motion; zero moves it once."""
 
     @property
     def moves(self) -> tuple[DofName, ...]:
@@ -187,20 +185,20 @@ class PrescribedDisplacement(Constraint):
         return f"moves {self.dof}"
 
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
-        """Its DOF, in proportion."""
+        """The proportional motion of its DOF."""
         return DisplacedDof(rod.dof(self.at, self.dof), self.by, self.frequency)
 
 
 class PrescribedRotation(Constraint):
-    """A fixed section that is rotated, from E3 towards E2: at rest by an angle, in motion at once or to and fro.
+    """Prescribed rotation of a fixed section, positive from E3 towards E2.
 
-    With a frequency f it has rotated by sin(2 pi f t) times the angle.
+    Static: applied with the load.  Dynamic: a step, or sinusoidal: with a frequency f, sin(2 pi f t) times the angle.
     """
 
     by: Annotated[float, Quantity("rad")]
-    """Angle from E3 towards E2; to and fro, the amplitude."""
+    """Angle from E3 towards E2; with a frequency, the amplitude."""
     frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
-    """Frequency of turning to and fro; with zero it is turned once."""
+    """Frequency of sinusoidal rotation; zero rotates it once."""
 
     @property
     def moves(self) -> tuple[DofName, ...]:
@@ -210,19 +208,19 @@ class PrescribedRotation(Constraint):
     @property
     def action(self) -> str:
         """What it does."""
-        return "turns the section"
+        return "rotates the section"
 
-    def check(self, *, far: bool) -> None:
+    def check(self, *, large_rotations: bool) -> None:
         """Sections rotate by more than a quarter turn only in increments."""
-        if not far and not self.frequency and abs(self.by) > np.pi / 2:
+        if not large_rotations and not self.frequency and abs(self.by) > np.pi / 2:
             raise PydanticCustomError(
                 "range",
-                f"'prescribed_rotations' turns the section of vertex {self.at} by {self.by:.4g} rad at once; "
-                "only the consistent rod at rest turns by more than a quarter, in steps: take "
-                "that, or a smaller angle",
+                f"'prescribed_rotations' rotates the section of vertex {self.at} by {self.by:.4g} rad at once; only "
+                "the consistent rod at rest rotates it by more than a quarter turn, in increments: take that, or a "
+                "smaller angle",
             )
 
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
-        """Its director, along a circle."""
+        """The motion of its director along a circle."""
         D = geometry.D[rod.index(self.at)]
         return RotatedDirector(rod.dof(self.at, "d3"), D, self.by, self.frequency)

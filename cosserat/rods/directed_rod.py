@@ -1,7 +1,7 @@
 """The directed rod of Green and Naghdi, Chapter 1: measures, energies, their gradients, inertia.
 
-A section is known by its directors d_1, d_2, by d_3 = r', eq. (1.2.10), and by d_1', d_2'.  Index 0 stands for 1 of the
-thesis.  Stiffnesses come from three-dimensional elasticity.
+The directors d_1, d_2, d_3 = r', eq. (1.2.10), and d_1', d_2' describe a section.  Index 0 is index 1 of the thesis.
+Stiffnesses come from three-dimensional elasticity.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Offset:
-    """What a section has about axes that are not its central principal ones, eqs. (1.2.36), (1.2.37).
+    """Moments of a section about axes that are not its central principal ones, eqs. (1.2.36), (1.2.37).
 
     first : (2,) S^1, S^2 [m^3].  product : I^12 [m^4].
     """
@@ -62,7 +62,7 @@ def measures(d: Array, d_prime: Array) -> tuple[Array, Array]:
 
 
 def integrated_stiffnesses(young: float, poisson: float, section: Section) -> dict[int, float]:
-    """k_1 ... k_15 of eq. (1.2.95), by number: what integrating linear elasticity over the section gives [N, N m^2]."""
+    """k_1 ... k_15 of eq. (1.2.95), by number: linear elasticity integrated over the section [N, N m^2]."""
     first, shear = lame(young, poisson)
     a, i1, i2 = section.area, section.second_moment_1, section.second_moment_2
     stretch = first + 2 * shear
@@ -202,7 +202,7 @@ def couple(d: Array, director_forces: Array) -> Array:
 
 @dataclass(frozen=True)
 class Inertia:
-    """What moves with a section, per reference length, eqs. (1.2.30)-(1.2.32).
+    """Inertia of a section per reference length, eqs. (1.2.30)-(1.2.32).
 
     mass : rho_0 [kg/m].  first : (2,) rho_0 y_0^0alpha [kg].  second : (2, 2) rho_0 y_0^alpha beta [kg m].
     """

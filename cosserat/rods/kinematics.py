@@ -1,6 +1,6 @@
 """The layout of a rod: N vertices, each a position and its directors, all vectors of one space.
 
-Names of degrees of freedom (DOFs), rigid motions and the band of the mass follow from it, in the plane as in space.
+It gives the names of degrees of freedom (DOFs), the rigid motions and the mass band, in the plane and in space.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Kinematics:
         return fields.reshape(fields.shape[0], -1)
 
     def free_motions(self, q: Array, constrained: Mask) -> Array:
-        """How far each rigid motion at flat DOFs moves no constrained DOF, from 0 to 1; constrained (N m d,)."""
+        """How free of the constraints each rigid motion at flat DOFs is, from 0 to 1; constrained (N m d,)."""
         motions = self.rigid_motions(q)
         at_supports = motions[:, constrained] / np.abs(motions).max(axis=1)[:, None]
         _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
@@ -98,11 +98,11 @@ class Kinematics:
 PLANAR = Kinematics(("E3", "E2"), ("x", "d"))
 """A rod in the plane of E3 and E2, eq. (3.3.42)."""
 SPATIAL = Kinematics(("E1", "E2", "E3"), ("x", "d1_", "d2_"))
-"""A rod in space with two directors, as in Chapter 1; no energy of it is here yet."""
+"""A rod in space with two directors, as in Chapter 1; it has no energy yet."""
 
 
 def rotation_rates(vectors: Array, rates: Array) -> Array:
-    """How fast vectors (k, d) rotate as they change at rates (k, d): (k, d (d - 1) / 2) [rad]."""
+    """Rates of rotation of vectors (k, d) that change at rates (k, d): (k, d (d - 1) / 2) [rad]."""
     square = (vectors**2).sum(axis=1)
     pairs = itertools.combinations(range(vectors.shape[1]), 2)
     turning = [(vectors[:, a] * rates[:, b] - vectors[:, b] * rates[:, a]) / square for a, b in pairs]
@@ -110,13 +110,13 @@ def rotation_rates(vectors: Array, rates: Array) -> Array:
 
 
 def stretch_rates(vectors: Array, rates: Array) -> Array:
-    """How fast vectors (k, d) stretch as they change at rates (k, d), as fractions of their lengths: (k,)."""
+    """Rates of stretch of vectors (k, d) that change at rates (k, d), as fractions of their lengths: (k,)."""
     rate: Array = (vectors * rates).sum(axis=1) / (vectors**2).sum(axis=1)
     return rate
 
 
 def rotated(vectors: Array, angles: Array) -> Array:
-    """Vectors (k, d) rotated by what `rotation_rates` gives, (k, d (d - 1) / 2) [rad]."""
+    """Vectors (k, d) rotated by angles as from `rotation_rates`, (k, d (d - 1) / 2) [rad]."""
     if vectors.shape[1] == 2:
         c, s = np.cos(angles[:, 0]), np.sin(angles[:, 0])
         return np.column_stack(

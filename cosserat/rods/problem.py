@@ -1,4 +1,4 @@
-"""A rod with its constraints and loads: what its problems at rest and in motion have in common, section 3.5."""
+"""A rod with its constraints and loads, the common part of its static and dynamic problems, section 3.5."""
 
 from __future__ import annotations
 
@@ -44,15 +44,15 @@ CONSTRAINTS: dict[str, type[Constraint]] = {
 
 
 class RodProblem(Problem):
-    """A rod, what constrains it and what pulls it."""
+    """A rod with its constraints and loads."""
 
     in_increments: ClassVar[bool] = True
-    """Whether constrained DOFs move with the load, in increments, and not at once."""
+    """Whether prescribed DOFs move with the load, in increments, and not at once."""
     always: ClassVar[tuple[str, ...]] = ()
-    """Keys of loads whose potential is there even where none is given, for its internal variables."""
+    """Keys of loads whose potential is always present, for its internal variables."""
     rod: Rod
     supports: tuple[Support, ...]
-    """What holds the rod; empty for a free one, which only a motion may be."""
+    """Supports of the rod; only a motion may have none."""
     gravity: Gravity | None = None
     forces: tuple[PointForce, ...] = ()
     """Dead forces, each at one vertex."""
@@ -61,9 +61,9 @@ class RodProblem(Problem):
     couples: tuple[Couple, ...] = ()
     """Moments, each on one section."""
     prescribed_displacements: tuple[PrescribedDisplacement, ...] = ()
-    """Fixed degrees of freedom that are moved."""
+    """Prescribed displacements of fixed degrees of freedom."""
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()
-    """Fixed sections that are turned."""
+    """Prescribed rotations of fixed sections."""
 
     def loads_of(self, key: str) -> tuple[Load, ...]:
         """The loads of one kind."""
@@ -106,16 +106,16 @@ class RodProblem(Problem):
                 if not constrained[number]:
                     raise PydanticCustomError(
                         "support",
-                        f"'{key}' {item.action} of vertex {item.at}, which no support holds; "
+                        f"'{key}' {item.action} of vertex {item.at}, which no support fixes; "
                         f"add {dof} to 'fixed' of a support there",
                     )
         for _, item in self.constraints():
-            item.check(far=self.rod.strain_energy.far and self.in_increments)
+            item.check(large_rotations=self.rod.strain_energy.large_rotations and self.in_increments)
         return self
 
     @property
     def oscillates(self) -> bool:
-        """Whether a constrained DOF is moved to and fro, which takes time."""
+        """Whether a prescribed DOF oscillates, which needs a motion."""
         return any(getattr(item, "frequency", 0.0) for _, item in self.constraints())
 
     def system(self, geometry: Geometry, *, displacements: bool = True) -> MechanicalSystem:

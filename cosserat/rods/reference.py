@@ -1,7 +1,7 @@
 """The discrete planar directed rod: its reference geometry and lumped properties, sections 3.3 and 3.4.
 
-Components are taken in the plane of motion in the order (E3, E2): along the straight rod, then up.  A positive angle
-turns E3 towards E2, which is the sign that eqs. (3.3.18) and (3.3.26) give.
+Components in the plane of motion are in the order (E3, E2): along the straight rod, then up.  A positive angle
+rotates E3 towards E2, the sign of eqs. (3.3.18) and (3.3.26).
 """
 
 from __future__ import annotations
@@ -59,10 +59,10 @@ class Geometry:
 
     @classmethod
     def arc(cls, vertices: int, length: float, director_length: Array, curvature: float) -> Geometry:
-        """A rod bent from the origin into an arc that turns from E3 towards E2, its directors along b, eq. (3.3.25).
+        """A rod bent from the origin into an arc from E3 towards E2, its directors along b, eq. (3.3.25).
 
         length is that of the polygon, whose vertices lie on a circle.  The directors are orthogonal to the vertex
-        tangents, so that no shear is intrinsic.
+        tangents, so there is no intrinsic shear.
         """
         edge = length / (vertices - 1)
         turn = 2 * np.arcsin(curvature * edge / 2)

@@ -1,4 +1,4 @@
-"""What an answer does not resolve, each said by name: sections that cross, coarse meshes, modes too fast for a step."""
+"""Checks of resolution: sections that cross, coarse meshes, modes too fast for a step."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from cosserat.solvers.banded import Band, Mask, Vector, band_product
 Array = NDArray[np.float64]
 
 COARSE = 1.0
-"""Turning from one section to the next beyond which a mesh is called coarse [rad]."""
+"""Rotation from one section to the next above which a mesh is coarse [rad]."""
 FAST = 1.0
-"""Turning of a section in one step beyond which a motion is called fast [rad]."""
+"""Rotation of a section in one step above which a motion is fast [rad]."""
 UNRESOLVED = 0.01
-"""Share of the kinetic energy in unresolved modes from which on it is said."""
+"""Fraction of the kinetic energy in unresolved modes above which a warning is given."""
 UNBALANCED = 1e-3
-"""Share of the energy by which its balance may fail unsaid."""
-_ORDER = 8  # of the filter that parts resolved from unresolved modes, in squares of the frequency
+"""Error of the energy balance, as a fraction of the energy, above which a warning is given."""
+_FILTER_ORDER = 8  # of the filter between resolved and unresolved modes, in squares of the frequency
 
 
 def surface_stretch(geometry: Geometry, x: Array, d: Array, lower: Array) -> Array:
     """Stretch of the upper and the lower surface between neighbouring sections, shape (..., 2, N - 1).
 
-    x, d : (..., N, 2).  lower : (N,) what of a director reaches the lower surface, as a share of it.
+    x, d : (..., N, 2).  lower : (N,) distance of the lower surface, as a fraction of the director.
 
     Measured across the mean of the two directors.  derived: the surfaces run between the tips x + d, and between
-    x - lower d; where one has no length left two sections meet, as in the displays after eq. (3.4.11).
+    x - lower d; two sections meet where one of them has no length, as in the displays after eq. (3.4.11).
     """
     unit = d / np.linalg.norm(d, axis=-1)[..., None]
     across = unit[..., 1:, :] + unit[..., :-1, :]
@@ -43,7 +43,7 @@ def surface_stretch(geometry: Geometry, x: Array, d: Array, lower: Array) -> Arr
 
 
 def check_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: str) -> None:
-    """Raise CrossingError where neighbouring sections of one configuration, x and d of shape (N, 2), cross."""
+    """Raise CrossingError if neighbouring sections of a configuration, x and d of shape (N, 2), cross."""
     stretch = surface_stretch(geometry, x, d, np.full(x.shape[0], lower))
     if not (stretch > 0).all():
         surface, edge = np.unravel_index(
@@ -52,7 +52,7 @@ def check_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: s
         side = ("upper", "lower")[int(surface)]
         raise CrossingError(
             f"{name}: the sections of vertices {edge} and {edge + 1} cross at the {side} surface, where the material "
-            "would pass through itself; lessen the loads, or take a rod that is thinner or bends less"
+            "would pass through itself; reduce the loads, or take a rod that is thinner or bends less"
         )
 
 
@@ -64,7 +64,7 @@ def largest_turning(d: Array) -> float:
 
 
 def coarse(d: Array) -> list[str]:
-    """A warning where neighbouring sections stand far apart."""
+    """A warning if the angle between neighbouring sections is large."""
     turning = largest_turning(d)
     if turning <= COARSE:
         return []
@@ -78,8 +78,7 @@ def unresolved_energy(stiffness: Band, mass: Band, constrained: Mask, v: Vector,
     """Kinetic energy in modes with omega h > 1 [J], of small motions with a stiffness and a mass.
 
     derived: with z = (omega h)^2, 1 / (1 + z^n) is the mean of 1 / (1 - z / z_k) over the n roots z_k of -1.  Each
-    takes one solution with M - h^2 K / z_k, so no modes have to be found.  n = 8 parts modes with omega h = 0.7 and 1.4
-    to 0.4 %.
+    takes one solution with M - h^2 K / z_k, without modes.  n = 8 separates modes with omega h = 0.7 and 1.4 to 0.4 %.
     """
     free = ~constrained
     moving = np.where(free, v, 0.0)
@@ -93,8 +92,8 @@ def unresolved_energy(stiffness: Band, mass: Band, constrained: Mask, v: Vector,
             target[width - k, k:] = column
         target[width, constrained] = 1.0
     resolved = 0.0
-    for k in range(_ORDER // 2):
-        root = np.exp(1j * np.pi * (2 * k + 1) / _ORDER)
+    for k in range(_FILTER_ORDER // 2):
+        root = np.exp(1j * np.pi * (2 * k + 1) / _FILTER_ORDER)
         y = solve_banded((width, width), both[0] - h**2 / root * both[1], momentum.astype(complex))
-        resolved += 2 / _ORDER * float((momentum @ y).real)
+        resolved += 2 / _FILTER_ORDER * float((momentum @ y).real)
     return max(0.0, float(moving @ momentum) - resolved) / 2

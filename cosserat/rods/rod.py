@@ -22,19 +22,18 @@ from cosserat.rods.energies.hemingway_stiffness import (
 from cosserat.rods.kinematics import Kinematics
 from cosserat.rods.naming import DofName, Vertex
 from cosserat.rods.reference import Geometry
-from cosserat.rods.variation import Station, mass_share, mean, vertex_cuts
-from cosserat.rods.variation import share as share_of
+from cosserat.rods.variation import Station, mass_scale, mean, scale_at, vertex_cuts
 
 Array = NDArray[np.float64]
 
 
 class Rod(Parameters):
-    """A rod of rectangular sections, section 3.5: straight and homogeneous unless it is said to be otherwise."""
+    """A rod of rectangular sections, section 3.5: straight and homogeneous by default."""
 
     energy: Annotated[str, OneOf(ENERGIES)] = "published"
-    """The thesis's energy (3.4.11) with its calibration, or the one that converges, of `rods.energies.reissner`."""
+    """The thesis's energy (3.4.11) with its calibration, or the convergent one of `rods.energies.reissner`."""
     vertices: Annotated[int, Count("N", "3.3.1", at_least=3)]
-    """Number of vertices of the discrete rod, both ends counted."""
+    """Number of vertices of the discrete rod, both ends included."""
     length: Annotated[float, Quantity("m", r"\ell_0", "3.3.1", above=0)]
     """Length of the centreline in the reference configuration."""
     height: Annotated[float, Quantity("m", "H", "section 3.5", above=0)]
@@ -50,17 +49,17 @@ class Rod(Parameters):
     shear_correction: Annotated[float, Quantity("1", "k", "3.4.13", above=0)]
     """Factor of the shear stiffness k mu A; 5/6 for a rectangle."""
     stations: tuple[Station, ...] = ()
-    """How width, height, modulus, Poisson's ratio and density vary along the rod."""
+    """Variation of width, height, modulus, Poisson's ratio and density along the rod."""
     centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
-    """Height of the centreline above the lower surface, as a share of the section's; directors reach the upper one."""
+    """Height of the centreline above the lower surface over that of the section; directors reach the upper surface."""
     curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")] = 0.0
-    """Curvature of the reference configuration, an arc that turns from E3 towards E2."""
+    """Curvature of the reference configuration, an arc from E3 towards E2."""
     calibration: Annotated[Calibration | None, NONE_BY_WORD] = None
-    """Coefficients of the published energy, which cannot do without them; the consistent one takes none."""
+    """Coefficients of the published energy, required there; the consistent one has none."""
     lateral_constraint: LateralConstraint = "free"
-    """What the sections of the consistent rod may do in E1; the published one has no such choice."""
+    """Lateral constraint of the sections in E1, of the consistent rod only."""
     barrier: bool = False
-    """Whether the consistent rod resists collapse as Fig. 3.7 shows; equal to second order in the strains."""
+    """Whether the consistent rod resists collapse as in Fig. 3.7; equal to second order in the strains."""
     end_sections: EndSections = "full"
     """Whether the end vertices of the published energy have full areas, or half of them, as eq. (3.4.10) is printed."""
     poisson_coupling: PoissonCoupling = "halved"
@@ -78,8 +77,8 @@ class Rod(Parameters):
             if other != self.energy and given:
                 raise PydanticCustomError(
                     "energy",
-                    f"has {' and '.join(map(repr, given))}, which only energy = '{other}' knows; "
-                    "leave it out (calibration = 'none' takes away one that 'like' brought in)",
+                    f"has {' and '.join(map(repr, given))}, which only energy = '{other}' takes; "
+                    "leave it out (calibration = 'none' removes an inherited one)",
                 )
         ratios = self.poisson_ratios
         if not -1 < min(ratios) <= max(ratios) < 0.5:
@@ -102,13 +101,13 @@ class Rod(Parameters):
         if abs(self.curvature) * self.length / (self.vertices - 1) >= 1:
             raise PydanticCustomError(
                 "range",
-                "'curvature' turns each edge by more than a radian; use more 'vertices' or a smaller curvature",
+                "'curvature' rotates each edge by more than a radian; use more 'vertices' or a smaller curvature",
             )
         return self
 
     @property
     def strain_energy(self) -> Energy:
-        """The energy that it names."""
+        """The energy named by `energy`."""
         return energy_named(self.energy)
 
     @property
@@ -138,7 +137,7 @@ class Rod(Parameters):
 
     @property
     def below(self) -> float:
-        """What lies below the centreline, as a share of the directors, which reach the upper surface [1]."""
+        """Distance of the lower surface from the centreline, as a fraction of that of the upper one [1]."""
         return self.centreline / (1 - self.centreline)
 
     @property
@@ -152,9 +151,9 @@ class Rod(Parameters):
         return Geometry.arc(self.vertices, self.length, (1 - self.centreline) * heights, self.curvature)
 
     def height_fractions(self) -> Array:
-        """Heights at the vertices over the nominal one, after a step that lies on a vertex, shape (N,) [1]."""
+        """Heights at the vertices over the nominal one, after any step at a vertex, shape (N,) [1]."""
         arc = np.linspace(0.0, self.length, self.vertices)
-        return share_of(self.stations, "height", arc, before=False)
+        return scale_at(self.stations, "height", arc, before=False)
 
     def part_masses(self, geometry: Geometry) -> Array:
         """Mass of the part round each vertex, shape (N,) [kg]."""
@@ -162,7 +161,7 @@ class Rod(Parameters):
         return (
             self.line_density
             * np.diff(cuts)
-            * mean(self.stations, lambda scale, _: mass_share(scale), cuts)
+            * mean(self.stations, lambda scale, _: mass_scale(scale), cuts)
         )
 
     def mass(self, geometry: Geometry) -> Array:

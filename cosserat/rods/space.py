@@ -1,4 +1,4 @@
-"""What solvers have to know of the degrees of freedom of a rod: how its edges and directors rotate and stretch."""
+"""The configuration space of a rod for the solvers: how its edges and directors rotate and stretch."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class RodSpace:
 
     at_rest : positions and directors of the reference, flat (n,) [m].
     displacements : whether the DOFs are displacements from it; if not, they are positions and directors.
-    rounded : (n,) what the energy adds to the DOFs before it computes with them, zero if it adds nothing.
+    rounded : (n,) added to the DOFs in the energy, zero for nothing.
     """
 
     kinematics: Kinematics
@@ -32,7 +32,7 @@ class RodSpace:
 
     @property
     def dimension(self) -> int:
-        """Of the space of positions and directors."""
+        """Dimension of the space of positions and directors."""
         return self.kinematics.dimension
 
     @property
@@ -42,7 +42,7 @@ class RodSpace:
 
     @cached_property
     def scale(self) -> Vector:
-        """Lengths of edges and directors, and what is added to the DOFs: stretches are rounded as fractions of them."""
+        """Lengths of edges and directors, and additions to the DOFs: stretches are rounded as fractions of them."""
         sizes = np.empty_like(self.kinematics.split(self.at_rest))
         length = _lengths(self.kinematics.parts(self.at_rest))
         count = sizes.shape[0] - 1
@@ -74,9 +74,9 @@ class RodSpace:
     def predicted(
         self, q: Vector, moved: Array, prescribe: Callable[[Vector], Vector], constrained: Mask
     ) -> Vector:
-        """The DOFs after edges and directors have rotated and stretched.
+        """The DOFs after given rotations and stretches of edges and directors.
 
-        Edges that rotate do not meet the supports any more; what is missing is spread along the rod between them.
+        Rotated edges miss the supports; the gap is distributed along the rod between them.
         """
         at = self.kinematics.split(self.placed(q))
         vectors = self.kinematics.parts(self.placed(q))
@@ -89,16 +89,16 @@ class RodSpace:
         guess = guess - self.kinematics.split(self.at_rest if self.displacements else np.zeros_like(q))
         goal = self.kinematics.split(prescribe(guess.ravel()))
         for axis, mask in enumerate(self.kinematics.split(constrained)[:, 0].T):
-            held = np.flatnonzero(mask)
-            if held.size:
-                missing = (goal - guess)[held, 0, axis]
-                guess[:, 0, axis] += np.interp(np.arange(count + 1), held, missing)
+            vertices = np.flatnonzero(mask)
+            if vertices.size:
+                missing = (goal - guess)[vertices, 0, axis]
+                guess[:, 0, axis] += np.interp(np.arange(count + 1), vertices, missing)
         return prescribe(guess.ravel())
 
     def carried(self, change: Vector, constrained: Mask) -> Vector:
         """The mean translation of the supported vertices, in the change of every vertex.
 
-        derived: where two ends have moved against each other, what is left is as symmetric as the rod.
+        derived: if two ends have moved against each other, the remainder is as symmetric as the rod.
         """
         vectors = self.kinematics.split(change)
         supported = self.kinematics.split(constrained)[:, 0].any(axis=1)

@@ -16,27 +16,27 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 class Station(Parameters):
-    """Section and material at a place, as shares of the rod's; linear between stations, constant beyond them.
+    """Scale factors of section and material at a place; linear between stations, constant beyond them.
 
-    Two stations at one place make a step: a rod may be of several materials.
+    Two stations at one place make a step, for a rod of several materials.
     """
 
     at: Annotated[float, Quantity("m", r"\xi", "3.4.8", at_least=0)]
     """Distance from the first vertex along the reference centreline."""
     width: Annotated[float, Quantity("1", above=0)] = 1.0
-    """Width of the section, as a share of the rod's."""
+    """Width of the section over that of the rod."""
     height: Annotated[float, Quantity("1", above=0)] = 1.0
-    """Height of the section, as a share of the rod's."""
+    """Height of the section over that of the rod."""
     young: Annotated[float, Quantity("1", above=0)] = 1.0
-    """Young's modulus, as a share of the rod's."""
+    """Young's modulus over that of the rod."""
     poisson: Annotated[float, Quantity("1")] = 1.0
-    """Poisson's ratio, as a share of the rod's."""
+    """Poisson's ratio over that of the rod."""
     density: Annotated[float, Quantity("1", above=0)] = 1.0
-    """Mass per volume, as a share of the rod's: the line density goes with this times the area."""
+    """Mass per volume over that of the rod; the line density scales with this times the area."""
 
 
-class Shares(NamedTuple):
-    """The shares of the stations at some places."""
+class Scales(NamedTuple):
+    """Scale factors at some places, arrays of one shape."""
 
     width: Array
     height: Array
@@ -45,16 +45,16 @@ class Shares(NamedTuple):
     density: Array
 
 
-Property = Callable[[Shares, Array], Array]
+Property = Callable[[Scales, Array], Array]
 
 
-def mass_share(s: Shares) -> Array:
+def mass_scale(s: Scales) -> Array:
     """Mass per length over the nominal one."""
     return s.density * s.width * s.height
 
 
-def share(stations: Sequence[Station], name: str, xi: Array, *, before: bool) -> Array:
-    """One share of the stations at xi; at a step, its value before or after the step."""
+def scale_at(stations: Sequence[Station], name: str, xi: Array, *, before: bool) -> Array:
+    """One scale factor at xi, of the shape of xi; at a step, its value before or after the step."""
     if not stations:
         return np.ones_like(xi)
     at = np.array([s.at for s in stations])
@@ -75,9 +75,9 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
     factors make, and nearly so for their inverses.
     """
     count = cuts.size - 1
-    if not stations:  # the same all along: one interval stands for all
+    if not stations:  # uniform: one interval represents all
         nodes, weights = _gauss(np.array([0.0, 1.0]))
-        one = value(Shares(*(np.ones_like(nodes) for _ in Shares._fields)), nodes) @ weights
+        one = value(Scales(*(np.ones_like(nodes) for _ in Scales._fields)), nodes) @ weights
         return np.repeat(np.asarray(one)[..., None], count, axis=-1)
     steps = np.array([station.at for station in stations])
     nodes, weights = _gauss(
@@ -85,8 +85,8 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
     )
     owner = np.clip(np.searchsorted(cuts, nodes, side="right") - 1, 0, count - 1)
     span = (cuts[1:] - cuts[:-1])[owner]
-    shares = Shares(*(share(stations, name, nodes, before=False) for name in Shares._fields))
-    parts = value(shares, (nodes - cuts[owner]) / span) * (weights / span)
+    scales = Scales(*(scale_at(stations, name, nodes, before=False) for name in Scales._fields))
+    parts = value(scales, (nodes - cuts[owner]) / span) * (weights / span)
     first = np.searchsorted(owner, np.arange(count))
     means: Array = np.add.reduceat(parts, first, axis=-1)
     return means
@@ -114,7 +114,7 @@ class EdgeMasses(NamedTuple):
 def edge_masses(
     stations: Sequence[Station], line_density: float, arc: Array, power: int = 0
 ) -> EdgeMasses:
-    """The mean of the lumped and the consistent mass of every edge, or of mass times a power of the height's share.
+    """The mean of the lumped and the consistent mass of every edge, times a power of the scale factor of the height.
 
     derived: with s from 0 to 1 along an edge and M_k the integral of s^k over its mass, linear interpolation gives
     M_0 - 2 M_1 + M_2, M_1 - M_2 and M_2; the two masses at the ends that keep M_0 and M_1 are M_0 - M_1 and M_1.  Both
@@ -122,7 +122,7 @@ def edge_masses(
     """
     M0, M1, M2 = (np.diff(arc) * line_density) * mean(
         stations,
-        lambda scale, s: mass_share(scale) * scale.height**power * s ** np.arange(3)[:, None],
+        lambda scale, s: mass_scale(scale) * scale.height**power * s ** np.arange(3)[:, None],
         arc,
     )
     return EdgeMasses(M0 - 3 / 2 * M1 + M2 / 2, (M1 - M2) / 2, (M1 + M2) / 2)
@@ -137,10 +137,10 @@ def lump(
     young: float,
     poisson: float,
 ) -> tuple[Lumped, Lumped]:
-    """Vertex and edge properties, Table 3.1, of a rod whose nominal section and material vary as the stations say.
+    """Vertex and edge properties, Table 3.1, of a rod whose nominal section and material vary along its stations.
 
     arc : (N,) arc length of the vertices.  The boundary vertices have the properties of their edges, eq. (3.4.10)
-    without its half.  Each of A, I, E, G and nu is averaged by itself, as the table has it.
+    without its half.  Each of A, I, E, G and nu is averaged by itself, as in the table.
     """
 
     def averaged(cuts: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Numerical methods that know nothing of rods."""
+"""Numerical methods, independent of rods."""
 
 from cosserat.solvers.kernels import choose_cache
 

@@ -1,4 +1,4 @@
-"""Symmetric banded matrices, stored as LAPACK wants them.
+"""Symmetric banded matrices in LAPACK's storage.
 
 A band is an array of shape (n, w + 1): row j holds column j of the lower triangle from the diagonal down,
 `band[j, i - j] = H[i, j]`.  Its transpose, taken without a copy, is LAPACK's lower form.
@@ -16,12 +16,12 @@ Band = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 NO_BAND = np.empty((0, 1))
-"""A band without rows, where none is asked for."""
+"""A band without rows, for callers that need none."""
 
 
 @njit(cache=True)
 def uncouple(band: Band, constrained: Mask) -> None:
-    """Make what couples the constrained DOFs zero in place, of a symmetric or skew-symmetric matrix."""
+    """Zero in place the rows and columns of the constrained DOFs of a symmetric or skew-symmetric matrix."""
     n, width = band.shape
     for j in range(n):
         for k in range(1, min(width, n - j)):
@@ -40,7 +40,7 @@ def constrain(band: Band, constrained: Mask) -> None:
 
 @njit(cache=True)
 def absolute_product(band: Band, x: Vector) -> Vector:
-    """|H| |x|, shape (n,): with the unit roundoff it bounds what rounding x can do to H x."""
+    """|H| |x|, shape (n,): times the unit round-off it bounds the round-off error of H x."""
     n, width = band.shape
     y = np.zeros(n)
     for j in range(n):

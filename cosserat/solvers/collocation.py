@@ -1,4 +1,4 @@
-"""First-order systems on consecutive regions, brought to a common domain and solved by `scipy.integrate.solve_bvp`."""
+"""First-order systems on consecutive regions, mapped to a common domain and solved by `scipy.integrate.solve_bvp`."""
 
 from __future__ import annotations
 

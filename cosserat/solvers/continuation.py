@@ -1,8 +1,7 @@
-"""The equilibria that a slender elastic body goes through as its load grows, past limit points and branches.
+"""The equilibrium path of a slender elastic body as its load grows, past limit points and bifurcations.
 
-Continuation by pseudo-arclength (Keller 1977; Crisfield 1991, chapter 9).  An arc is repeated, half as long, where its
-end lies off the tangent, or where the path turns, more than a fraction of it: so no other path that comes near is taken
-for this one.
+Continuation by pseudo-arclength (Keller 1977; Crisfield 1991, chapter 9).  An arc is halved if its end
+is too far from the tangent or the path turns too much.  So the solver does not jump to another path nearby.
 """
 
 from __future__ import annotations
@@ -17,14 +16,12 @@ from cosserat.solvers.banded import Vector
 from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver, stalled
 from cosserat.solvers.system import ConfigurationSpace
 
-_BISECTION_TOLERANCE = 0.02  # share of the first arc to which a crossing of paths is closed in on
-_FACTOR_TOLERANCE = 0.005  # share of the factor to which a crossing is closed in on
-_FINEST_BISECTION = 0.001  # share of the first arc at which that ends
-_TANGENT_TOLERANCE = 0.2  # share of an arc by which a point may lie off the tangent
-_LEAST_COSINE = 0.9  # least cosine of the angle by which a path may turn within an arc
-_RETURN_DISTANCE = (
-    10.0  # multiple of the first arc from which on a branch can come back to its beginning
-)
+_BISECTION_TOLERANCE = 0.02  # fraction of the first arc to which a bifurcation is located
+_FACTOR_TOLERANCE = 0.005  # fraction of the load factor to which a bifurcation is located
+_FINEST_BISECTION = 0.001  # fraction of the first arc at which bisection ends
+_TANGENT_TOLERANCE = 0.2  # largest distance of a point from the tangent, as a fraction of the arc
+_LEAST_COSINE = 0.9  # least cosine of the turn of a path within an arc
+_RETURN_DISTANCE = 10.0  # multiple of the first arc after which a branch may return to its start
 _TARGET_ITERATIONS, _MAX_TARGET_ITERATIONS = (
     4,
     8,
@@ -33,11 +30,11 @@ _TARGET_ITERATIONS, _MAX_TARGET_ITERATIONS = (
 
 @dataclass(frozen=True)
 class ArcLengthSettings:
-    """How a path is followed: length of the first arc and of the longest, number of arcs, and where to stop.
+    """Settings of a path: length of the first arc and of the longest, number of arcs, and where to stop.
 
-    A length is the change of the DOFs in the norm of the largest, as a share of the reach of the body, and that of
-    the factor.  until : factor at which the path ends.  limit : factor beyond which it is given up.
-    branches : how often to leave the path where it branches and the body is so symmetric that it could stay.
+    A length combines the largest change of the DOFs, as a fraction of the step limit of the body, with the change of
+    the load factor.  until : factor at which the path ends.  limit : factor beyond which it fails.
+    branches : how often to switch branches where symmetry would let the body stay on its path.
     """
 
     first: float
@@ -51,15 +48,15 @@ class ArcLengthSettings:
 def trace_path(
     solver: EquilibriumSolver, point: Equilibrium, arc: ArcLengthSettings
 ) -> Iterator[Equilibrium]:
-    """Points along the path from a first one on, by pseudo-arclength, until the factor passes `until`.
+    """Points along the path from a first one, by pseudo-arclength, until the load factor passes `until`.
 
-    Where an eigenvalue changes its sign without the path turning back, another path crosses or comes near: the crossing
-    is closed in on by halving, and the path goes on along the softest motion there.  Where the body is so symmetric
-    that the path could also stay, it does so once it has left as often as it may.
+    If an eigenvalue changes sign and the load does not turn back, another path crosses or comes near.  Bisection
+    locates the crossing, and the path continues along the softest motion there.  If symmetry would let the path stay,
+    it stays after `branches` switches.
 
     Raises
     ------
-    NotConvergedError : no further point, or the factor goes beyond the limit, or a branch comes back to its beginning;
+    NotConvergedError : no further point, or the factor exceeds the limit, or a branch returns to its start;
         the last point is its `state`.
     """
     yield point
@@ -91,7 +88,7 @@ def trace_path(
         if (found.factor - arc.until) * (point.factor - arc.until) <= 0:
             last = _at_end(solver, point, found, arc.until)
             if last.negative != point.negative and ds > _BISECTION_TOLERANCE * arc.first:
-                ds /= 2  # it came from beyond a limit point
+                ds /= 2  # the point lies beyond a limit point
                 continue
             yield last
             return
@@ -110,9 +107,9 @@ def trace_path(
 
 
 def _returned(solver: EquilibriumSolver, origin: Equilibrium, last: Equilibrium) -> NotConvergedError:
-    """The error of a branch that comes back to its beginning."""
+    """The error of a branch that returns to its start."""
     return solver.stopped(
-        f"the path comes back to {origin.factor:.4g} of the load, where it branched off: nothing stable leads on from "
+        f"the path returns to {origin.factor:.4g} of the load, where it branched off: nothing stable leads on from "
         "there, and a body under more load jumps; lessen the load, add a small one that breaks the symmetry, or see "
         "the path that stays with kind = 'rod path' and arc.branch = 'stay'",
         last,
@@ -122,7 +119,7 @@ def _returned(solver: EquilibriumSolver, origin: Equilibrium, last: Equilibrium)
 def _check_limit(
     solver: EquilibriumSolver, point: Equilibrium, found: Equilibrium, arc: ArcLengthSettings
 ) -> None:
-    """Raise NotConvergedError where the path goes beyond its limit."""
+    """Raise NotConvergedError if the path exceeds its limit."""
     if abs(found.factor) > arc.limit:
         raise solver.stopped(
             f"the path goes to {found.factor:.4g} of the load, beyond the limit of {arc.limit:g}; "
@@ -138,7 +135,7 @@ def _next_or_bifurcation(
     ds: float,
     arc: ArcLengthSettings,
 ) -> tuple[tuple[Equilibrium, tuple[Vector, float], float], tuple[Equilibrium, Equilibrium] | None]:
-    """The next point, direction and arc; and the points on both sides of a crossing on the way there, if any.
+    """The next point, direction and arc, and the points on both sides of a crossing within the arc, if any.
 
     Raises
     ------
@@ -165,7 +162,7 @@ def _next_or_bifurcation(
 def _at_end(
     solver: EquilibriumSolver, point: Equilibrium, found: Equilibrium, until: float
 ) -> Equilibrium:
-    """The equilibrium at the end of the path, between two points of it; the second of them where there is none."""
+    """The equilibrium at the end of the path, between two points of it; the second point if there is none."""
     fraction = (until - point.factor) / (found.factor - point.factor)
     last = solver.correct(point.q + fraction * (found.q - point.q), until, point.history)
     return found if last is None else last
@@ -178,7 +175,7 @@ def _next(
     ds: float,
     arc: ArcLengthSettings,
 ) -> tuple[Equilibrium, tuple[Vector, float], float] | None:
-    """The next point along a direction, the direction there, and the arc that led to it; None where there is none."""
+    """The next point along a direction, its direction and its arc; None if there is none."""
     while ds > SMALLEST * arc.first:
         found = _corrected(solver, point, *direction, ds, _TANGENT_TOLERANCE * ds)
         if found is not None:
@@ -195,7 +192,7 @@ def _sharp_turn(
     direction: tuple[Vector, float],
     arc: ArcLengthSettings,
 ) -> tuple[Equilibrium, Equilibrium] | None:
-    """A stable point where the body turns aside too sharply for arcs to follow, and an unstable one straight on."""
+    """A stable point beside a turn too sharp for arcs, and an unstable one straight ahead."""
     beyond = point.factor + _BISECTION_TOLERANCE * arc.first * np.sign(direction[1])
     found = solver.correct(point.q, beyond, point.history)
     return (point, found) if point.stable and found is not None and not found.stable else None
@@ -209,7 +206,7 @@ def _passes_limit_point(
     ds: float,
     until: float,
 ) -> bool:
-    """Whether the factor turns back within an arc, but hardly before it has passed `until`, by Hermite's cubic."""
+    """Whether the load factor turns back just after it has passed `until` within an arc, by Hermite's cubic."""
     if direction[1] * ahead[1] >= 0 or (found.factor - until) * (point.factor - until) <= 0:
         return False
     s = np.linspace(0.0, 1.0, 33)
@@ -220,7 +217,7 @@ def _passes_limit_point(
 
 
 def _cosine(one: tuple[Vector, float], other: tuple[Vector, float]) -> float:
-    """Of the angle between two tangents."""
+    """Cosine of the angle between two tangents."""
     weight = _weight(one[0])
     product = float(one[0] @ other[0]) + weight * one[1] * other[1]
     sizes = (float(t @ t) + weight * slope**2 for t, slope in (one, other))
@@ -248,7 +245,7 @@ def _locate_bifurcation(
             break
         elif found is not None and _goes_on(solver, before, found):
             low, before = middle, found
-        else:  # nothing is there, or a stable point beside the crossing, perhaps of the other side
+        else:  # no equilibrium, or a stable one beside the crossing, perhaps on the other side
             high = middle
     if after is None:
         raise solver.failure(point.factor, point.factor, point)
@@ -256,29 +253,29 @@ def _locate_bifurcation(
 
 
 def _wide(before: Equilibrium, after: Equilibrium | None) -> bool:
-    """Whether the load between two points can still turn what pulls to one side into what pulls to the other."""
+    """Whether the change of load between two points can reverse the pull to one side."""
     return after is None or abs(after.factor - before.factor) > _FACTOR_TOLERANCE * abs(before.factor)
 
 
 def _goes_on(solver: EquilibriumSolver, before: Equilibrium, found: Equilibrium) -> bool:
-    """Whether a point lies where the path goes from the one before it."""
+    """Whether a point lies ahead of the one before it."""
     chord = found.q - before.q, found.factor - before.factor
     return _cosine(_tangent(solver, before, chord), chord) > _LEAST_COSINE
 
 
 def _norm(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
-    """Length of a step, in steps as long as are safe."""
+    """Length of a step, in step limits."""
     fraction = space.max_step_fraction(q, step)
     return 1 / fraction if np.isfinite(fraction) else 0.0
 
 
 def _distance(space: ConfigurationSpace, one: Equilibrium, other: Equilibrium) -> float:
-    """Distance of two points in steps as long as are safe and factors of the load."""
+    """Distance of two points, in step limits and load factors."""
     return float(np.hypot(_norm(space, one.q, other.q - one.q), other.factor - one.factor))
 
 
 def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | None:
-    """Change of the DOFs with the factor at a point; None where the Hessian is singular."""
+    """Derivative of the DOFs by the load factor at a point; None if the Hessian is singular."""
     system, tangent = solver.system, solver.tangent
     system.assemble(point.q, point.history, point.factor, tangent)
     rate = system.rate(point.factor, tangent)
@@ -293,7 +290,7 @@ def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | No
 def _tangent(
     solver: EquilibriumSolver, point: Equilibrium, before: tuple[Vector, float] | None
 ) -> tuple[Vector, float]:
-    """Direction of the path at a point: change of DOFs and factor, of unit length, going on from before."""
+    """Direction of the path at a point: changes of DOFs and factor, of unit length, forward from the point before."""
     system, change = solver.system, rate_with_load(solver, point)
     if change is None:
         change = np.where(
@@ -307,7 +304,7 @@ def _tangent(
 
 
 def _weight(tangent: Vector) -> float:
-    """Weight of the factor against the DOFs in products of tangents."""
+    """Weight of the load factor relative to the DOFs in products of tangents."""
     return float(tangent @ tangent) or 1.0
 
 
@@ -319,7 +316,7 @@ def _corrected(
     ds: float,
     stray: float,
 ) -> Equilibrium | None:
-    """The equilibrium on the plane across a direction at an arc of ds; None where it is beyond `stray` of there."""
+    """The equilibrium on the plane normal to a direction at an arc of ds; None if it is farther than `stray`."""
     system, space, tangent = solver.system, solver.system.space, solver.tangent
     constrained = system.constrained
     q, factor = point.q + ds * direction, point.factor + ds * slope
@@ -339,7 +336,7 @@ def _corrected(
                 _norm(space, q, q - point.q - ds * direction), factor - point.factor - ds * slope
             )
             if strayed > stray:
-                return None  # an equilibrium, but one of another path
+                return None  # an equilibrium of another path
             solver.residual, solver.tolerance = residual, tolerance
             return solver.accepted(q, factor, point.history, rounding)
         last = residual
@@ -361,7 +358,7 @@ def _corrected(
 def _switch_branch(
     solver: EquilibriumSolver, point: Equilibrium, motion: Vector, arc: ArcLengthSettings
 ) -> tuple[Equilibrium, tuple[Vector, float], float]:
-    """A point on the path that leaves this one along a motion, the direction to it and the arc that led there.
+    """A point on the branch that leaves this one along a motion, with its direction and arc.
 
     Raises
     ------

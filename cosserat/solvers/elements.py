@@ -1,4 +1,4 @@
-"""Spectral elements on a line: polynomials between Gauss-Lobatto points, which are the quadrature points too.
+"""Spectral elements on a line: polynomials through Gauss-Lobatto points, which are also the quadrature points.
 
 Fields live at the points of every element, arrays of shape (elements, degree + 1, ...); neighbours share an end.
 """
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-_FINEST = 6.0  # shortest decay lengths that `per_side` elements of the finest size span
-_GROWTHS = 60  # fixed-point sweeps for the growth of element sizes; the sizes need not be exact
+_FINEST_SPAN = 6.0  # shortest decay lengths that `per_side` elements of the finest size span
+_SWEEPS = 60  # fixed-point sweeps for the growth of element sizes; the sizes need not be exact
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,9 @@ def rule(degree: int) -> Rule:
     inner = np.sort(legendre.deriv().roots().real)
     points = np.concatenate([[-1.0], inner, [1.0]])
     weights = 2 / (degree * (degree + 1) * legendre(points) ** 2)
-    apart = points[:, None] - points[None, :] + np.eye(degree + 1)
-    barycentric = 1 / apart.prod(axis=1)
-    derivative = barycentric[None, :] / barycentric[:, None] / apart
+    gaps = points[:, None] - points[None, :] + np.eye(degree + 1)
+    barycentric = 1 / gaps.prod(axis=1)
+    derivative = barycentric[None, :] / barycentric[:, None] / gaps
     np.fill_diagonal(derivative, 0.0)
     np.fill_diagonal(derivative, -derivative.sum(axis=1))
     coefficients = np.linalg.inv(np.polynomial.legendre.legvander(points, degree))
@@ -100,33 +100,33 @@ class Mesh:
 
     def interpolate(self, values: Array, at: Array) -> Array:
         """A field (M, p + 1, ...) at given coordinates, shape (len(at), ...)."""
-        element, share = self._shares(at)
+        element, weights = self._weights(at)
         shape = values.shape[2:]
         inside = values[element].reshape(at.size, self.degree + 1, -1)
-        result: Array = (share[:, None, :] @ inside)[:, 0].reshape(at.size, *shape)
+        result: Array = (weights[:, None, :] @ inside)[:, 0].reshape(at.size, *shape)
         return result
 
-    def _shares(self, at: Array) -> tuple[NDArray[np.int64], Array]:
+    def _weights(self, at: Array) -> tuple[NDArray[np.int64], Array]:
         """The element of each coordinate and its nodal polynomials there, shape (len(at), p + 1)."""
         element = np.clip(np.searchsorted(self.ends, at, side="right") - 1, 0, self.region.size - 1)
         local = 2 * (at - self.ends[element]) / self.sizes[element] - 1
         known = rule(self.degree)
-        apart = local[:, None] - known.points
-        hit = np.abs(apart) < 1e-14
-        share = known.barycentric / np.where(hit, 1.0, apart)
-        share = np.where(hit.any(axis=1, keepdims=True), hit, share)
-        return element, share / share.sum(axis=1, keepdims=True)
+        gaps = local[:, None] - known.points
+        hit = np.abs(gaps) < 1e-14
+        weights = known.barycentric / np.where(hit, 1.0, gaps)
+        weights = np.where(hit.any(axis=1, keepdims=True), hit, weights)
+        return element, weights / weights.sum(axis=1, keepdims=True)
 
 
 def graded(edges: Sequence[float], layer: float, per_side: int, degree: int) -> Mesh:
     """A mesh over the regions between `edges`, fine where two of them meet.
 
     Element sizes grow geometrically from an inner edge to the middle of the region (or its free end), with `per_side`
-    elements from the share _FINEST / per_side of `layer` on; a region too short for that is divided evenly.  The same
-    number of regions always gives the same number of elements, so that a solution on one such mesh is a first guess on
-    the next.
+    elements on each side, the first of length _FINEST_SPAN / per_side times `layer`.  A region too short for that is
+    divided evenly.  The number of elements depends only on the number of regions, so a solution on one mesh is a first
+    guess on the next.
     """
-    first = _FINEST * layer / per_side
+    first = _FINEST_SPAN * layer / per_side
     ends: list[float] = [edges[0]]
     region: list[int] = []
     last = len(edges) - 2
@@ -149,7 +149,7 @@ def _geometric(length: float, first: float, count: int) -> Array:
     if count * first >= length:
         return np.linspace(0.0, length, count + 1)
     growth = 2.0
-    for _ in range(_GROWTHS):
+    for _ in range(_SWEEPS):
         growth = (1 + length / first * (growth - 1)) ** (1 / count)
     ends: Array = (growth ** np.arange(count + 1.0) - 1) / (growth**count - 1) * length
     return ends

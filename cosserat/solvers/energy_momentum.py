@@ -1,20 +1,20 @@
 """The implicit method of `solvers.integrate`, compiled: the midpoint rule with a discrete gradient.
 
-Stresses are taken at the mean of the strains at both ends of a step (Simo & Tarnow, ZAMP 43, 757, 1992) and pull along
-the directions of its midpoint.  At the midpoint itself a mere rotation by t would strain a body by t^2 / 8, which a
-thin one takes for a compression beyond buckling.
+Stresses come from the mean of the strains at both ends of a step (Simo & Tarnow, ZAMP 43, 757, 1992) and act along
+the directions of its midpoint.  Strains of the midpoint itself would include t^2 / 8 for a pure rotation by t: a
+compression beyond buckling for a thin body.
 
-What the energy still lacks is added as sigma z, where sigma makes the work of the forces the change of energy, exactly
-(Gonzalez, J. Nonlinear Sci. 6, 449, 1996).  Gonzalez takes z along the step; here z is the step less its rigid part
-when nothing is held, so that the added force has neither a resultant nor a moment and linear and angular momentum stay
-as they are.  Second order in the step.  Where a body hardly deforms in a step, there may be no such z: after some
-iterations the step is taken without, and its energy is right to third order in what it deforms.
+A further force sigma z makes the work of the forces equal the change of energy exactly (Gonzalez, J. Nonlinear Sci. 6,
+449, 1996).  Gonzalez takes z along the step.  Here, for a free body, z is the step less its rigid part: the force then
+has neither a resultant nor a moment and conserves linear and angular momentum.  The method is of second order.  If a
+body hardly deforms in a step, z may not exist.  After some iterations the step then omits it, and its energy is right
+to third order in the deformation.
 
-A drag c takes exp(-c h / 2) off all momenta before and after a step that knows nothing of it (Strang, SIAM J. Numer.
-Anal. 5, 506, 1968): a mode loses energy at the rate c, resolved or not, while c omega h^2 < 8.
+Mass-proportional damping c multiplies all momenta by exp(-c h / 2) before and after an undamped step (Strang, SIAM J.
+Numer. Anal. 5, 506, 1968): a mode loses energy at the rate c, resolved or not, while c omega h^2 < 8.
 
-Each step is solved by Newton's method; its matrix is kept from one step to the next for as long as the corrections
-shrink fast, which they do where little changes in a step.
+Newton's method solves each step.  It keeps its matrix from one step to the next while the corrections shrink fast, as
+they do if little changes in a step.
 """
 
 from __future__ import annotations
@@ -29,19 +29,17 @@ from cosserat.solvers.step import CORRECTED, UNCORRECTED, Bodies, Room, Run
 
 Fields = NDArray[np.float64]
 
-TOLERANCE = 1e-11  # of the last correction, as a share of the step
+TOLERANCE = 1e-11  # of the last correction, as a fraction of the step
 MAX_ITERATIONS = 60
-_FAST = 0.02  # ratio of two corrections above which the matrix is made anew
-_LEAST = 0.1  # share of the stresses up to which they are scaled to meet the change of energy
-_ASTRAY = 0.5  # ratio of two corrections above which a matrix of an earlier step is given up
-_NEAR = 1e-3  # a correction below this share of the step: from it on the change of energy is asked for
-_PATIENCE = (
-    25  # iterations after which sigma, of which Newton's matrix knows nothing, is left out of a step
-)
+_REFACTOR_RATIO = 0.02  # ratio of two corrections above which the matrix is factored again
+_MAX_SCALED_FRACTION = 0.1  # largest fraction by which stresses are scaled to balance the energy
+_DIVERGENCE_RATIO = 0.5  # ratio of two corrections above which an older matrix is discarded
+_CORRECTION_START = 1e-3  # relative correction below which the change of energy is imposed
+_MAX_CORRECTED_ITERATIONS = 25  # iterations with sigma, which is not in the matrix; later ones omit it
 _TINY = float(np.finfo(float).tiny)
-STALL = 1e4  # corrections that no longer shrink are rounding if they are below this multiple of it
+STALL = 1e4  # corrections that stop shrinking below this multiple of round-off are round-off
 _EPS = float(np.finfo(float).eps)
-_RIGID = 0.1  # share of a step below which what deforms is too little to bear sigma
+_MIN_DEFORMING_FRACTION = 0.1  # deforming fraction of a step below which sigma is omitted
 
 
 @njit(cache=True)
@@ -58,7 +56,7 @@ def _multiply(band: Band, x: Vector, y: Vector) -> None:
 
 @njit(cache=True)
 def _uncouple(band: Band, constrained: Mask) -> None:
-    """Make what couples the constrained DOFs zero in place, of a symmetric or skew-symmetric matrix."""
+    """Zero in place the rows and columns of the constrained DOFs of a symmetric or skew-symmetric matrix."""
     n, width = band.shape
     for j in range(n):
         for k in range(1, min(width, n - j)):
@@ -118,7 +116,7 @@ def _deforming_part(
     """z: a change less its rigid part at the midpoint, the change itself where no translations are free.
 
     rotations : (d (d - 1) / 2, n) is overwritten.  DOFs are components of vectors of a space of dimension d, the number
-    of translations.  True where hardly anything is left.
+    of translations.  True if hardly anything is left.
     """
     z[:] = change
     dimension = translations.shape[0]
@@ -131,7 +129,7 @@ def _deforming_part(
             spin[:] = 0.0
             for i in range(0, change.size, dimension):
                 spin[i + a], spin[i + b] = -middle[i + b], middle[i + a]
-            for _ in range(2):  # twice: far from the origin a rotation is nearly a translation
+            for _ in range(2):  # twice: a rotation about a distant origin is nearly a translation
                 for k in range(dimension):
                     _remove(translations[k], spin)
                 for k in range(number):
@@ -142,7 +140,7 @@ def _deforming_part(
             _remove(translations[k], z)
         for k in range(number):
             _remove(rotations[k], z)
-    return bool((z * z).sum() < _RIGID**2 * (change * change).sum())
+    return bool((z * z).sum() < _MIN_DEFORMING_FRACTION**2 * (change * change).sum())
 
 
 @njit(cache=True)
@@ -164,7 +162,7 @@ def _step_matrix(band: Band, mass: Band, inertia: float, constrained: Mask) -> f
 def _sigma(
     change: Vector, gradient: Vector, z: Vector, before: float, after: float, blur: float
 ) -> float:
-    """What makes the work of gradient + sigma z the change of energy, or zero where rounding hides the difference.
+    """The sigma that makes the work of gradient + sigma z the change of energy; zero where that is round-off.
 
     blur : sqrt(2 k) eps q: rounding a position by eps q changes an energy Pi = k u^2 / 2 by sqrt(2 k Pi) eps q.
     """
@@ -182,7 +180,7 @@ def _sigma(
 def _decay(
     v: Vector, mass: Band, factor: Band, constrained: Mask, share: float, work: Vector, exchanged: Vector
 ) -> None:
-    """Take a drag's share off the momenta of the free DOFs; exchanged: what it takes, and what the supports give."""
+    """Damp the momenta of the free DOFs; exchanged: energy that damping takes and that supports give."""
     n = v.size
     _multiply(mass, v, work)
     before, loss = 0.0, work.copy()
@@ -205,7 +203,9 @@ def _decay(
     exchanged[1] += given
 
 
-_FRESH, _JUDGED, _TURNING, _STIFFEST = range(4)  # of `memory`: what a step leaves to the next one
+_FRESH, _JUDGED, _TURNING, _STIFFEST = range(
+    4
+)  # indices of `memory`, which a step passes to the next one
 
 
 @njit(cache=True)
@@ -269,7 +269,7 @@ def _commit(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> None:
 
 @njit(cache=True)
 def _started(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> float:
-    """The energy at the start of a step, whose strains are kept."""
+    """The energy at the start of a step; stores the strains there."""
     energy = _body(bodies, q, q[:0], STRAINS, gradient, band)
     if bodies.loaded:
         _loads(bodies, UNCORRECTED, q, q[:0], STRAINS, gradient, band)
@@ -279,7 +279,7 @@ def _started(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> float:
 
 @njit(cache=True)
 def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
-    """The first guess of a step: that the changes of the last two steps go on, or the velocity."""
+    """The first guess of a step: an extrapolation of the last two changes, or the velocity."""
     h, load, constrained, moved = run.h, run.load, run.constrained, run.moved
     change, first, earlier, earliest, pull = (
         room.change,
@@ -300,7 +300,7 @@ def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
 
 @njit(cache=True)
 def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector) -> bool:
-    """Make Newton's matrix at the midpoint anew; False where there is none."""
+    """Assemble and factor Newton's matrix at the midpoint; False if that fails."""
     middle, end, gradient, factor = room.middle, room.end, room.gradient, room.factor
     factor[:, :] = 0.0
     if not np.isfinite(_body(bodies, middle, end, HESSIAN, gradient, factor)):
@@ -325,12 +325,12 @@ def _meet_energy(
     after: float,
     blur: float,
 ) -> None:
-    """Add to the gradient what makes the work of the forces the change of energy."""
+    """Add the force to the gradient that makes the work of the forces the change of energy."""
     rigid = _deforming_part(change, middle, translations, rotations, z)
     if rigid:
         z[:] = gradient
     sigma = _sigma(change, gradient, z, before, after, blur)
-    if rigid and abs(sigma) > _LEAST:
+    if rigid and abs(sigma) > _MAX_SCALED_FRACTION:
         sigma = 0.0
     if sigma != 0.0:
         _add(gradient, sigma, z)
@@ -347,7 +347,7 @@ def _add(x: Vector, factor: float, y: Vector) -> None:
 def _accelerate(
     change: Vector, moved: NDArray[np.int64], rates: Fields, done: int, h: float, gained: Vector
 ) -> None:
-    """The change, but constrained DOFs accelerated from one given velocity to the next."""
+    """The change, with the constrained DOFs accelerated from one prescribed velocity to the next."""
     gained[:] = change
     for i in range(moved.size):
         gained[moved[i]] = h / 2 * (rates[done, i] + rates[done + 1, i])
@@ -357,14 +357,14 @@ def _accelerate(
 def _unbalance(
     constrained: Mask, pull: Vector, inertia: float, product: Vector, gradient: Vector, force: Vector
 ) -> None:
-    """The force that is unbalanced."""
+    """The unbalanced force."""
     for i in range(force.size):
         force[i] = 0.0 if constrained[i] else pull[i] - inertia * product[i] - gradient[i]
 
 
 @njit(cache=True)
 def _correct(factor: Band, force: Vector, change: Vector) -> tuple[float, float]:
-    """Correct the change of the step; the largest correction and the largest change."""
+    """Correct the change of the step; returns the largest correction and the largest change."""
     _substitute(factor, force)
     size = farthest = 0.0
     for i in range(change.size):
@@ -385,7 +385,7 @@ def _ends(q: Vector, change: Vector, middle: Vector, end: Vector) -> None:
 def _solve_step(
     bodies: Bodies, run: Run, room: Room, q: Vector, memory: Vector, before: float, done: int
 ) -> bool:
-    """Newton's method for the change of one step; False where it finds none."""
+    """Newton's method for the change of one step; False if it does not converge."""
     change, middle, end, z, gradient = room.change, room.middle, room.end, room.z, room.gradient
     gained, product, force, factor = room.gained, room.product, room.force, room.factor
     mass, constrained, inertia, pull = run.mass, run.constrained, 2 / run.h**2, room.pull
@@ -396,10 +396,12 @@ def _solve_step(
     turning = memory[_TURNING] != 0.0
     stale = memory[_FRESH] != 0.0 and not turning  # whether the matrix is of an earlier step
     memory[_FRESH] = 1.0 if stale else 0.0
-    relative = size = sized = np.inf  # last correction as a share of the step; the last two themselves
+    relative = size = sized = (
+        np.inf
+    )  # last correction as a fraction of the step; the last two corrections
     for iteration in range(MAX_ITERATIONS):
-        if stale and iteration > 0 and not size <= _ASTRAY * sized:
-            # begin anew with a matrix of this step
+        if stale and iteration > 0 and not size <= _DIVERGENCE_RATIO * sized:
+            # restart with a matrix of this step
             memory[_FRESH], memory[_TURNING] = 0.0, 1.0
             stale, near = False, False
             relative = size = np.inf
@@ -418,7 +420,7 @@ def _solve_step(
             continue
         if not np.isfinite(after):
             return False
-        if near and iteration <= _PATIENCE:
+        if near and iteration <= _MAX_CORRECTED_ITERATIONS:
             blur = _EPS * largest * np.sqrt(2 * memory[_STIFFEST])
             _meet_energy(change, middle, translations, rotations, z, gradient, before, after, blur)
         if bodies.loaded:
@@ -435,17 +437,17 @@ def _solve_step(
             return True
         if not (stale or np.isfinite(size)):
             return False
-        if memory[_JUDGED] != 0.0 and size > _FAST * relative * farthest:
+        if memory[_JUDGED] != 0.0 and size > _REFACTOR_RATIO * relative * farthest:
             memory[_FRESH] = 0.0
         memory[_JUDGED] = 1.0
         relative = size / max(farthest, _TINY)
-        near = near or settled or stalled or relative < _NEAR
+        near = near or settled or stalled or relative < _CORRECTION_START
     return False
 
 
 @njit(cache=True)
 def _accept(run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, done: int) -> None:
-    """Take the step: DOFs, velocities, and what moved supports have given."""
+    """Accept the step: DOFs, velocities, and the energy that moved supports have given."""
     h, load, moved = run.h, run.load, run.moved
     change, earlier, earliest, gradient = room.change, room.earlier, room.earliest, room.gradient
     for i in range(moved.size):
@@ -463,7 +465,7 @@ def _accept(run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, done:
 def integrate_steps(
     bodies: Bodies, run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector
 ) -> int:
-    """Take steps, overwriting q, v and the internal variables; returns how many, fewer where one found no solution.
+    """Take steps, overwriting q, v and the internal variables; returns how many, fewer if one does not converge.
 
     exchanged : energy that the damping has taken, and that moved supports have given; added to [J].
     """

@@ -1,8 +1,8 @@
 """Equilibria of a slender elastic body at given loads.
 
-Slender bodies rotate far while they hardly stretch: their energy is a curved, narrow valley, along which a line search
-creeps.  Full Newton steps cross it, if none of them rotates the body by more than a given angle; the configuration
-space says what fraction of a step that is.
+Slender bodies rotate a lot and hardly stretch.  Their energy is a curved, narrow valley, where a line search is slow.
+Full Newton steps cross it if none of them rotates the body by more than a given angle.  The configuration space gives
+the fraction of a step that is allowed.
 """
 
 from __future__ import annotations
@@ -21,22 +21,22 @@ from cosserat.solvers.indefinite import lowest_eigenvector
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 _EPS = float(np.finfo(float).eps)
-SMALLEST = 2.0**-24  # share of the first arc below which halving gives up
-_BLUR = 1e-3  # share of the loads beyond which forces of rounding make an answer worthless
-_ROUGH = 16.0  # multiple of the estimate below which a residual that no longer falls is rounding
-_POLISH = 6  # Newton steps beyond the tolerance
-_SURE = 5.0  # multiple of its rounding from which on a force decides to which side a body buckles
+SMALLEST = 2.0**-24  # fraction of the first arc below which halving stops
+_MAX_ROUND_OFF_FRACTION = 1e-3  # of the loads; larger round-off forces make an answer worthless
+_STALL_FACTOR = 16.0  # a residual that stops falling below this multiple of round-off is round-off
+_MAX_POLISHING_STEPS = 6  # Newton steps beyond the tolerance
+_DECISIVE_ROUND_OFF_RATIO = 5.0  # a force above this multiple of its round-off decides the side
 
 
 class NewtonSettings(Parameters):
     """Tolerances and limits of Newton's method."""
 
     tolerance: Annotated[float, Quantity("1", above=0, below=1)] = 1e-10
-    """Largest unbalanced force allowed, as a share of the largest load or reaction."""
+    """Largest unbalanced force allowed, as a fraction of the largest load or reaction."""
     max_iterations: Annotated[int, Count(at_least=1)] = 50
     """Most Newton iterations of an equilibrium."""
     load_increments: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
-    """Equal steps in which the load is brought up."""
+    """Number of equal load increments."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,8 @@ class Equilibrium:
 
     factor : of the load.  history : the internal variables there.
     reaction : (n,) force that holds each constrained DOF [N].
-    residual, tolerance : largest unbalanced force and the one that was allowed [N].
-    rounding : largest force that rounding can cause; no residual can be asked to be below it [N].
+    residual, tolerance : largest unbalanced force and the largest one allowed [N].
+    rounding : largest force that round-off can cause, a lower bound of any residual [N].
     negative : how many eigenvalues of the Hessian are negative, as `Tangent.negative` says.
     """
 
@@ -67,10 +67,11 @@ class Equilibrium:
 
 
 class EquilibriumSolver:
-    """Equilibria at given factors, and what finding them took.
+    """Equilibria at given load factors, with counts of the work done.
 
-    branchings : how often a path was left where another crosses it.  undecided : factors at which the body was so
-    symmetric that nothing decides the side to which it goes.  turned_back : the load had to fall before it could grow.
+    branch_switches : how often the solver moved to another path at a bifurcation.
+    undecided_factors : load factors at which symmetry leaves the side of buckling open.
+    passed_limit_load : whether the load had to fall before it could grow.
     """
 
     def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
@@ -80,14 +81,16 @@ class EquilibriumSolver:
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
         self.residual = self.tolerance = np.inf  # of the last attempt
-        self.limit_remedy = "the body jumps to where no path leads from here; lessen the load, or see kind = 'rod path'"
+        self.limit_remedy = (
+            "the body jumps to where no path leads from here; lessen the load, or see kind = 'rod path'"
+        )
         self.remedy = (
             "try a smaller load or more 'newton.max_iterations', see where the path goes with kind = 'rod path', and "
             "check supports and loads"
         )
 
     def warnings(self) -> Iterator[str]:
-        """What is to be said of an answer: where its side was open, and whether it lies beyond a limit load."""
+        """Warnings of an answer: open sides of buckling, and whether it lies beyond a limit load."""
         for factor in self.undecided_factors:
             yield (
                 f"bifurcation: at {factor:.4g} of the load the body is so symmetric that it may buckle to either side; "
@@ -102,7 +105,7 @@ class EquilibriumSolver:
     def correct(
         self, q: Vector, factor: float, history: History, *, fraction: float | None = None
     ) -> Equilibrium | None:
-        """An equilibrium at the factor by full Newton steps from q; None where they do not lead to one.
+        """An equilibrium at the load factor by full Newton steps from q; None if they do not converge.
 
         history : the internal variables of the last accepted state.
         fraction : of the loads that may be left unbalanced, in place of the tolerance of the settings.
@@ -122,10 +125,10 @@ class EquilibriumSolver:
             scale = max(load, reaction, largest * (load == 0))
             tolerance = max(allowed * scale, rounding)
             self.residual, self.tolerance = residual, tolerance
-            if load > 0 and rounding > _BLUR * max(scale, total):
+            if load > 0 and rounding > _MAX_ROUND_OFF_FRACTION * max(scale, total):
                 if iteration > 0:
-                    return None  # a step went astray, to where everything is stiff
-                raise self._drowned_in_round_off(rounding)
+                    return None  # a step diverged into a stiff state
+                raise self._round_off_error(rounding)
             tangent.constrain(system.constrained)
             step = tangent.solve(unbalanced, positive=True)
             if residual <= tolerance or stalled(residual, last, rounding):
@@ -149,7 +152,7 @@ class EquilibriumSolver:
     def accepted(
         self, q: Vector, factor: float, history: History, rounding: float, *, positive: bool = False
     ) -> Equilibrium:
-        """The equilibrium at q, where the tangent was assembled last and is constrained, perhaps known as positive."""
+        """The equilibrium at q, where the last tangent was assembled and constrained; positive : it is positive."""
         return Equilibrium(
             q,
             factor,
@@ -165,9 +168,9 @@ class EquilibriumSolver:
     def _polished_once(
         self, q: Vector, step: Vector, factor: float, history: History, rounding: float
     ) -> Equilibrium:
-        """The stable equilibrium one correction further, if that is nearer or all that is left is rounding.
+        """The stable equilibrium after one more correction, if its residual is smaller or is round-off.
 
-        Where forces drown in rounding, soft motions do not.
+        Soft motions are still resolved where round-off exceeds the forces.
         """
         point = self.accepted(q, factor, history, rounding, positive=True)
         self.system.assemble(q + step, history, factor, self.tangent)
@@ -183,12 +186,15 @@ class EquilibriumSolver:
         )
 
     def check_round_off(self, point: Equilibrium) -> None:
-        """Raise NotConvergedError if no support moves and rounding makes forces that drown the full load."""
+        """Raise NotConvergedError if no support moves and round-off forces exceed a fraction of the full load."""
         _, load = self.system.load_sizes
-        if point.rounding > _BLUR * load > 0 and not self.system.prescribed_rate(1.0).any():
-            raise self._drowned_in_round_off(point.rounding)
+        if (
+            point.rounding > _MAX_ROUND_OFF_FRACTION * load > 0
+            and not self.system.prescribed_rate(1.0).any()
+        ):
+            raise self._round_off_error(point.rounding)
 
-    def _drowned_in_round_off(self, rounding: float) -> NotConvergedError:
+    def _round_off_error(self, rounding: float) -> NotConvergedError:
         return NotConvergedError(
             f"{self.name}: rounding the degrees of freedom makes forces up to {rounding:.2g} N, too much beside "
             "the loads; use fewer vertices, or loads that strain the body less",
@@ -204,13 +210,13 @@ class EquilibriumSolver:
     def buckling_direction(self, before: Equilibrium, after: Equilibrium) -> tuple[Vector, bool]:
         """The softest motion of a stable body that is about to buckle, and whether its side is decided.
 
-        The motion is as long as one step may be.
+        The motion has the length of the step limit.
 
-        before, after : on both sides of the load at which it loses its stability.
+        before, after : equilibria on both sides of the load at which the body loses its stability.
 
-        The growing load pulls along the motion with -motion . rate.  A body that its supports carry along moves without
-        being pulled.  What is left of the pull without that and the softening is an imperfection; where it drowns in
-        rounding the body is symmetric and both sides are alike: the one of the positive largest entry is taken.
+        The growing load pulls along the motion with -motion . rate.  Supports that move carry
+        the body along without a pull.  The pull that remains, less the softening, is an imperfection.  If round-off
+        exceeds it, the body is symmetric and both sides are equal; the largest entry is then made positive.
         """
         system, tangent, space = self.system, self.tangent, self.system.space
         q = self._polished(before)
@@ -235,15 +241,15 @@ class EquilibriumSolver:
             abs(after.factor - before.factor), _EPS
         )
         magnified = 1 + abs(before.factor * softening / max(stiff, _EPS * abs(softening)))
-        decided = abs(pull * before.factor) > _SURE * magnified * noise
+        decided = abs(pull * before.factor) > _DECISIVE_ROUND_OFF_RATIO * magnified * noise
         if decided and pull < 0:
             motion = -motion
         return space.max_step_fraction(q, motion) * motion, decided
 
     def _polished(self, point: Equilibrium) -> Vector:
-        """The DOFs of a stable point after Newton steps beyond the tolerance, down to rounding."""
+        """The DOFs of a stable point after Newton steps beyond the tolerance, down to round-off."""
         q, last = point.q, np.inf
-        for _ in range(_POLISH):
+        for _ in range(_MAX_POLISHING_STEPS):
             self.system.assemble(q, point.history, point.factor, self.tangent)
             unbalanced, residual, _ = self.unbalanced()
             self.tangent.constrain(self.system.constrained)
@@ -254,7 +260,7 @@ class EquilibriumSolver:
         return q
 
     def failure(self, done: float, goal: float, last: Equilibrium | None) -> NotConvergedError:
-        """An error that says how far the load came and what was tried next."""
+        """An error with the load reached and the load tried next."""
         return self.stopped(
             f"no equilibrium found beyond {done:.4g} of the load (tried {goal:.6g}, largest unbalanced force "
             f"{self.residual:.3g} N, allowed {self.tolerance:.3g} N); {self.remedy}",
@@ -288,5 +294,5 @@ def _balance(gradient: Vector, constrained: Mask, forces: Vector) -> tuple[float
 
 
 def stalled(residual: float, last: float, rounding: float) -> bool:
-    """Whether what is left no longer falls and is of the size of rounding, whose bound is an estimate."""
-    return residual > last / 2 and residual <= _ROUGH * rounding
+    """Whether the residual no longer falls and is of the order of the estimated round-off."""
+    return residual > last / 2 and residual <= _STALL_FACTOR * rounding

@@ -20,7 +20,7 @@ from cosserat.solvers.step import CORRECTED, COUNTED, UNCORRECTED, Bodies, Room,
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
-_PLACES = 3  # for potentials, of compiled steps; where there are more, steps are compiled anew
+_POTENTIAL_SLOTS = 3  # for potentials, of compiled steps; where there are more, steps are compiled anew
 types: Any = numba_types  # which says nothing of its own types
 
 
@@ -93,8 +93,8 @@ def integrate_implicitly(
 
 
 def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
-    """The potentials for compiled code, filled up to a number of places that it is compiled for."""
-    places = _PLACES
+    """The potentials for compiled code, padded to a compiled number of slots."""
+    places = _POTENTIAL_SLOTS
     while places < len(potentials):
         places *= 2
     empty = places - len(potentials)
@@ -112,7 +112,7 @@ def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
 
 
 def _role(potential: Potential) -> int:
-    """What a step makes of a potential."""
+    """Role of a potential in a step."""
     if potential.linear:
         return COUNTED
     return CORRECTED if potential.symmetric else UNCORRECTED
@@ -121,7 +121,7 @@ def _role(potential: Potential) -> int:
 def _prescribed(
     system: MechanicalSystem, start: float, h: float, count: int
 ) -> tuple[NDArray[np.int64], Fields, Fields]:
-    """Constrained DOFs that move, and where and how fast they are at the ends of all steps."""
+    """Constrained DOFs that move, with their places and rates at the ends of all steps."""
     if not system.constraints.moving:
         return np.empty(0, dtype=np.int64), np.zeros((count + 1, 0)), np.zeros((count + 1, 0))
     moved = np.flatnonzero(system.constrained)

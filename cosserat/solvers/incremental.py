@@ -1,7 +1,7 @@
-"""The equilibrium that a growing load leads to, in increments of the load.
+"""The equilibrium under a growing load, by load increments.
 
-Increments are as long as the path before them predicts their end and the body stays stable.  From where it does not,
-the path is traced by `solvers.continuation`.
+Increments continue while the path before them predicts their end and the body stays stable.  After that,
+`solvers.continuation` traces the path.
 """
 
 from __future__ import annotations
@@ -12,22 +12,24 @@ from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, tra
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.system import Fields
 
-_PREDICTION_TOLERANCE = 0.3  # share of an increment by which its end may lie off what is foretold
-_NEGLIGIBLE_ROTATION = 1e-5  # turning below which an increment needs no foretelling [rad]
-_INTERMEDIATE_TOLERANCE = 1e-8  # share of the loads that may be left unbalanced before the end
-_MAX_ROTATION = 0.7  # most that a part may turn in an increment [rad]
+_PREDICTION_TOLERANCE = 0.3  # largest prediction error, as a fraction of the increment
+_NEGLIGIBLE_ROTATION = 1e-5  # rotation below which an increment needs no prediction [rad]
+_INTERMEDIATE_TOLERANCE = 1e-8  # unbalanced fraction of the loads before the last increment
+_MAX_ROTATION = 0.7  # largest rotation of a part in an increment [rad]
 _MAX_ARCS = 10_000  # arcs on the way to one equilibrium
-_MAX_CUTBACKS = 4  # increments refused short of the same factor before the path is followed
+_MAX_CUTBACKS = 4  # rejected increments at one factor before the path is traced
 
 
 def solve_full_load(solver: EquilibriumSolver) -> Equilibrium:
-    """The equilibrium at the factor one that the load leads to as it grows from nothing.
+    """The equilibrium at the load factor one, reached as the load grows from zero.
 
     Raises
     ------
     NotConvergedError : no path leads there, or to no stable equilibrium; the last point is its `state`.
     """
-    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused, not warned of
+    with np.errstate(
+        over="ignore", invalid="ignore"
+    ):  # non-finite values are rejected below without a warning
         point = unloaded(solver)
         solver.check_round_off(point)
         point = _by_increments(solver, point)
@@ -56,7 +58,7 @@ def unloaded(solver: EquilibriumSolver) -> Equilibrium:
 
 
 def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium:
-    """The last equilibrium that increments reach which the path before them foretells."""
+    """The last equilibrium that predictable increments reach."""
     system, space, refused, wall = solver.system, solver.system.space, 0, 0.0
     longest = min(1.0 / solver.settings.load_increments, system.constraints.max_increment)
     increment = longest
@@ -92,9 +94,7 @@ def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium
             increment = step / 2
             continue
         before, point = (point.factor, rates), found
-        if (
-            point.factor >= wall
-        ):  # short of it, ever shorter increments would come close to a crossing of paths
+        if point.factor >= wall:  # otherwise ever shorter increments would approach a bifurcation
             refused = 0
         increment *= float(np.clip(np.sqrt(_PREDICTION_TOLERANCE / 2 / max(off, 1e-3)), 0.5, 2.0))
     return point

@@ -1,4 +1,4 @@
-"""Symmetric bands that need not be positive: solving with them, and their softest motion."""
+"""Symmetric bands that may be indefinite: their solution and their softest motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector, solve_positive
 
-_SHIFTS = tuple(2.0**k for k in range(-40, 12))  # shares of the largest diagonal entry, tried in turn
+_DIAGONAL_SHIFTS = tuple(2.0**k for k in range(-40, 12))  # of the largest diagonal entry, in turn
 
 
 def solve_any(band: Band, right: Vector, skew: Band = NO_BAND) -> tuple[Vector | None, float]:
@@ -34,10 +34,10 @@ def solve_any(band: Band, right: Vector, skew: Band = NO_BAND) -> tuple[Vector |
 
 
 def _made_positive(band: Band, right: Vector) -> tuple[Band, Vector | None]:
-    """The band with the smallest multiple of the unit matrix tried that makes it positive, and its solution."""
+    """The band plus the smallest tried multiple of the unit matrix that makes it positive, and its solution."""
     largest = float(np.abs(band[:, 0]).max()) or 1.0
     trial, step = band.copy(), None
-    for shift in _SHIFTS:
+    for shift in _DIAGONAL_SHIFTS:
         trial[:, 0] = band[:, 0] + shift * largest
         step = solve_positive(trial, right)
         if step is not None:
@@ -46,7 +46,7 @@ def _made_positive(band: Band, right: Vector) -> tuple[Band, Vector | None]:
 
 
 def shifted(band: Band, right: Vector) -> Vector | None:
-    """Solve with the band and as much of the unit matrix as makes it positive."""
+    """Solve with the band plus a multiple of the unit matrix that makes it positive."""
     return _made_positive(band, right)[1]
 
 

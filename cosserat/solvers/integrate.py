@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from scipy.sparse import dia_array
 
 DAMPED = 8.0
-"""Largest c omega h^2 at which the implicit method takes energy from a mode of frequency omega at the rate c."""
-_FEW = 8  # DOFs of which all eigenvalues are sought, as an iteration needs more than it seeks
-_EXACT = 1e-9  # a duration that is so near to a whole number of steps is one
+"""Largest c omega h^2 at which the implicit method damps a mode of frequency omega at the rate c."""
+_MAX_DENSE_DOFS = 8  # up to so many DOFs all eigenvalues are found; an iteration needs more DOFs
+_WHOLE_STEPS_TOLERANCE = 1e-9  # rounding of a duration to whole steps
 
 
 class IntegratorSettings(Parameters):
@@ -64,7 +64,7 @@ def integrate(
 ) -> tuple[State, int]:
     """Move on by a duration; returns the new state and the number of steps (of evaluations for "rk45").
 
-    The result depends on the state alone, so that a run cut anywhere goes on to the same numbers.
+    The result depends on the state alone, so an interrupted run resumes to the same numbers.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def integrate(
 
 
 REMEDY = "take a shorter 'integrator.step' or the method 'implicit'"
-"""What helps an explicit method that diverges."""
+"""Remedy for an explicit method that diverges."""
 
 Integrator = Callable[[MechanicalSystem, State, float, IntegratorSettings, str], tuple[State, int]]
 """(system, state, duration, settings, name) -> the state after it, and the number of steps or evaluations."""
@@ -100,12 +100,12 @@ def _integrator(settings: IntegratorSettings) -> Integrator:
 
 
 def step_count(duration: float, settings: IntegratorSettings) -> int:
-    """The least number of equal steps in a duration of which none is longer than the given step."""
-    return max(1, math.ceil(duration / settings.step * (1 - _EXACT)))
+    """The least number of equal steps in a duration, none longer than the given step."""
+    return max(1, math.ceil(duration / settings.step * (1 - _WHOLE_STEPS_TOLERANCE)))
 
 
 def _at_supports(system: MechanicalSystem, before: State, after: State) -> State:
-    """The state after an explicit method has moved on, its constrained DOFs where and as fast as they are moved."""
+    """The state after an explicit method, with places and rates of its constrained DOFs as prescribed."""
     if not system.constraints.moving:
         return after
     start, _, _ = system.constraints.at_time(before.time)
@@ -120,9 +120,9 @@ def _at_supports(system: MechanicalSystem, before: State, after: State) -> State
 def stable_step(system: MechanicalSystem, q: Vector) -> float:
     """Longest step of the classical fourth-order Runge-Kutta method for small motions about q [s].
 
-    derived: a mode of frequency omega under a drag c goes as exp(z t), z^2 + c z + omega^2 = 0.  These z lie on the
-    real axis between -c and 0 and on a line across its middle, up to those of the highest frequency.  The region of
-    stability holds with -c and those two whatever lies between.
+    derived: a mode of frequency omega under the damping rate c goes as exp(z t), z^2 + c z + omega^2 = 0.  These z lie
+    on the real axis between -c and 0 and on a line across its middle, up to those of the highest frequency.  If the
+    region of stability contains -c and those two, it contains all between.
     """
     root = np.emath.sqrt(system.damping_rate**2 / 4 - highest_frequency(system, q) ** 2)
     ends = (-system.damping_rate / 2 + root, -system.damping_rate / 2 - root, -system.damping_rate)
@@ -156,9 +156,9 @@ def check_stable_step(
 
 
 def highest_frequency(system: MechanicalSystem, q: Vector, history: History | None = None) -> float:
-    """Largest angular frequency of small motions about q, constrained DOFs left out [rad/s]."""
+    """Largest angular frequency of small motions about q, without constrained DOFs [rad/s]."""
     stiffness, mass = free_matrices(system, q, history)
-    if mass.shape[0] < _FEW:
+    if mass.shape[0] < _MAX_DENSE_DOFS:
         largest = np.abs(eigvalsh(stiffness.toarray(), mass.toarray())).max()
         return float(np.sqrt(largest))
     from scipy.sparse.linalg import eigsh  # 0.2 s: only where it is used

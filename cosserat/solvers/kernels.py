@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept from one process to the next, chosen before Numba is imported."""
+"""The cache folder of compiled kernels, chosen before Numba is imported."""
 
 from __future__ import annotations
 
@@ -16,9 +16,8 @@ FOLDERS = ("solvers", "rods/energies", "rods/loads", "peristalsis")
 def choose_cache() -> None:
     """Let Numba keep kernels beside their sources, else in the user's cache, else in a private temporary folder.
 
-    Where none can be written to, kernels are compiled by every process anew. Whatever is not the first is said once
-    on stderr: when the folder is made, or by each process that keeps nothing. NUMBA_CACHE_DIR, where it is set, is
-    the user's own choice.
+    If none is writable, every process compiles the kernels. A choice other than the first is reported once on stderr:
+    when the folder is made, or by each process that keeps nothing. If NUMBA_CACHE_DIR is set, it is left as it is.
     """
     beside = [_PACKAGE / folder / "__pycache__" for folder in FOLDERS]
     if os.environ.get("NUMBA_CACHE_DIR") or all(map(_is_writable, beside)):
@@ -30,10 +29,10 @@ def choose_cache() -> None:
             if "numba" in sys.modules:  # which reads the environment when it is imported
                 sys.modules["numba"].config.CACHE_DIR = str(folder)
             if not known:
-                _say(f"compiled kernels are kept in {folder}")
+                _print_note(f"compiled kernels are kept in {folder}")
             return
     _cache_nothing()
-    _say(
+    _print_note(
         "compiled kernels are kept nowhere, which costs seconds a run; set NUMBA_CACHE_DIR to a folder to keep them"
     )
 
@@ -50,7 +49,7 @@ def _candidates() -> Iterator[Path]:
 
 
 def _is_writable(folder: Path, mode: int = 0o777) -> bool:
-    """Try it: permissions do not tell of read-only file systems, nor bind the superuser."""
+    """Whether a file can be written; permissions do not show read-only file systems, nor bind the superuser."""
     try:
         folder.mkdir(mode=mode, parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -60,7 +59,7 @@ def _is_writable(folder: Path, mode: int = 0o777) -> bool:
 
 
 def _is_private(folder: Path) -> bool:
-    """Whether nobody else can put files there: what is read from a cache is run."""
+    """Whether nobody else can write there: code in a cache is run."""
     about = folder.lstat()
     return about.st_uid == os.getuid() and not about.st_mode & 0o022 and not folder.is_symlink()
 
@@ -73,5 +72,5 @@ def _cache_nothing() -> None:
         setattr(compiled, "enable_caching", lambda _: None)  # noqa: B010 - a method, which mypy lets nobody assign
 
 
-def _say(words: str) -> None:
+def _print_note(words: str) -> None:
     print(f"cosserat: {_PACKAGE} cannot be written to; {words}", file=sys.stderr)

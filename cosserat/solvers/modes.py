@@ -14,24 +14,24 @@ from cosserat.solvers.integrate import free_matrices
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 Dense = NDArray[np.float64]
-_ROUNDING = 16 * float(np.finfo(float).eps)  # of a squared frequency, as a share of the largest one
+_ROUND_OFF_FRACTION = 16 * float(np.finfo(float).eps)  # of the largest squared frequency
 
 
 @dataclass(frozen=True)
 class Modes:
     """angular_frequency : (k,), lowest first [rad/s]; zero, to rounding, for motions that cost no energy.
 
-    shape : (k, n), one a row, of unit kinetic energy at unit rate (v . M v = 1), its largest entry positive.
+    shape : (k, n), one mode per row, normalised to v . M v = 1, its largest entry positive.
     """
 
     angular_frequency: Vector
     shape: NDArray[np.float64]
 
     def coordinates(self, mass: Band, fields: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Shares of the modes in displacements or velocities: shape . M field, (t, n) -> (t, k)."""
+        """Modal coordinates of displacements or velocities: shape . M field, (t, n) -> (t, k)."""
         weighted = np.array([band_product(mass, field) for field in fields])
-        shares: NDArray[np.float64] = weighted @ self.shape.T
-        return shares
+        coordinates: NDArray[np.float64] = weighted @ self.shape.T
+        return coordinates
 
 
 def modes(
@@ -40,13 +40,13 @@ def modes(
     count: int,
     name: str,
     *,
-    anchored: bool,
+    supported: bool,
     history: History | None = None,
 ) -> Modes:
     """The lowest `count` modes about q, with the constrained DOFs at rest.
 
+    supported : no rigid motion is free, so a stable body has no zero frequency.
     history : the internal variables there; None: those of the start.
-    anchored : no motion without deformation is left free, so that a stable body has no frequency zero.
 
     Raises
     ------
@@ -59,19 +59,19 @@ def modes(
             "kind = 'rod motion' how they grow or fade"
         )
     stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q, history))
-    if anchored:
+    if supported:
         rounding, growing = 0.0, _count_unstable(system, q, history)
     else:
         every = eigh(stiffness, mass, eigvals_only=True)
-        rounding = _ROUNDING * every[-1]
+        rounding = _ROUND_OFF_FRACTION * every[-1]
         growing = int((every < -rounding).sum())
     if growing:
         raise UnstableError(
             f"{name}: what it vibrates about is unstable in {growing} direction{'s' * (growing > 1)}, along which "
-            "small motions grow instead of swinging; lessen the loads, or nudge the rod by a small force so that it "
+            "small motions grow instead of oscillating; lessen the loads, or nudge the rod by a small force so that it "
             "comes to rest in a stable equilibrium"
         )
-    squared, vectors = _lowest(stiffness, mass, min(count, mass.shape[0]), anchored)
+    squared, vectors = _lowest(stiffness, mass, min(count, mass.shape[0]), supported)
     shapes = np.zeros((squared.size, q.size))
     shapes[:, ~system.constrained] = vectors.T
     largest = np.take_along_axis(shapes, np.abs(shapes).argmax(axis=1)[:, None], axis=1)
@@ -80,7 +80,7 @@ def modes(
 
 
 def _count_unstable(system: MechanicalSystem, q: Vector, history: History | None) -> int:
-    """How many directions of the free DOFs the Hessian at q bends down in."""
+    """Number of negative eigenvalues of the Hessian at q, of the free DOFs."""
     tangent = Tangent(system)
     system.assemble(q, system.history if history is None else history, 1.0, tangent)
     tangent.constrain(system.constrained)
@@ -88,12 +88,12 @@ def _count_unstable(system: MechanicalSystem, q: Vector, history: History | None
     return negative_eigenvalues(tangent.band)
 
 
-def _lowest(stiffness: Dense, mass: Dense, count: int, anchored: bool) -> tuple[Vector, Dense]:
+def _lowest(stiffness: Dense, mass: Dense, count: int, supported: bool) -> tuple[Vector, Dense]:
     """The lowest squared frequencies and their modes, v . M v = 1, as columns.
 
-    Of an anchored body they are the largest of the inverse problem, free of the rounding of the stiffest.
+    For a supported body they are the largest of the inverse problem, without the round-off of the stiffest modes.
     """
-    if not anchored:
+    if not supported:
         squared, vectors = eigh(stiffness, mass, subset_by_index=(0, count - 1))
         return squared, vectors
     last = mass.shape[0] - 1
@@ -101,10 +101,10 @@ def _lowest(stiffness: Dense, mass: Dense, count: int, anchored: bool) -> tuple[
     return 1 / inverse[::-1], vectors[:, ::-1] / np.sqrt(inverse[::-1])
 
 
-def first_elastic_frequency(system: MechanicalSystem, q: Vector, *, anchored: bool) -> float:
-    """The lowest angular frequency about q of a motion that deforms: not zero to rounding [rad/s]."""
+def first_elastic_frequency(system: MechanicalSystem, q: Vector, *, supported: bool) -> float:
+    """The lowest angular frequency about q that is not zero to round-off: that of a motion that deforms [rad/s]."""
     stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q))
-    if anchored:
-        return float(np.sqrt(_lowest(stiffness, mass, 1, anchored)[0][0]))
+    if supported:
+        return float(np.sqrt(_lowest(stiffness, mass, 1, supported)[0][0]))
     squared = eigh(stiffness, mass, eigvals_only=True)
-    return float(np.sqrt(squared[squared > _ROUNDING * squared[-1]][0]))
+    return float(np.sqrt(squared[squared > _ROUND_OFF_FRACTION * squared[-1]][0]))

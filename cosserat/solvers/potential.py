@@ -1,8 +1,8 @@
-"""An energy, a load or anything else that has one, as every solver sees it.
+"""Potentials: energies and loads, in the one form that every solver uses.
 
-A potential is a compiled function of the degrees of freedom (DOFs) with a gradient and a banded Hessian.  What it is
-given besides is explicit: constants, internal variables that change only where a state is accepted, and strains that a
-time step replaces by their means over its two ends.
+A potential is a compiled function of the degrees of freedom (DOFs) with a gradient and a banded Hessian.  Its other
+inputs are explicit: constants, internal variables that change only at accepted states, and strains that a time step
+replaces by the means of its two ends.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from cosserat.solvers.banded import NO_BAND, Band, Vector
 Bytes = NDArray[np.uint8]
 
 ENERGY, GRADIENT, HESSIAN, STRAINS, COMMIT = range(5)
-"""What a kernel is asked for."""
+"""Tasks of a kernel."""
 
 KERNEL = types.float64(
     types.float64[::1],
@@ -47,8 +47,8 @@ state.  The energy is infinite where the potential is not defined, as in a rod t
 
 Where `after` has entries, q is the midpoint of a time step that ends at `after`, and `strains` are those of its start.
 The energy is that of `after`.  The gradient is taken at the midpoint, with the stresses of the mean of the strains at
-both ends.  The Hessian is that of the midpoint with these stresses, but with no less tension than at the start and with
-the pressures of the start: on the way to an answer a stress that is not there must not make it indefinite.
+both ends.  The Hessian is that of the midpoint with these stresses, but with at least the tension and with the
+pressures of the start: a transient stress in an iteration must not make it indefinite.
 """
 
 NOTHING = np.empty(0)
@@ -60,13 +60,13 @@ class Potential:
     """A potential of n DOFs.
 
     evaluate : the kernel, a function compiled by Numba that is called as `KERNEL` says.
-    constants : what the kernel reads, a structured array whose dtype says what it holds.
+    constants : a structured array for the kernel; its dtype names the fields.
     terms : names of the parts of the energy.
     half_bandwidth : largest distance of two DOFs that the Hessian couples; -1 where the potential is linear.
     history : (k,) the internal variables at the start.
     strains : shape of the strains that a time step replaces by their means.
     symmetric : whether there is an energy; if not, the kernel returns zero, and its gradient is minus a force.
-    origin : (n,) what is added to q; None where that is nothing.
+    origin : (n,) added to q; None for zero.
     """
 
     evaluate: Callable[..., float]
@@ -104,7 +104,7 @@ class Potential:
         return self.add(q, self.history, gradient, band)
 
     def energy(self, q: Vector, history: Vector | None = None) -> float:
-        """The energy [J] at q; with the internal variables of the start if no others are given."""
+        """The energy [J] at q; history : the internal variables, those of the start by default."""
         history = self.history if history is None else history
         return self._called(q, history, ENERGY, NOTHING, NO_BAND, NO_BAND)
 
@@ -118,7 +118,7 @@ class Potential:
         return terms
 
     def committed(self, q: Vector, history: Vector) -> Vector:
-        """The internal variables (k,) at q, an accepted state, by those of the state before."""
+        """The internal variables (k,) at q, an accepted state, from those of the state before."""
         if not history.size:
             return history
         after = history.copy()

@@ -1,8 +1,8 @@
 """Boundary value problems on regions: u'' = f(u), another f in each, u and u' continuous, u' = 0 at the ends.
 
-Spectral elements make a banded system of it, Newton's method solves that.  Where f in a region depends on the value at
-one node besides the local one, the banded matrix gets one column more for that region (Woodbury's formula).
-Nothing here knows what u stands for or how many numbers it has.
+Spectral elements give a banded system, and Newton's method solves it.  If f in a region also depends on the value at
+one other node, Woodbury's formula adds one column to the banded matrix.  Meaning and number of the components of u are
+free.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from cosserat.solvers.elements import Mesh, rule
 
 Array = NDArray[np.float64]
 
-_SHORTEST = 2.0**-20  # the damping gives up below this share of Newton's step
+_MIN_DAMPING = 2.0**-20  # least fraction of Newton's step
 
 
 @dataclass(frozen=True)
@@ -47,10 +47,10 @@ class Source:
 
 
 class Equation(Protocol):
-    """What is to be solved."""
+    """The equation to solve."""
 
     def source(self, u: Array) -> Source | None:
-        """f at u, shape (M, p + 1, m); None where it has no meaning."""
+        """f at u, shape (M, p + 1, m); None if u is inadmissible."""
 
 
 class RegionSettings(Parameters):
@@ -78,8 +78,8 @@ class Solved:
 def solve(mesh: Mesh, equation: Equation, start: Array, settings: RegionSettings, name: str) -> Solved:
     """Solve from a first guess at the distinct points, shape (nodes, m); `name` is what an error calls the case.
 
-    Damped by the natural monotonicity test: a step is taken if the correction that the same matrix gives after it is
-    smaller (Deuflhard 2011, section 3.3).
+    Natural monotonicity test: accept a step if the simplified Newton correction decreases (Deuflhard 2011, section
+    3.3).
 
     Raises
     ------
@@ -94,19 +94,19 @@ def solve(mesh: Mesh, equation: Equation, start: Array, settings: RegionSettings
         system = _Linear(mesh, source, u.shape[1])
         step = system.correct(mesh, u, source)
         size = float(np.abs(step).max())
-        share = 1.0
+        fraction = 1.0
         while True:
-            trial = u + share * step
+            trial = u + fraction * step
             found = equation.source(mesh.split(trial))
             if found is not None:
                 left = float(np.abs(system.correct(mesh, trial, found)).max())
-                if left <= max((1 - share / 4) * size, settings.tolerance):
+                if left <= max((1 - fraction / 4) * size, settings.tolerance):
                     break
-            share /= 2
-            if share < _SHORTEST:
+            fraction /= 2
+            if fraction < _MIN_DAMPING:
                 raise _failure(name, "no shorter step brings it nearer", iteration, size, settings)
         u, source = trial, found
-        if share == 1.0 and min(left, size) <= settings.tolerance:
+        if fraction == 1.0 and min(left, size) <= settings.tolerance:
             return Solved(u, iteration + 1, min(left, size))
     raise _failure(name, "the iterations were not enough", settings.max_iterations, size, settings)
 
@@ -180,7 +180,7 @@ def _residual(
                 for b in range(points):
                     total += stiffness[a, b] * (
                         u[first + b, c] - u[first + a, c]
-                    )  # rows of it sum to zero
+                    )  # its rows sum to zero
                 load = sizes[e] / 2 * weights[a] * f[e, a, c]
                 residual[first + a, c] += 2 / sizes[e] * total + load
 

@@ -42,7 +42,7 @@ def adaptive(
 
     size = np.concatenate([np.abs(state.q), np.full(state.v.size, float(np.abs(state.v).max()))])
     allowed = np.full(size.size + 2, settings.tolerance * max(float(size.max()), 1e-300))
-    allowed[-2:] = np.inf  # the books follow the motion
+    allowed[-2:] = np.inf  # integrals of energy follow the motion
     rate = _Rates(system)
     rate.history = state.history
     method = RK45(
@@ -64,12 +64,12 @@ def adaptive(
 
 
 def _packed(state: State) -> Vector:
-    """DOFs, velocities, and what damping and supports have taken and given, (2 n + 2,)."""
+    """DOFs, velocities, and the energies that damping has taken and supports have given, (2 n + 2,)."""
     return np.concatenate([state.q, state.v, [state.dissipated, state.driven]])
 
 
 def _accepted(system: MechanicalSystem, before: State, time: float, y: Vector) -> State:
-    """The state that `_packed` holds, with its internal variables."""
+    """The state in the array of `_packed`, with its internal variables."""
     n = y.size // 2 - 1
     q, v = y[:n], y[n : 2 * n]
     history = system.committed(q, before.history)
@@ -79,9 +79,9 @@ def _accepted(system: MechanicalSystem, before: State, time: float, y: Vector) -
 
 
 class _Rates:
-    """Rates of what `_packed` holds.
+    """Rates of the array of `_packed`.
 
-    The acceleration is M^-1 (-gradient - M (a + c v) of what is moved) - c v, with the damping rate c.
+    The acceleration is M^-1 (-gradient - M (a + c v) of the prescribed DOFs) - c v, with the damping rate c.
     history : internal variables of the last accepted state.
     """
 

@@ -1,4 +1,4 @@
-"""What the compiled time steps of `solvers.energy_momentum` are given: potentials, what stays the same, work space."""
+"""Arguments of the compiled time steps of `solvers.energy_momentum`: potentials, constants and work space."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Fields = NDArray[np.float64]
 
 
 CORRECTED, UNCORRECTED, COUNTED = range(3)
-"""Roles of a potential: the work of its forces is to meet its change of energy; it has none; or it is linear, a part of
-the dead load, and only its internal variables count."""
+"""Roles of a potential: the work of its forces must equal its change of energy; it has no energy; or it is linear, a
+part of the dead load, and only its internal variables count."""
 
 
 class Bodies(NamedTuple):
-    """The potentials that a step evaluates, as compiled code sees them: one entry of each tuple for every one.
+    """The potentials of a step for compiled code, one entry of each tuple per potential.
 
-    kernels, constants, history, strains, terms : what `solvers.potential.KERNEL` says.
+    kernels, constants, history, strains, terms : arguments of `solvers.potential.KERNEL`.
     role : (k,) one of the roles above.  loaded : whether some load is not linear.
     counted : which of them have internal variables.
     """
@@ -36,11 +36,11 @@ class Bodies(NamedTuple):
 
 
 class Run(NamedTuple):
-    """What stays the same in all steps.
+    """Constants of all steps.
 
     mass : band (n, w).  load : (n,) dead load.  constrained : (n,).  translations : (d, n), or (0, n) where a DOF is
     constrained.  h : the time step.  damping_rate : c.
-    moved : (m,) constrained DOFs that move; places, rates : (steps + 1, m) where and how fast they are.
+    moved : (m,) constrained DOFs that move; places, rates : (steps + 1, m) their displacements and rates.
     """
 
     mass: Band
@@ -55,12 +55,12 @@ class Run(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Work space; all (n,) but `factor` and `mass_factor`, which are bands, and `rotations`.
+    """Work space; all (n,) except `factor` and `mass_factor`, which are bands, and `rotations`.
 
     change, first : of the DOFs in the step, and its first guess.  earlier, earliest : changes of the last two steps.
-    middle, end : DOFs.  gradient : of energy and loads.  pull : what the momentum at the start and the dead load give.
-    gained : change of the DOFs with that velocity which constrained DOFs are given.  product : M gained.
-    force : what is unbalanced.  z : the direction along which the change of energy is met.
+    middle, end : DOFs.  gradient : of energy and loads.  pull : force of the momentum at the start and the dead load.
+    gained : change of the DOFs at the prescribed velocity.  product : M gained.
+    force : unbalanced force.  z : direction of the force that corrects the energy.
     """
 
     change: Vector

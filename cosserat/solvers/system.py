@@ -1,7 +1,6 @@
 """A body under loads: the one object that statics, continuation, motion and modes take.
 
-Nothing here or in the solvers knows what the degrees of freedom (DOFs) mean.  What they need to know of that, a
-`ConfigurationSpace` says.
+The solvers do not depend on the meaning of the degrees of freedom (DOFs), except through a `ConfigurationSpace`.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ History = tuple[Vector, ...]
 
 
 class Constraints(Protocol):
-    """Which DOFs are constrained, and where they are put."""
+    """Constrained DOFs and their prescribed displacements."""
 
     @property
     def mask(self) -> Mask:
@@ -42,7 +41,7 @@ class Constraints(Protocol):
 
     @property
     def moving(self) -> bool:
-        """Whether some constrained DOFs do not keep their reference value."""
+        """Whether some constrained DOFs move."""
 
     @property
     def max_increment(self) -> float:
@@ -56,7 +55,7 @@ class Constraints(Protocol):
 
 
 class ConfigurationSpace(Protocol):
-    """What a solver has to know of the DOFs."""
+    """Properties of the DOFs that solvers need."""
 
     @property
     def dimension(self) -> int:
@@ -68,7 +67,7 @@ class ConfigurationSpace(Protocol):
 
     @property
     def scale(self) -> Vector:
-        """Sizes (n,) that are rounded where the energy is computed, however small the DOFs are."""
+        """Sizes (n,) that set the round-off of the energy, however small the DOFs are."""
 
     def rigid_motions(self, q: Vector) -> Fields:
         """Velocities that deform nothing, shape (k, n), the translations first."""
@@ -77,15 +76,15 @@ class ConfigurationSpace(Protocol):
         """Largest fraction of a step that rotates no part by more than a radian."""
 
     def rates(self, q: Vector, change: Vector) -> Fields:
-        """How fast the parts of the body rotate [rad] and stretch as the DOFs change, (parts, k)."""
+        """Rates of rotation [rad] and stretch of the parts of the body as the DOFs change, (parts, k)."""
 
     def predicted(
         self, q: Vector, moved: Fields, prescribe: Callable[[Vector], Vector], constrained: Mask
     ) -> Vector:
-        """The DOFs after the parts have rotated and stretched by so much, at the prescribed places."""
+        """The DOFs after given rotations and stretches of the parts, with prescribed DOFs in place."""
 
     def carried(self, change: Vector, constrained: Mask) -> Vector:
-        """The part of a change of the DOFs that follows supports that move, and strains nothing."""
+        """The part of a change of the DOFs that follows the supports without strain."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,7 @@ class FixedDofs:
 
 @dataclass(frozen=True)
 class FlatSpace:
-    """DOFs without rotations: each has a size (n,) by which it may change in one step."""
+    """DOFs without rotations: each has a size (n,), its largest change in one step."""
 
     scale: Vector
     dimension: int = 1
@@ -146,7 +145,7 @@ class MechanicalSystem:
     """A body, its loads, its constraints and its mass.
 
     internal : the energy of the body.  external : its loads; a load factor multiplies all of them.
-    mass : symmetric band (n, w + 1); None for a body that only rests.
+    mass : symmetric band (n, w + 1); None for statics.
     damping_rate : c of the damping force -c M v [1/s].
     """
 
@@ -224,7 +223,7 @@ class MechanicalSystem:
                 potential.add_gradient(q, own, gradient)
 
     def assemble(self, q: Vector, history: History, factor: float, tangent: Tangent) -> bool:
-        """Overwrite the tangent at q under a factor of the loads; False where a potential is not defined there."""
+        """Overwrite the tangent at q and a load factor; False if a potential is not defined there."""
         tangent.clear()
         energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
         np.negative(self.dead_load, out=tangent.load_gradient)
@@ -235,16 +234,16 @@ class MechanicalSystem:
         return bool(np.isfinite(energy))
 
     def committed(self, q: Vector, history: History) -> History:
-        """The internal variables at q, an accepted state, by those of the state before."""
+        """The internal variables at q, an accepted state, from those of the state before."""
         return tuple(p.committed(q, own) for p, own in zip(self.potentials, history, strict=True))
 
     def prescribe(self, q: Vector, factor: float) -> Vector:
-        """q with its constrained DOFs where a load factor puts them."""
+        """q with its constrained DOFs as prescribed at a load factor."""
         place = self.space.reference + self.constraints.at_load(factor)[0]
         return np.where(self.constrained, place, q)
 
     def predicted(self, q: Vector, moved: Fields, factor: float) -> Vector:
-        """The DOFs at a load factor after the parts have rotated and stretched by so much."""
+        """The DOFs at a load factor after given rotations and stretches of the parts."""
         return self.space.predicted(q, moved, lambda u: self.prescribe(u, factor), self.constrained)
 
     def prescribed_rate(self, factor: float) -> Vector:
@@ -252,16 +251,16 @@ class MechanicalSystem:
         return self.constraints.at_load(factor)[1]
 
     def rate(self, factor: float, tangent: Tangent) -> Vector:
-        """Change of the gradient with the load factor, (n,), where the tangent was assembled last."""
+        """Derivative of the gradient by the load factor, (n,), at the last assembled tangent."""
         if not self.constraints.moving:
             return tangent.load_gradient.copy()
         return tangent.load_gradient + tangent.product(self.prescribed_rate(factor))
 
 
 class Tangent:
-    """Room for the gradient, (n,), of a system, for its Hessian, and for what the loads have in both.
+    """Gradient, (n,), and Hessian of a system, in total and of the loads alone.
 
-    band, skew : the symmetric and the skew part of the Hessian; `skew` has no rows where there is none.
+    band, skew : the symmetric and the skew part of the Hessian; `skew` has no rows if it is zero.
     load_gradient, load_band, load_skew : those of the loads alone, at the load factor one.
     """
 
@@ -285,7 +284,7 @@ class Tangent:
             self.load_skew.fill(0.0)
 
     def add_load(self, factor: float) -> None:
-        """Add a factor of what the loads have."""
+        """Add the parts of the loads times a factor."""
         self.gradient += factor * self.load_gradient
         own = self.load_band.shape[1]
         if own:

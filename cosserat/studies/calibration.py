@@ -1,7 +1,7 @@
-"""The calibration of section 3.5 as a procedure: coefficients by least squares, and what they leave open.
+"""The calibration of section 3.5 as a procedure: coefficients by least squares, and their sensitivities.
 
-Each static problem is compared with its closed form along the whole rod; a misfit is a difference as a share of the
-largest ordinate.  The logarithms of the coefficients are fitted, so that they stay positive.
+Each static problem is compared with its closed form along the whole rod; a misfit is a difference over the largest
+ordinate.  The logarithms of the coefficients are fitted, which keeps them positive.
 """
 
 from __future__ import annotations
@@ -24,11 +24,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_REACH = float(
-    np.log(30.0)
-)  # a fit may leave the published coefficients by this factor: some are hardly determined
+_LOG_RANGE = float(np.log(30.0))  # largest change of a fitted logarithm: some are hardly determined
 
-_STEP = 1e-3  # of the logarithms, over which a slope is taken
+_LOG_STEP = 1e-3  # of the logarithms, in a difference quotient
 
 Misfit = Callable[[Array], Array]
 Curves = Callable[[str, RodStatics, str], tuple[Array, Array]]
@@ -39,7 +37,7 @@ ASSIGNED = {
     "clamped_clamped": ("c3", "c4", "c5"),
     "necking": ("c2", "c6", "c7"),
 }
-"""Which coefficients the thesis finds from which problem."""
+"""Coefficients by the problem from which the thesis finds them."""
 
 _GROUP = {
     "hanging_bar": "stretching",
@@ -47,7 +45,7 @@ _GROUP = {
     "clamped_clamped": "beam",
     "necking": "section",
 }
-"""What the coefficients of a problem are called together."""
+"""Name of the group of coefficients of a problem."""
 
 
 class CalibrationProcedure(Problem):
@@ -125,11 +123,11 @@ class CalibrationProcedure(Problem):
         start = np.log([getattr(rod.calibration, c) for c in ASSIGNED[problem]])
         misfit = self.misfit(problem, vertices, name)
         return least_squares(
-            misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
+            misfit, start, bounds=(start - _LOG_RANGE, start + _LOG_RANGE), xtol=1e-10, ftol=1e-10
         )
 
     def fit_both_beams(self, vertices: int, name: str) -> OptimizeResult:
-        """c3, c4, c5 from both beams at once, displacements and directors: "simultaneously", as section 3.5 has it."""
+        """c3, c4, c5 from both beams at once, displacements and directors: "simultaneously", as in section 3.5."""
         from scipy.optimize import least_squares
 
         parts = [
@@ -145,65 +143,67 @@ class CalibrationProcedure(Problem):
             return every / float(np.sqrt(len(parts)))
 
         return least_squares(
-            misfit, start, bounds=(start - _REACH, start + _REACH), xtol=1e-10, ftol=1e-10
+            misfit, start, bounds=(start - _LOG_RANGE, start + _LOG_RANGE), xtol=1e-10, ftol=1e-10
         )
 
     def misfit(self, problem: str, vertices: int, name: str, curves: Curves | None = None) -> Misfit:
         """Differences of one problem from its closed form at one mesh, by the logarithms of its coefficients."""
-        posed, coefficients = getattr(self, problem), ASSIGNED[problem]
+        case, coefficients = getattr(self, problem), ASSIGNED[problem]
 
         def misfit(logarithms: Array) -> Array:
             values = dict(zip(coefficients, np.exp(logarithms), strict=True))
-            computed, exact = (curves or _curves)(problem, _at(posed, vertices, values), name)
+            computed, exact = (curves or _curves)(problem, _with_vertices(case, vertices, values), name)
             difference: Array = computed - exact
-            share: Array = difference / (np.abs(exact).max() * np.sqrt(exact.size))
-            return share
+            relative: Array = difference / (np.abs(exact).max() * np.sqrt(exact.size))
+            return relative
 
         return misfit
 
     def _at_published(self, problem: str, vertices: int, name: str) -> float:
         """Computed over exact at the tip or at mid-span, with the published coefficients."""
-        computed, exact = _curves(problem, _at(getattr(self, problem), vertices, {}), name)
+        computed, exact = _curves(problem, _with_vertices(getattr(self, problem), vertices, {}), name)
         place = -1 if problem in ("hanging_bar", "clamped_free") else (exact.size - 1) // 2
         return float(computed[place] / exact[place])
 
 
 def sensitivities(misfit: Misfit, logarithms: Array) -> tuple[Array, Array]:
-    """How far a misfit moves along orthogonal directions in log c, (k,), most first; the directions, (k, k), as rows.
+    """Sensitivity of a misfit along orthogonal directions in log c, (k,), largest first; these as rows, (k, k).
 
-    By central differences over a thousandth, in which the rounding of a solve does not show.  The largest entry of
+    By central differences over a thousandth, where the round-off of a solve does not matter.  The largest entry of
     each direction is positive.
     """
-    steps = _STEP * np.eye(logarithms.size)
-    slopes = [(misfit(logarithms + step) - misfit(logarithms - step)) / (2 * _STEP) for step in steps]
+    steps = _LOG_STEP * np.eye(logarithms.size)
+    slopes = [
+        (misfit(logarithms + step) - misfit(logarithms - step)) / (2 * _LOG_STEP) for step in steps
+    ]
     _, size, directions = np.linalg.svd(np.column_stack(slopes), full_matrices=False)
     largest = np.take_along_axis(directions, np.abs(directions).argmax(axis=1)[:, None], axis=1)
     return size, directions * np.sign(largest)
 
 
-def _at(posed: RodStatics, vertices: int, values: dict[str, float]) -> RodStatics:
-    assert posed.rod.calibration is not None
-    calibration = posed.rod.calibration.replace(**values)
-    return posed.replace(rod=posed.rod.replace(vertices=vertices, calibration=calibration))
+def _with_vertices(case: RodStatics, vertices: int, values: dict[str, float]) -> RodStatics:
+    assert case.rod.calibration is not None
+    calibration = case.rod.calibration.replace(**values)
+    return case.replace(rod=case.rod.replace(vertices=vertices, calibration=calibration))
 
 
-def _curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
-    fields = posed.solve(name)
-    beam, xi = beam_of(posed), fields["xi"]
+def _curves(problem: str, case: RodStatics, name: str) -> tuple[Array, Array]:
+    fields = case.solve(name)
+    beam, xi = beam_of(case), fields["xi"]
     if problem == "necking":
         beta = beams.necking_decay(beam, "printed")
-        return fields["lam"] - 1, beams.necking_strain(beam, posed.forces[-1].force, beta, xi)
+        return fields["lam"] - 1, beams.necking_strain(beam, case.forces[-1].force, beta, xi)
     axis, exact = _FORMULAS[problem]
-    assert posed.gravity is not None
-    return fields["u"][:, axis], exact(beam, posed.gravity.g, xi)
+    assert case.gravity is not None
+    return fields["u"][:, axis], exact(beam, case.gravity.g, xi)
 
 
-def _director_curves(problem: str, posed: RodStatics, name: str) -> tuple[Array, Array]:
+def _director_curves(problem: str, case: RodStatics, name: str) -> tuple[Array, Array]:
     """delta . E3 at the lateral surface of a beam, computed and by eqs. (3.5.4), (3.5.7) [m]."""
-    fields, exact = posed.solve(name), _DIRECTORS[problem]
-    assert posed.gravity is not None
-    directors = exact(beam_of(posed), posed.gravity.g, fields["xi"])
-    return fields["delta"][:, 0], posed.rod.height / 2 * directors
+    fields, exact = case.solve(name), _DIRECTORS[problem]
+    assert case.gravity is not None
+    directors = exact(beam_of(case), case.gravity.g, fields["xi"])
+    return fields["delta"][:, 0], case.rod.height / 2 * directors
 
 
 _DIRECTORS: dict[str, beams.BeamCurve] = {
@@ -219,7 +219,7 @@ _FORMULAS: dict[str, tuple[int, Callable[[beams.Beam, float, Array], Array]]] = 
 
 
 def beam_of(problem: RodProblem) -> beams.Beam:
-    """The beam that the closed forms know: A = W H and I = W H^3 / 12, not what the rod takes for them."""
+    """The beam for the closed forms: A = W H and I = W H^3 / 12, not the averages of the rod."""
     rod = problem.rod
     return beams.Beam(
         length=rod.length,

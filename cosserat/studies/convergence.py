@@ -1,4 +1,4 @@
-"""How the consistent rod approaches exact answers as its meshes are refined."""
+"""Convergence of the consistent rod to exact answers under mesh refinement."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ MEASURES = (
     "frequency 4",
     "frequency 5",
 )
-"""What is compared, in the order of `errors`; clamped-clamped directors are exact at the vertices of every mesh."""
+"""Compared quantities, in the order of `errors`; clamped-clamped directors are exact at the vertices of every mesh."""
 
-_SMALL = 1e-4  # share of the weights taken: exact answers are linear
+_WEIGHT_FRACTION = 1e-4  # fraction of the weights: exact answers are linear
 _TIP_FORCES = (1.0, 5.0, 10.0)  # of the elastica, in EI / L^2
 
 
@@ -47,20 +47,20 @@ class Convergence(Problem):
 
     kind: Literal["convergence"] = "convergence"
     meshes: tuple[Annotated[int, Count("N", "3.3.1", at_least=5)], ...]
-    """Numbers of vertices; odd, so that a vertex stands at mid-span."""
+    """Numbers of vertices; odd, so that a vertex is at mid-span."""
     clamped_free: RodStatics
     """A beam clamped at its first vertex, under its weight."""
     clamped_clamped: RodStatics
     """A beam clamped at both ends, under its weight."""
     necking: RodStatics
-    """A bar pulled at both ends, its end sections held."""
+    """A bar pulled at both ends, its end sections fixed."""
     slender: RodStatics
-    """A clamped rod, of which the elastica and the frequencies are asked."""
+    """Clamped slender rod for the elastica and the natural frequencies."""
 
     @model_validator(mode="after")
     def _odd(self) -> Self:
         if any(n % 2 == 0 for n in self.meshes):
-            raise PydanticCustomError("odd", "'meshes' must be odd, so that a vertex stands at mid-span")
+            raise PydanticCustomError("odd", "'meshes' must be odd, so that a vertex is at mid-span")
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
@@ -84,60 +84,64 @@ class Convergence(Problem):
 
     def errors(self, vertices: int, name: str) -> list[float]:
         """The measures at one mesh, in the order of `MEASURES`."""
-        free, both = (_at(p, vertices, _SMALL) for p in (self.clamped_free, self.clamped_clamped))
-        necking, slender = _at(self.necking, vertices, 1.0), _at(self.slender, vertices, 1.0)
+        under_weight = (self.clamped_free, self.clamped_clamped)
+        free, both = (_with_vertices(p, vertices, _WEIGHT_FRACTION) for p in under_weight)
+        necking, slender = (_with_vertices(p, vertices, 1.0) for p in (self.necking, self.slender))
         exact = elastica.timoshenko_frequencies(beam_of(slender), 5)
+        displacement, director = beams.clamped_clamped_displacement, beams.clamped_clamped_director
         return [
-            *_bent(free, beams.clamped_free_displacement, beams.clamped_free_director, name),
-            _bent(both, beams.clamped_clamped_displacement, beams.clamped_clamped_director, name)[0],
-            _necked(necking, name),
-            *_far(slender, name),
+            *_beam_errors(free, beams.clamped_free_displacement, beams.clamped_free_director, name),
+            _beam_errors(both, displacement, director, name)[0],
+            _necking_error(necking, name),
+            *_large_deflection(slender, name),
             *np.abs(slender.modes(5).angular_frequency / exact - 1),
         ]
 
 
-def _bent(posed: RodStatics, displacement: Formula, director: Formula, name: str) -> list[float]:
+def _beam_errors(
+    problem: RodStatics, displacement: Formula, director: Formula, name: str
+) -> list[float]:
     """Errors of displacement and directors of a beam under its weight."""
-    assert posed.gravity is not None
-    fields, beam, g = posed.solve(name), beam_of(posed), posed.gravity.g
+    assert problem.gravity is not None
+    fields, beam, g = problem.solve(name), beam_of(problem), problem.gravity.g
     return [
-        _share(fields["u"][:, 1], displacement(beam, g, fields["xi"])),
-        _share(fields["delta"][:, 0], posed.rod.height / 2 * director(beam, g, fields["xi"])),
+        _relative_error(fields["u"][:, 1], displacement(beam, g, fields["xi"])),
+        _relative_error(fields["delta"][:, 0], problem.rod.height / 2 * director(beam, g, fields["xi"])),
     ]
 
 
-def _necked(posed: RodStatics, name: str) -> float:
-    beam, fields = beam_of(posed), posed.solve(name)
+def _necking_error(problem: RodStatics, name: str) -> float:
+    beam, fields = beam_of(problem), problem.solve(name)
     decay = beams.necking_decay(beam, "free section")
-    strain = beams.necking_strain(beam, posed.forces[-1].force, decay, fields["xi"])
-    return _share(fields["lam"] - 1, strain)
+    strain = beams.necking_strain(beam, problem.forces[-1].force, decay, fields["xi"])
+    return _relative_error(fields["lam"] - 1, strain)
 
 
-def _far(posed: RodStatics, name: str) -> list[float]:
+def _large_deflection(problem: RodStatics, name: str) -> list[float]:
     """Errors of displacement under each tip force, and of the directors under the last."""
-    beam = beam_of(posed)
+    beam = beam_of(problem)
     unit = beam.bending_stiffness / beam.length**2
     found = []
     for force in _TIP_FORCES:
-        pulled = posed.replace(forces=(PointForce(at="last", along="E2", force=force * unit),))
+        pulled = problem.replace(forces=(PointForce(at="last", along="E2", force=force * unit),))
         fields = pulled.solve(name)
         s = np.minimum(fields["xi"] / beam.length, 1.0)
         shape = elastica.shearable_shape(
             force, beam.axial_stiffness / unit, beam.shear_stiffness / unit, s
         )
         place = beam.length * shape[:, :2]
-        found.append(_share(fields["u"], place - fields["x_ref"]))
-    upright = posed.rod.height / 2 * np.column_stack([-np.sin(shape[:, 2]), np.cos(shape[:, 2])])
-    return [*found, _share(fields["delta"], upright - fields["d_ref"])]
+        found.append(_relative_error(fields["u"], place - fields["x_ref"]))
+    upright = problem.rod.height / 2 * np.column_stack([-np.sin(shape[:, 2]), np.cos(shape[:, 2])])
+    return [*found, _relative_error(fields["delta"], upright - fields["d_ref"])]
 
 
-def _at(posed: RodStatics, vertices: int, share: float) -> RodStatics:
-    weight = posed.gravity
+def _with_vertices(problem: RodStatics, vertices: int, fraction: float) -> RodStatics:
+    weight = problem.gravity
     if weight is not None:
-        weight = weight.replace(g=share * weight.g)
-    return posed.replace(rod=posed.rod.replace(vertices=vertices), gravity=weight)
+        weight = weight.replace(g=fraction * weight.g)
+    return problem.replace(rod=problem.rod.replace(vertices=vertices), gravity=weight)
 
 
-def _share(computed: Array, exact: Array) -> float:
+def _relative_error(computed: Array, exact: Array) -> float:
     """Largest deviation over the largest exact value."""
     return float(np.abs(computed - exact).max() / np.abs(exact).max())

@@ -1,7 +1,7 @@
-"""What reproduces one publication: E. G. Hemingway's thesis (Berkeley, 2020).
+"""The reproduction of one publication: E. G. Hemingway's thesis (Berkeley, 2020).
 
-Its cases, its worm, the table of its numbers with the judge, its figures, the errata, and the book.  Nothing outside
-this folder but `cosserat.publications` names it.
+Its cases, its worm, the table of its numbers with their judge, its figures, the errata, and the book.  Outside this
+folder only `cosserat.publications` names it.
 """
 
 from cosserat.kinds import Kind

@@ -1,4 +1,4 @@
-"""How fast the solvers are on this machine: what `cosserat speed` prints."""
+"""Speed of the solvers on this machine, for `cosserat speed`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _STATICS_RUNS = 10
 
 
 def _fastest(work: Callable[[], T], runs: int) -> tuple[float, T]:
-    """Seconds of the fastest of several runs, by wall clock, and what the last one gave."""
+    """Seconds of the fastest of several runs, by wall clock, and the result of the last one."""
     best = float("inf")
     for _ in range(runs):
         start = time.perf_counter()
@@ -30,7 +30,7 @@ def _fastest(work: Callable[[], T], runs: int) -> tuple[float, T]:
 
 
 def statics() -> Iterator[str]:
-    """How it is measured, then seconds for an equilibrium of either rod."""
+    """The method, then seconds for an equilibrium of each rod."""
     yield (
         "Equilibria, from the parameters to strains and support forces, by wall clock, kernels compiled, "
         f"nothing written; the fastest of {_STATICS_RUNS} runs:"
@@ -41,16 +41,16 @@ def statics() -> Iterator[str]:
         ("elastica", 41),
         ("elastica", 2001),
     ):
-        posed = find(name).vary("speed", rod={"vertices": vertices}).problem_as(RodStatics)
-        posed.solve("speed")  # kernels warm
-        best, done = _fastest(functools.partial(posed.solve, "speed"), _STATICS_RUNS)
+        problem = find(name).vary("speed", rod={"vertices": vertices}).problem_as(RodStatics)
+        problem.solve("speed")  # kernels warm
+        best, done = _fastest(functools.partial(problem.solve, "speed"), _STATICS_RUNS)
         yield (
             f"{vertices:5d} vertices: {1e3 * best:8.2f} ms, {done.statistics['iterations']} Newton iterations ({name})"
         )
 
 
 def integrator() -> Iterator[str]:
-    """How it is measured, then steps a second on the vibrating beam of Fig. 3.13 by either rod."""
+    """The method, then steps per second of each rod on the vibrating beam of Fig. 3.13."""
     for name, rod in (
         ("vibration_c4_20", "the published rod"),
         ("vibration_consistent", "the consistent rod"),
@@ -73,7 +73,7 @@ def integrator() -> Iterator[str]:
 
 
 def stride() -> Iterator[str]:
-    """How it is measured, then seconds for the instants of one stride of the worm by either solver."""
+    """The method, then seconds of each solver for the instants of one stride of the worm."""
     yield (
         "One stride of case 'worm', by wall clock, kernels compiled, nothing written; collocation (SciPy's solve_bvp) "
         f"once, the banded Newton method the fastest of {_RUNS} runs:"

@@ -12,7 +12,7 @@ RESULTS = Path("results")
 
 
 def add_commands(add: AddCommand) -> None:
-    """Add them to the command line."""
+    """Add the commands to the command line."""
     sub = add("figure", _figure, "draw figures of the thesis from stored results")
     sub.add_argument("figures", nargs="+", metavar="figure", help="such as fig_3_10")
     sub.add_argument(

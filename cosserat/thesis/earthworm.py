@@ -23,11 +23,11 @@ MUSCLE_LAWS: dict[Muscles, tuple[float, float]] = {
     "strip tension, constant pressure": (1.0, 0.0),
     "constant stress": (2.0, 0.0),
 }
-"""Powers of the radius with which the anchoring force and the advancing pressure grow.
+"""Powers of the radius that scale the anchoring force and the advancing pressure.
 
-A strip of muscle one millimetre wide that pulls with the same force in every worm, as section 2.8 has it, gives a
-force that grows with the circumference, and by hoop balance a pressure that falls with the radius; the page's 5.7 kPa
-would not depend on it.  Muscle of constant stress whose thickness grows with the worm gives the third.
+In section 2.8 a strip of muscle one millimetre wide pulls with the same force in every worm.  The force then scales
+with the circumference, and by hoop balance the pressure with the inverse radius; the page's 5.7 kPa would not depend
+on it.  Muscle of constant stress whose thickness scales with the worm gives the third law.
 """
 
 SEGMENT_50 = 3 / 5
@@ -48,12 +48,12 @@ def peak_force(diameter: float) -> float:
 
 
 def peak_pressure(diameter: float) -> float:
-    """The pressure (2.8.2) as it seems to have been found, E2.13: the force over diameter and strip width [Pa]."""
+    """The pressure (2.8.2) by its probable derivation, E2.13: the force over diameter and strip width [Pa]."""
     return peak_force(diameter) / (diameter * STRIP_WIDTH)
 
 
 def circumference(diameter: float) -> float:
-    """Of a round body, section 2.8 [m]."""
+    """Radius of a round body, section 2.8 [m]."""
     return float(np.pi * diameter)
 
 
@@ -90,7 +90,7 @@ class BodyMasses(Problem):
     masses: tuple[Annotated[float, Quantity("kg", "m", "2.8.4", above=0)], ...]
     """Body masses."""
     muscles: Muscles = "constant stress"
-    """Law by which force and pressure of the muscles follow the body mass."""
+    """Scaling law of the force and the pressure of the muscles with the body mass."""
 
     @model_validator(mode="after")
     def _has_masses(self) -> Self:
@@ -114,7 +114,7 @@ class BodyMasses(Problem):
         """
         worms = [(self.scaled(mass), f"{name}, {1e3 * mass:g} g") for mass in self.masses]
         for worm, called in worms:
-            worm.check_collapse(worm.gait.moments(worm.step), called)
+            worm.check_collapse(worm.gait.instants(worm.step), called)
         table = np.array([_measure(worm, called) for worm, called in worms])
         duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
         values = {

@@ -1,4 +1,4 @@
-"""The calibration of section 2.8 done again: stiffness and loads of the worm from what was measured on worms."""
+"""The calibration of section 2.8 repeated: stiffness and loads of the worm from measurements on worms."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from cosserat.thesis.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50
 
 Array = NDArray[np.float64]
 OUTCOMES = ("ratio of mu_1", "ratio of mu_3", "p in longitudinal", "p in circular")
-"""What is matched: the ratios (2.8.6) of segment 50, circular over longitudinal contraction, and its two pressures."""
+"""Targets: the ratios (2.8.6) of segment 50, circular over longitudinal contraction, and its two pressures."""
 
 
 class WormCalibration(Problem):
-    """A worm, and what segment 50 should do in it.
+    """A worm, and the targets for its segment 50.
 
     The page says that it calibrated E, D and p "to match the expected outcomes", and not how.  ASSUME least squares
-    of the four misfits, each as a share of its number, E2.27.
+    of the four relative misfits, E2.27.
     """
 
     kind: Literal["worm calibration"] = "worm calibration"
     worm: Crawl
-    """The worm whose E, D and p are fitted, from its own on."""
+    """The worm whose E, D and p are fitted; its own are the start."""
     mu_1_ratio: Annotated[float, Quantity("1", r"\mu_1", "2.8.6", above=0)]
     """Radial stretch of segment 50, circular over longitudinal contraction."""
     mu_3_ratio: Annotated[float, Quantity("1", r"\mu_3", "2.8.6", above=0)]
@@ -55,7 +55,7 @@ class WormCalibration(Problem):
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """E, D and p of the fit, and what they and the worm's own give as a share of what was measured.
+        """E, D and p of the fit, and outcomes of the fit and of the given worm over the measured ones.
 
         Raises
         ------
@@ -65,7 +65,7 @@ class WormCalibration(Problem):
         from scipy.optimize import least_squares
 
         def misfit(logarithms: Array) -> Array:
-            return self.shares(self.loaded(*np.exp(logarithms)), name) - 1
+            return self.fractions(self.loaded(*np.exp(logarithms)), name) - 1
 
         body, loads = self.worm.crawler, self.worm.loads
         start = np.log([body.material_young, loads.anchoring, loads.advancing])
@@ -76,7 +76,7 @@ class WormCalibration(Problem):
             "fitted_anchoring": ((), np.array(anchoring)),
             "fitted_advancing": ((), np.array(advancing)),
             "fitted_outcomes": (("outcome",), fit.fun + 1),
-            "given_outcomes": (("outcome",), self.shares(self.worm, name)),
+            "given_outcomes": (("outcome",), self.fractions(self.worm, name)),
         }
         return Solution(fields, {"misfit_evaluations": int(fit.nfev)}, {"outcome": OUTCOMES})
 
@@ -93,8 +93,8 @@ class WormCalibration(Problem):
             loads=self.worm.loads.replace(anchoring=anchoring, advancing=advancing),
         )
 
-    def shares(self, worm: Crawl, name: str) -> Array:
-        """What segment 50 does, in the order of `OUTCOMES`, over what is wanted, shape (4,)."""
+    def fractions(self, worm: Crawl, name: str) -> Array:
+        """Outcomes of segment 50 over their targets, in the order of `OUTCOMES`, shape (4,)."""
         (mu_1, mu_3, p), (long_1, long_3, long_p) = (
             self._segment(worm, phase, name) for phase in (CIRCULAR, LONGITUDINAL)
         )

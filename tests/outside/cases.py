@@ -80,13 +80,13 @@ def piece(name, **changes):
     )
 
 
-def converging(what, right, found, share, source, scale=None):
+def converging(what, right, found, fraction, source, scale=None):
     """Rows of a value on meshes each twice as fine as the one before: the last value and the order of the errors.
 
     share : of the value, or of `scale`, that the last mesh may miss.
     """
     errors = np.abs(np.array(found) - right)
-    yield Row(what, right, found[-1], share * abs(scale or right), source)
+    yield Row(what, right, found[-1], fraction * abs(scale or right), source)
     for coarse, fine in itertools.pairwise(errors):
         yield Row(f"order of {what}", 2.0, float(np.log2(coarse / fine)), ORDER, "theory")
 
@@ -156,14 +156,14 @@ def circle():
         yield Row(f"gap of the ring at GA = {GA:.0f} N [m]", 0.0, gap, 1e-9, "pure bending")
 
 
-def tips(name, load, share, source="BVP", curvature=0.0, **sizes):
+def tips(name, load, fraction, source="BVP", curvature=0.0, **sizes):
     """Both components of the tip on three meshes against the boundary value problem."""
     x, y = reissner.tip(rectangle(name, curvature), load)
     meshes = sizes.pop("meshes", (21, 41, 81))
     runs = [run(name, **_deeper(sizes, n)) for n in meshes]
     L = inputs()[name].problem.rod.length
-    yield from converging("tip along [m]", x, [last(d, "E3") for d in runs], share, source, scale=L)
-    yield from converging("tip across [m]", y, [last(d) for d in runs], share, source, scale=L)
+    yield from converging("tip along [m]", x, [last(d, "E3") for d in runs], fraction, source, scale=L)
+    yield from converging("tip across [m]", y, [last(d) for d in runs], fraction, source, scale=L)
 
 
 def _deeper(changes, vertices):
@@ -196,9 +196,9 @@ def tower():
     base = float(run("tower").support_force.sel(dof="x3").isel(vertex=0))
     yield Row("force at the base [N]", weight, base, 1e-9 * weight, "weight")
     right = timoshenko.frequencies([piece("tower")], 2)
-    for k, share in ((0, 5e-4), (1, 3e-3)):
+    for k, fraction in ((0, 5e-4), (1, 3e-3)):
         found = [frequencies("tower", 2, rod={"vertices": n}, gravity=None)[k] for n in (16, 31, 61)]
-        yield from converging(f"frequency {k + 1} [Hz]", right[k], found, share, "transfer matrix")
+        yield from converging(f"frequency {k + 1} [Hz]", right[k], found, fraction, "transfer matrix")
 
 
 @check()
@@ -222,11 +222,11 @@ def chain():
 def critical(name, guess, **changes):
     """Load at which the lowest squared frequency would vanish, from two loads just below."""
 
-    def squared(share):
+    def squared(fraction):
         if "own_weight" in name:
-            loads = {"gravity": {"g": share * guess, "along": "-E3"}}
+            loads = {"gravity": {"g": fraction * guess, "along": "-E3"}}
         else:
-            loads = {"forces": [{"at": "last", "along": "-E3", "force": share * guess}]}
+            loads = {"forces": [{"at": "last", "along": "-E3", "force": fraction * guess}]}
         return frequencies(name, 1, **loads, **changes)[0] ** 2
 
     one, two = squared(0.99), squared(0.995)
@@ -242,8 +242,8 @@ def buckling():
         right = reissner.buckling_load(rod, ends)
         name = "column_" + ends.replace("-", "_")
         found = [critical(name, right, rod={"vertices": n}) for n in (41, 81)]
-        share = (wave * np.pi / 80) ** 2 / 5
-        yield from converging(f"{ends} [N]", right, found, share, "Euler with shear and shortening")
+        fraction = (wave * np.pi / 80) ** 2 / 5
+        yield from converging(f"{ends} [N]", right, found, fraction, "Euler with shear and shortening")
     right = reissner.greenhill(rod) / 7.065
     found = [critical("column_own_weight", right, rod={"vertices": n}) for n in (41, 81)]
     yield from converging(
@@ -266,8 +266,8 @@ def toggle():
     base, rise = np.cos(0.1), np.sin(0.1)
     EA = 10e6 * 0.2 * 0.05
     largest = max(abs(closed.toggle(1.0, 0.1, v * rise, EA)) for v in np.linspace(0, 2, 41))
-    for share in (0.4, 1.0, 1.6):
-        down = share * rise  # of the apex; along the bar and across it, which at rest lies along E3
+    for fraction in (0.4, 1.0, 1.6):
+        down = fraction * rise  # of the apex; along the bar and across it, which at rest lies along E3
         moves = [
             {"at": "last", "dof": "x3", "by": -down * np.sin(0.1)},
             {"at": "last", "dof": "x2", "by": -down * base},
@@ -275,7 +275,7 @@ def toggle():
         force = run("toggle", prescribed_displacements=moves).support_force.isel(vertex=-1).to_numpy()
         found = float(-force[0] * np.sin(0.1) - force[1] * base)
         right = closed.toggle(1.0, 0.1, down, EA)
-        yield Row(f"force at {share:g} of the rise [N]", right, found, 1e-8 * largest, "linear bar")
+        yield Row(f"force at {fraction:g} of the rise [N]", right, found, 1e-8 * largest, "linear bar")
 
 
 @check(quick=True)
@@ -354,9 +354,9 @@ def axis_height():
         worst = float(np.abs(found / coarse - 1).max())
         yield Row(f"change of frequencies, axis at {height:g}", 0.0, worst, 1e-8, "one beam")
     meshes = [frequencies("axis_height", 4, rod={"vertices": n}) for n in (21, 41)]
-    for k, share in enumerate((1e-4, 1e-3, 4e-3, 1e-2)):
+    for k, fraction in enumerate((1e-4, 1e-3, 4e-3, 1e-2)):
         found = [m[k] for m in meshes]
-        yield Row(f"frequency {k + 1} [Hz]", right[k], found[-1], share * right[k], "transfer matrix")
+        yield Row(f"frequency {k + 1} [Hz]", right[k], found[-1], fraction * right[k], "transfer matrix")
         if k:  # the error of the first is some 1e-5
             order = float(np.log2((found[0] - right[k]) / (found[1] - right[k])))
             yield Row(f"order of frequency {k + 1}", 2.0, order, ORDER, "theory")
@@ -370,8 +370,8 @@ def shaken():
     """After sixty periods the strip moves as it is shaken; the last ten give its phasor."""
     beam = piece("shaken")
     lowest = timoshenko.frequencies([beam], 1)[0]
-    for share in (0.9, 1.0, 1.3):
-        frequency = share * lowest
+    for fraction in (0.9, 1.0, 1.3):
+        frequency = fraction * lowest
         right = 1e-4 * timoshenko.shaken(beam, frequency, 0.02)
         period = 1 / frequency
         data = run(
@@ -384,10 +384,16 @@ def shaken():
         t, tip = data.time.to_numpy()[-160:], data.x.sel(axis="E2").isel(vertex=-1).to_numpy()[-160:]
         found = 2 * np.mean(tip * np.exp(-2j * np.pi * frequency * t)) * 1j  # it is shaken by a sine
         yield Row(
-            f"amplitude at {share:g} f1 [m]", abs(right), abs(found), 1e-2 * abs(right), "beam elements"
+            f"amplitude at {fraction:g} f1 [m]",
+            abs(right),
+            abs(found),
+            1e-2 * abs(right),
+            "beam elements",
         )
         phase = float(np.degrees(np.angle(found / right)))
-        yield Row(f"phase at {share:g} f1, less the right one [deg]", 0.0, phase, 1.0, "beam elements")
+        yield Row(
+            f"phase at {fraction:g} f1, less the right one [deg]", 0.0, phase, 1.0, "beam elements"
+        )
 
 
 @check(quick=True)

@@ -83,8 +83,8 @@ def bowed(curvature):
 
 def ribbon(young, push):
     """The slender rod of another modulus between two clamps, its weight put on first, then the ends pushed together."""
-    share = young / 1e9
-    rod = Rod(1.0, share * SLENDER.EI, share * SLENDER.EA, share * SLENDER.GA)
+    fraction = young / 1e9
+    rod = Rod(1.0, fraction * SLENDER.EI, fraction * SLENDER.EA, fraction * SLENDER.GA)
     nearer = [
         Load(CLAMP, {"x": 1 - push * s * s, "y": 0.0, "a": 0.0}, py=-0.1 * 9.81)
         for s in np.linspace(0, 1, 41)

@@ -52,8 +52,8 @@ def test_a_chain_of_no_stretch_is_a_catenary_and_a_taut_one_a_parabola():
 
 def test_buckling_loads_are_eulers_and_greenhills():
     slender = Rod(1.0, 1.0, 1e12, 1e12)
-    for ends, share in (("hinged-hinged", 1), ("clamped-free", 0.25), ("clamped-clamped", 4)):
-        assert reissner.buckling_load(slender, ends) == pytest.approx(share * np.pi**2, rel=1e-10)
+    for ends, fraction in (("hinged-hinged", 1), ("clamped-free", 0.25), ("clamped-clamped", 4)):
+        assert reissner.buckling_load(slender, ends) == pytest.approx(fraction * np.pi**2, rel=1e-10)
     assert reissner.buckling_load(slender, "clamped-hinged") / np.pi**2 == pytest.approx(
         2.0457, abs=5e-5
     )
@@ -64,9 +64,9 @@ def test_a_column_that_shears_and_shortens_buckles_where_its_path_leaves():
     """The boundary value problem by itself: its tip stays below the critical load and leaves above."""
     soft = Rod(1.0, 1.0, 200.0, 100.0)
     critical = reissner.buckling_load(soft, "clamped-free")
-    for share, leaves in ((0.995, False), (1.01, True)):
-        load = Load(CLAMP, FREE | {"Nx": -share * critical, "Ny": 1e-6})
-        started = reissner.column_beyond(soft, share * critical, 1e-6) if leaves else None
+    for fraction, leaves in ((0.995, False), (1.01, True)):
+        load = Load(CLAMP, FREE | {"Nx": -fraction * critical, "Ny": 1e-6})
+        started = reissner.column_beyond(soft, fraction * critical, 1e-6) if leaves else None
         state = reissner.equilibrium(soft, load, steps=40) if started is None else started
         assert (state[1, -1] > 0.05) == leaves
 

@@ -20,8 +20,8 @@ steps = pytest.mark.parametrize("at", AT.values(), ids=AT)
 
 def pieces(height, at, centreline, poisson, thin=0.5):
     return [
-        eccentric.Piece.rectangle(length, height * share, height, 1e9, poisson, centreline, DENSITY)
-        for length, share in ((at, 1.0), (1 - at, thin))
+        eccentric.Piece.rectangle(length, height * fraction, height, 1e9, poisson, centreline, DENSITY)
+        for length, fraction in ((at, 1.0), (1 - at, thin))
     ]
 
 

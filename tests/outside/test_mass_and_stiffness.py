@@ -147,13 +147,13 @@ def test_a_joint_at_the_same_share_of_an_edge_is_of_second_order():
 def test_tapers_are_of_second_order(thin, end):
     """Linear in height and width up to `end`, which is no vertex, and even beyond."""
 
-    def share(s):
+    def fraction(s):
         return 1 + (thin - 1) * min(s / end, 1.0)
 
     right = closed.cantilever_tip(
-        1e-4 * thin**3, 1.0, lambda s: EI * share(s) ** 4, lambda s: GA * share(s) ** 2, [end]
+        1e-4 * thin**3, 1.0, lambda s: EI * fraction(s) ** 4, lambda s: GA * fraction(s) ** 2, [end]
     )
-    stretched = closed.pulled(1e-3, 1.0, lambda s: EA * share(s) ** 2, [end])
+    stretched = closed.pulled(1e-3, 1.0, lambda s: EA * fraction(s) ** 2, [end])
     stations = [{"at": 0.0}, {"at": end, "height": thin, "width": thin}]
     errors = []
     for n in (81, 321):

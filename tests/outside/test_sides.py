@@ -157,14 +157,14 @@ def test_so_it_does_for_the_published_rod(multiple, aside, steps):
     assert warnings_of(data) == []
 
 
-@pytest.mark.parametrize("share", [1e-9, 1e-6, 1e-3])
+@pytest.mark.parametrize("fraction", [1e-9, 1e-6, 1e-3])
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_path_does_not_jump_to_the_other_side(share, side):
+def test_a_path_does_not_jump_to_the_other_side(fraction, side):
     """Every point beyond the critical load lies on the side of the force, and the last where the elastica stands."""
     load = 2.3132
     forces = [
         {"at": "last", "along": "-E3", "force": load},
-        {"at": "last", "along": "E2", "force": side * share * load},
+        {"at": "last", "along": "E2", "force": side * fraction * load},
     ]
     path = cosserat.run(cosserat.case("column_path").vary("x", forces=forces))
     assert float(path.load_factor[-1]) == 1

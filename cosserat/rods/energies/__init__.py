@@ -1,4 +1,4 @@
-"""The strain energies of a rod, one a file with its compiled kernel beside it."""
+"""The strain energies of a rod, each with its compiled kernel in a file beside it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ENERGIES = {
     "published": "cosserat.rods.energies.hemingway:Hemingway",
     "consistent": "cosserat.rods.energies.reissner:Reissner",
 }
-"""Energies by the word that a case names in `rod.energy`."""
+"""Energies by the value of `rod.energy` in a case."""
 
 
 def energy_named(name: str) -> Energy:

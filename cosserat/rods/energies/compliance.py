@@ -9,7 +9,7 @@ length, least over all axial strains of the mean e, is
 which is that of an edge with 2 mu A = alpha <a/c> and Lambda A = alpha <b/c> whose vertices have <a b/c> - alpha <a/c>
 <b/c> more than their own 2 mu A.  Shearing and bending add up their compliances alike.
 
-Where the height varies and the centreline is not in the middle, the area centres are off it by e(s).  The moment about
+If the height varies and the centreline is not in the middle, the area centres lie off it by e(s).  The moment about
 an axis at E is nearly constant along the edge, m say, and the curvature is (m + n (e - E)) / EI under the tension n.
 With E = <e/EI> / <1/EI> the mean curvature is m <1/EI>, and the mean strain of that axis is
 
@@ -29,17 +29,17 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.variation import Shares, Station, mean, vertex_cuts
+from cosserat.rods.variation import Scales, Station, mean, vertex_cuts
 
 Array = NDArray[np.float64]
 
 LateralConstraint = Literal["free", "plane strain", "incompressible"]
-"""What the section may do in E1: contract freely, not at all, or (in plane strain) nothing that changes the area."""
+"""Lateral constraint of the section in E1: free contraction, none, or (in plane strain) constant area."""
 
 PENALTY = 1e5
 """Lambda over 2 mu of an incompressible section."""
 INCOMPRESSIBLE = 0.49
-"""Least Poisson's ratio of a section that may be called incompressible."""
+"""Least Poisson's ratio of an incompressible section."""
 
 
 class EdgeStiffnesses(NamedTuple):
@@ -72,31 +72,31 @@ def stiffnesses(
     offset: float = 0.0,
     curvature: float = 0.0,
 ) -> EdgeStiffnesses:
-    """Of a rod whose nominal section and material vary as the stations say.
+    """Stiffnesses of a rod whose nominal section and material vary along its stations.
 
     arc : (N,) arc length of the vertices [m].  second_moment : about the area centres [m^4].
     offset : of the nominal area centre from the centreline [m].  curvature : of the reference [1/m].
     """
 
-    def along(s: Shares) -> tuple[Array, Array, Array, Array, Array]:
+    def along(s: Scales) -> tuple[Array, Array, Array, Array, Array]:
         """2 mu A, Lambda A, k mu A, EI and mu I at places."""
         here, bending = area * s.width * s.height, second_moment * s.width * s.height**3
         mu, first, plane = moduli(young * s.young, poisson * s.poisson, lateral_constraint)
         return 2 * mu * here, first * here, shear_correction * mu * here, plane * bending, mu * bending
 
-    def centres(s: Shares) -> Array:
+    def centres(s: Scales) -> Array:
         """Length of the line of the area centres per length of the centreline."""
         return 1 - curvature * offset * s.height
 
-    def on_edges(s: Shares, _: Array) -> Array:
+    def on_edges(s: Scales, _: Array) -> Array:
         axial, volume, shear, bending, gradient = along(s)
         both = axial + volume
-        shares = [1 / both, axial / both, volume / both, axial * volume / both]
-        return centres(s) * np.stack([*shares, 1 / shear, 1 / bending, 1 / gradient])
+        ratios = [1 / both, axial / both, volume / both, axial * volume / both]
+        return centres(s) * np.stack([*ratios, 1 / shear, 1 / bending, 1 / gradient])
 
     first_height = stations[0].height if stations else 1.0
 
-    def off_axis(s: Shares, _: Array) -> Array:
+    def off_axis(s: Scales, _: Array) -> Array:
         higher = s.height - first_height
         turning = centres(s) / along(s)[3]
         return np.stack([higher, higher * turning, higher**2 * turning])

@@ -1,4 +1,4 @@
-"""What every strain energy of a rod offers; `cosserat.rods.energies.ENERGIES` lists them."""
+"""The interface of the strain energies of a rod; `cosserat.rods.energies.ENERGIES` lists them."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ class Energy(ABC):
 
     kinematics : the layout of its DOFs; the first two vectors of a vertex are its position and its director.
     options : fields of `Rod` that only this energy reads.
-    far : whether sections may rotate by more than a quarter turn, and a path be followed past limit points.
+    large_rotations : whether sections may rotate by more than a quarter turn and paths may pass limit points.
     """
 
     kinematics: ClassVar[Kinematics] = PLANAR
     options: ClassVar[tuple[str, ...]] = ()
-    far: ClassVar[bool] = False
+    large_rotations: ClassVar[bool] = False
 
     @abstractmethod
     def check(self, rod: Rod) -> None:
-        """Raise PydanticCustomError where the options of a rod do not fit together."""
+        """Raise PydanticCustomError if the options of a rod contradict each other."""
 
     @abstractmethod
     def potential(self, rod: Rod, geometry: Geometry, *, displacements: bool = False) -> Potential:
-        """The energy in a reference configuration, zero there.
+        """The energy, zero in the reference configuration.
 
         displacements : its DOFs are displacements from the reference; if not, they are positions and directors.
         """
@@ -53,12 +53,12 @@ class Energy(ABC):
     def fields(
         self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: float
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
-        """Labels and fields that only this energy has, of a state.
+        """Labels and fields of a state that only this energy has.
 
         potential : of displacements.  u : (n,) displacements [m].  couples : energy of the couples [J].
         """
         return {}, {}
 
-    def shaped(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
-        """Directors (N, 2) [m] with which a motion from x, d can begin: these, unless they set off vibrations."""
+    def start_directors(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
+        """Directors (N, 2) [m] at the start of a motion from x, d: d itself, unless it would excite vibrations."""
         return d

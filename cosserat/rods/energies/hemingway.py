@@ -1,4 +1,4 @@
-"""The energy of the thesis, eq. (3.4.11), with its calibration; its kernel stands in `hemingway_kernel`."""
+"""The energy of the thesis, eq. (3.4.11), with its calibration; its kernel is in `hemingway_kernel`."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ Array = NDArray[np.float64]
 
 
 class Hemingway(Energy):
-    """The published energy: it takes the averages of Table 3.1 and I about the centreline."""
+    """The published energy, with the averages of Table 3.1 and I about the centreline."""
 
     options = ("calibration", "end_sections", "poisson_coupling", "intrinsic_curvature")
 
     def check(self, rod: Rod) -> None:
-        """It cannot do without a calibration."""
+        """Require a calibration."""
         if rod.calibration is None:
             raise PydanticCustomError(
                 "calibration",
-                "has energy = 'published', which needs a calibration; give the one, or take energy = 'consistent'",
+                "has energy = 'published', which needs a calibration; give one, or take energy = 'consistent'",
             )
 
     def stiffness(self, rod: Rod, geometry: Geometry) -> Stiffness:
@@ -59,7 +59,7 @@ class Hemingway(Energy):
         )
 
     def potential(self, rod: Rod, geometry: Geometry, *, displacements: bool = False) -> Potential:
-        """Eq. (3.4.11); it computes with positions, also where its DOFs are displacements."""
+        """Eq. (3.4.11); it computes with positions, even if its DOFs are displacements."""
         return potential(self.stiffness(rod, geometry), geometry.q if displacements else None)
 
     def mass(self, rod: Rod, geometry: Geometry) -> Array:
@@ -77,7 +77,7 @@ class Hemingway(Energy):
 
 
 def potential(stiffness: Stiffness, origin: Array | None = None) -> Potential:
-    """The energy of given stiffnesses; origin (4 N,) is added to its DOFs."""
+    """The energy for given stiffnesses; origin (4 N,) is added to its DOFs."""
     constants = np.zeros(stiffness.voronoi.size, VERTEX)
     for name in VERTEX.names or ():
         values = getattr(stiffness, name)

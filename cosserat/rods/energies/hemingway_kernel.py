@@ -5,11 +5,11 @@ their gradients.  The second is the physics: the seven terms of eq. (3.4.11) and
 The third carries them back to the DOFs by the chain rule; forces are minus the gradient, eq. (3.4.7).
 
 Two facts make the third pass short.  Every angle is a difference of polar angles alpha(v) of edges e, chords
-c_K = x_(K+1) - x_(K-1) or directors d.  And with t = v / |v| and n = t turned by a right angle,
+c_K = x_(K+1) - x_(K-1) or directors d.  And with t = v / |v| and n = t rotated by a right angle,
     grad |v| = t,       grad grad |v| = n n / |v|,
     grad alpha = n / |v|,   grad grad alpha = -(t n + n t) / |v|^2.
 
-All compiled functions of this model stand in this file: Numba's cache does not see edits of other files.
+This file holds all compiled functions of this model: Numba's cache does not see edits of other files.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ VERTEX = np.dtype(
         (
             "edge",
             "f8",
-        ),  # ||E^K|| of the edge after the vertex [m]; zero at the last one, as are k1, k5 and k6
+        ),  # ||E^K|| of the edge after the vertex [m]; at the last one it is zero, and so are k1, k5 and k6
         ("k1", "f8"),
         ("k5", "f8"),
         ("k6", "f8"),
@@ -53,7 +53,7 @@ VERTEX = np.dtype(
         ("intrinsic", "f8"),  # tan(phi / 2) of the reference
     ]
 )
-"""What the kernel reads of each vertex and of the edge after it; stiffnesses as in eq. (3.4.11)."""
+"""Constants of each vertex and of the edge after it; stiffnesses as in eq. (3.4.11)."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -71,24 +71,26 @@ def squared_tangent(angle: float, rest: float) -> tuple[float, float, float]:
 
 
 @njit(cache=True)
-def _square(band: Band, p: int, u0: float, u1: float, w: float) -> None:
-    """Add w u u to the block on the diagonal at unknown p."""
+def _add_square(band: Band, p: int, u0: float, u1: float, w: float) -> None:
+    """Add w u u to the diagonal block at DOF p."""
     band[p, 0] += w * u0 * u0
     band[p, 1] += w * u0 * u1
     band[p + 1, 0] += w * u1 * u1
 
 
 @njit(cache=True)
-def _twist(band: Band, p: int, t0: float, t1: float, w: float) -> None:
-    """Add w (t n + n t), n = (-t1, t0), to the block on the diagonal at unknown p."""
+def _add_director_rotation(band: Band, p: int, t0: float, t1: float, w: float) -> None:
+    """Add w (t n + n t), n = (-t1, t0), to the diagonal block at DOF p."""
     band[p, 0] -= 2 * w * t0 * t1
     band[p, 1] += w * (t0 * t0 - t1 * t1)
     band[p + 1, 0] += 2 * w * t0 * t1
 
 
 @njit(cache=True)
-def _cross(band: Band, p: int, u0: float, u1: float, r: int, v0: float, v1: float, w: float) -> None:
-    """Add w (u v + v u) for a vector u at unknown p and v at unknown r."""
+def _add_product(
+    band: Band, p: int, u0: float, u1: float, r: int, v0: float, v1: float, w: float
+) -> None:
+    """Add w (u v + v u) for a vector u at DOF p and v at DOF r."""
     if p == r:
         band[p, 0] += 2 * w * u0 * v0
         band[p, 1] += w * (u0 * v1 + u1 * v0)
@@ -104,7 +106,7 @@ def _cross(band: Band, p: int, u0: float, u1: float, r: int, v0: float, v1: floa
 
 
 @njit(cache=True)
-def _edge_block(
+def _add_edge_block(
     band: Band, p: int, r: int, t0: float, t1: float, along: float, across: float, twist: float
 ) -> None:
     """Add the Hessian A = along t t + across n n + twist (t n + n t) by e = x_r - x_p: +A at p, r, -A between."""
@@ -123,10 +125,10 @@ def _edge_block(
 
 
 @njit(cache=True, error_model="numpy")
-def _measure(q: Vector, strains: Array, units: Array) -> bool:
-    """Strains, (N, 4), and unit vectors, (N, 7), at q; False where the rod has collapsed.
+def _measure_strains(q: Vector, strains: Array, units: Array) -> bool:
+    """Strains, (N, 4), and unit vectors, (N, 7), at q; False if the rod has collapsed.
 
-    Strains: |e| of edge K; of vertex K |d|, theta, and phi where it is an inner one.  Units: the tangent of edge K, the
+    Strains: |e| of edge K; |d| and theta of vertex K, and phi of an interior vertex.  Units: the tangent of edge K, the
     chord at vertex K as its length and direction, and the direction of its director.
     """
     n = strains.shape[0]
@@ -157,7 +159,7 @@ def _measure(q: Vector, strains: Array, units: Array) -> bool:
 
 @njit(cache=True, error_model="numpy")
 def _energies(rod: NDArray[np.void], strains: Array, terms: Array) -> None:
-    """The seven terms of eq. (3.4.11) by the strains."""
+    """The seven terms of eq. (3.4.11) from the strains."""
     n = rod.shape[0]
     for K in range(n):
         E, L, m, r, theta = rod[K].edge, rod[K].voronoi, strains[K, 0], strains[K, 1], strains[K, 2]
@@ -190,21 +192,21 @@ def assemble(
     skew: Band,
     terms: Array,
 ) -> float:
-    """The energy and its terms, as `solvers.potential.KERNEL` says."""
+    """The energy and its terms; arguments as in `solvers.potential.KERNEL`."""
     rod = data.view(VERTEX)
     n = rod.shape[0]
     terms[:] = 0.0
 
     # First pass: strains.  Edge K: length m, tangent t.  Chord K and director K: length and unit vector.
     strains, units = np.zeros((n, 4)), np.empty((n, 7))
-    if not _measure(q, strains, units):
+    if not _measure_strains(q, strains, units):
         return np.inf
     if task == STRAINS:
         strains_before[:, :] = strains
     ends = strains
     if after.size > 0:  # stresses are those of the mean of both ends
         ends = np.zeros((n, 4))
-        if not _measure(after, ends, np.empty((n, 7))):
+        if not _measure_strains(after, ends, np.empty((n, 7))):
             return np.inf
         for K in range(n):
             for k in range(4):
@@ -277,7 +279,7 @@ def assemble(
         W_m[K - 1] += rod[K].k7 / 2 * stretch
         W_m[K] += rod[K].k7 / 2 * stretch
 
-    # Third pass: the chain rule.  First what each edge, chord and director feels by itself ...
+    # Third pass: the chain rule.  First the terms of each edge, chord and director alone ...
     for K in range(n - 1):
         p, s = 4 * K, 4 * K + 4
         turning = W_phi[K] - W_phi[K + 1]  # e_K ends the angle at vertex K and begins the one at K + 1
@@ -289,7 +291,7 @@ def assemble(
         gradient[s + 1] += f1
         if task == GRADIENT:
             continue
-        _edge_block(band, p, s, t0[K], t1[K], W_mm[K], W_m[K] / m[K], -turning / (m[K] * m[K]))
+        _add_edge_block(band, p, s, t0[K], t1[K], W_mm[K], W_m[K] / m[K], -turning / (m[K] * m[K]))
     for K in range(n):
         p, s, u = 4 * max(K - 1, 0), 4 * min(K + 1, n - 1), 4 * K + 2
         g0, g1 = c1[K] / c[K], -c0[K] / c[K]  # d theta / d chord
@@ -303,17 +305,17 @@ def assemble(
         if task == GRADIENT:
             continue
         stiff = W_thetatheta[K]
-        _edge_block(band, p, s, c0[K], c1[K], 0.0, stiff / (c[K] * c[K]), W_theta[K] / (c[K] * c[K]))
-        _cross(band, s, g0, g1, u, h0, h1, stiff)
-        _cross(band, p, -g0, -g1, u, h0, h1, stiff)
-        _square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod[K].director)
-        _twist(band, u, d0[K], d1[K], -W_theta[K] / (r[K] * r[K]))
-        _square(band, u, d0[K] / rod[K].director, d1[K] / rod[K].director, W_lamlam[K])
+        _add_edge_block(band, p, s, c0[K], c1[K], 0.0, stiff / (c[K] * c[K]), W_theta[K] / (c[K] * c[K]))
+        _add_product(band, s, g0, g1, u, h0, h1, stiff)
+        _add_product(band, p, -g0, -g1, u, h0, h1, stiff)
+        _add_square(band, u, h0, h1, stiff + W_lam[K] * r[K] / rod[K].director)
+        _add_director_rotation(band, u, d0[K], d1[K], -W_theta[K] / (r[K] * r[K]))
+        _add_square(band, u, d0[K] / rod[K].director, d1[K] / rod[K].director, W_lamlam[K])
 
     if task == GRADIENT:
         return total
 
-    # ... then what couples neighbours.
+    # ... then the coupling of neighbours.
     for K in range(1, n - 1):
         p, s = 4 * K - 4, 4 * K
         a0, a1 = (
@@ -323,17 +325,17 @@ def assemble(
         b0, b1 = -t1[K] / m[K], t0[K] / m[K]
         z0, z1 = -a0 - b0, -a1 - b1
         stiff = W_phiphi[K]
-        _square(band, p, a0, a1, stiff)
-        _square(band, s, z0, z1, stiff)
-        _square(band, s + 4, b0, b1, stiff)
-        _cross(band, s, z0, z1, p, a0, a1, stiff)
-        _cross(band, s + 4, b0, b1, p, a0, a1, stiff)
-        _cross(band, s + 4, b0, b1, s, z0, z1, stiff)
+        _add_square(band, p, a0, a1, stiff)
+        _add_square(band, s, z0, z1, stiff)
+        _add_square(band, s + 4, b0, b1, stiff)
+        _add_product(band, s, z0, z1, p, a0, a1, stiff)
+        _add_product(band, s + 4, b0, b1, p, a0, a1, stiff)
+        _add_product(band, s + 4, b0, b1, s, z0, z1, stiff)
 
         w = rod[K].k7 / (2 * rod[K].director)
-        _cross(band, s + 2, d0[K], d1[K], p, -t0[K - 1], -t1[K - 1], w)
-        _cross(band, s + 2, d0[K], d1[K], s, t0[K - 1] - t0[K], t1[K - 1] - t1[K], w)
-        _cross(band, s + 2, d0[K], d1[K], s + 4, t0[K], t1[K], w)
+        _add_product(band, s + 2, d0[K], d1[K], p, -t0[K - 1], -t1[K - 1], w)
+        _add_product(band, s + 2, d0[K], d1[K], s, t0[K - 1] - t0[K], t1[K - 1] - t1[K], w)
+        _add_product(band, s + 2, d0[K], d1[K], s + 4, t0[K], t1[K], w)
     for K in range(n - 1):
         J = K + 1
         w = W_theta_next[K]
@@ -341,9 +343,9 @@ def assemble(
         g0, g1, h0, h1 = c1[K] / c[K], -c0[K] / c[K], -d1[K] / r[K], d0[K] / r[K]
         j0, j1, i0, i1 = c1[J] / c[J], -c0[J] / c[J], -d1[J] / r[J], d0[J] / r[J]
         for at, v0, v1 in ((high, g0, g1), (low, -g0, -g1), (4 * K + 2, h0, h1)):
-            _cross(band, high_next, j0, j1, at, v0, v1, w)
-            _cross(band, low_next, -j0, -j1, at, v0, v1, w)
-            _cross(band, 4 * J + 2, i0, i1, at, v0, v1, w)
+            _add_product(band, high_next, j0, j1, at, v0, v1, w)
+            _add_product(band, low_next, -j0, -j1, at, v0, v1, w)
+            _add_product(band, 4 * J + 2, i0, i1, at, v0, v1, w)
         w = W_lam_next[K] / (rod[K].director * rod[J].director)
-        _cross(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
+        _add_product(band, 4 * J + 2, d0[J], d1[J], 4 * K + 2, d0[K], d1[K], w)
     return total

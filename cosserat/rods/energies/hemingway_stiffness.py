@@ -25,15 +25,15 @@ class Calibration(Parameters):
     c4: Annotated[float, Quantity("1", "c_4", "3.4.13", above=0)]
     """Factor of the shear stiffness."""
     c5: Annotated[float, Quantity("1", "c_5", "3.4.13", at_least=0)]
-    """Factor of the stiffness against shearing that changes along the rod."""
+    """Factor of the stiffness against gradients of shearing."""
     c6: Annotated[float, Quantity("1", "c_6", "3.4.13", at_least=0)]
-    """Factor of the stiffness against section stretches that change along the rod."""
+    """Factor of the stiffness against gradients of the section stretch."""
     c7: Annotated[float, Quantity("1", "c_7", "3.4.13")]
     """Factor of the Poisson coupling of edges and sections."""
 
 
 class Stiffness(NamedTuple):
-    """What the kernel needs of the reference configuration and the material.
+    """Constants of the kernel from the reference configuration and the material.
 
     edge, voronoi, director : ||E|| (N - 1,), L (N,) and ||D|| (N,) [m].
     k1 (N - 1,), k2 (N,), k4 (N,), k7 (N,) [N]; k3 (N,), k5 (N - 1,), k6 (N - 1,) [N m^2].
@@ -68,13 +68,13 @@ def stiffnesses(
     poisson_coupling: PoissonCoupling,
     intrinsic_curvature: IntrinsicCurvature = "subtracted",
 ) -> Stiffness:
-    """Eq. (3.4.13), with the two readings that the page leaves open.
+    """Eq. (3.4.13), with the readings that the page leaves open.
 
     end_sections : "halved" halves the areas of the boundary vertices, eq. (3.4.10), on top of their half length.
     poisson_coupling : "printed" takes 2 sum k7 (lambda - 1)(mu - 1) L in eq. (3.4.11) as it stands; "halved" drops
         the 2, which is what the published c7 = 1.66 fits (erratum E3.2).
-    intrinsic_curvature : "subtracted" measures bending from the reference, as section 3.2 asks; "printed" from the
-        straight rod, as eq. (3.4.11) stands: a curved reference is then not at rest (E3.24).
+    intrinsic_curvature : "subtracted" measures bending from the reference, as in section 3.2; "printed" from the
+        straight rod, as eq. (3.4.11) is printed: a curved reference is then not at rest (E3.24).
     """
     end_factor = np.ones(vertex.area.size)
     if end_sections == "halved":

@@ -1,4 +1,4 @@
-"""The energy that converges: Reissner's measures between directors; its kernel stands in `reissner_kernel`."""
+"""The energy that converges: Reissner's measures between directors; its kernel is in `reissner_kernel`."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_STIFF = 5.0  # Lambda over 2 mu from which on a volume is stiff: Poisson's ratio 0.45 in plane strain
+_STIFF_VOLUME_RATIO = 5.0  # least Lambda over 2 mu of a stiff volume: nu = 0.45 in plane strain
 
 
 class Reissner(Energy):
-    """The convergent energy: it takes the compliances of its edges and I about the area centres."""
+    """The convergent energy, with the compliances of its edges and I about the area centres."""
 
     options = ("lateral_constraint", "barrier")
-    far = True
+    large_rotations = True
 
     def check(self, rod: Rod) -> None:
-        """An incompressible section has a Poisson's ratio near one half."""
+        """Require a Poisson's ratio near one half of an incompressible section."""
         least = min(rod.poisson_ratios)
         if rod.lateral_constraint == "incompressible" and least < compliance.INCOMPRESSIBLE:
             raise PydanticCustomError(
@@ -66,9 +66,9 @@ class Reissner(Energy):
         )
 
     def mass(self, rod: Rod, geometry: Geometry) -> Array:
-        """The mean of lumped masses and of those that straight edges have, shape (4 N, 7).
+        """The mean of the lumped masses and those of straight edges, shape (4 N, 7).
 
-        Y02 and Y22 are those of the sections along an edge, in directors of the vertices.
+        Y02 and Y22 are those of the sections along an edge, in units of the directors of the vertices.
         """
         arc, heights = geometry.arc_length, rod.height_fractions()
         edges = [edge_masses(rod.stations, rod.line_density, arc, power) for power in range(3)]
@@ -90,10 +90,10 @@ class Reissner(Energy):
             "energy_parts": (("part",), np.append(terms, couples)),
         }
 
-    def shaped(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
-        """A volume that hardly changes would set off vibrations of its own: the edges keep theirs."""
+    def start_directors(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
+        """Directors that keep the volume of the edges if it hardly changes: it would excite vibrations."""
         constants = self.potential(rod, geometry).constants
-        stiff = constants["k_volume"] > _STIFF * constants["k_axial"]
+        stiff = constants["k_volume"] > _STIFF_VOLUME_RATIO * constants["k_axial"]
         return keeping_volume(geometry, x, d, rod.lateral_constraint) if stiff.any() else d
 
 
@@ -106,12 +106,12 @@ def potential(
     offsets: Array | float = 0.0,
     displacements: bool = False,
 ) -> Potential:
-    """The energy of given stiffnesses.
+    """The energy for given stiffnesses.
 
     barrier : with those of Fig. 3.7.  product : the volume is the product of the stretches, not their sum.
-    offsets : (2, N - 1) of each edge's area centres from the centreline at its two vertices, in directors of those, or
-        one for all; edges run from one area centre to the next, and the second moment is about them.
-    displacements : DOFs are displacements, whose rounding on fine meshes is far less than that of positions.
+    offsets : (2, N - 1) of each edge's area centres from the centreline at its two vertices, in units of their
+        directors, or one for all; edges run between area centres, and the second moment is about them.
+    displacements : DOFs are displacements; on fine meshes their round-off is far less than that of positions.
     """
     rod = np.zeros(geometry.X.shape[0], VERTEX)
     rod["low"][:-1], rod["high"][:-1] = np.broadcast_to(offsets, (2, rod.size - 1))
@@ -155,9 +155,9 @@ def centre_edges(constants: NDArray[np.void], x: Array, d: Array) -> Array:
 def keeping_volume(
     geometry: Geometry, x: Array, d: Array, lateral_constraint: LateralConstraint
 ) -> Array:
-    """Directors of the same directions, (N, 2) [m], so long that each edge keeps its volume; the first is not scaled.
+    """Directors (N, 2) [m] scaled so that each edge keeps its volume; the first is not scaled.
 
-    A volume that hardly changes would otherwise set off vibrations of its own at the start of a motion.
+    A volume that hardly changes would otherwise excite vibrations at the start of a motion.
     """
     unit = d / np.linalg.norm(d, axis=1)[:, None]
     m, e = unit[1:] + unit[:-1], np.diff(x, axis=0)

@@ -10,12 +10,12 @@ and each vertex has the stretch lambda = |d| / |D| of its section.  The energy i
                            + [ EI T^2 + mu I (difference of lambda)^2 ] / (2 h)
        + sum over vertices L 2 mu A (lambda - 1)^2 / 2
 
-less the measures of the reference.  Where the centreline misses the area centres, edges run between those, at
-x plus a share of d: stretching and bending then couple as they do in (1.2.93).  The share, Y02 where the height is
-constant, belongs to the edge: edges that meet at a step of the height end at different points of its director.  The
-volumetric part sits on the edges, where it cannot lock; Lambda is Lame's first constant in plane strain, and
-E nu / (1 - nu^2) where the section is free in E1.  In an incompressible section Lambda is a penalty, on a times the
-mean of lambda less 1: the area in the plane itself, not its linear part.
+less the measures of the reference.  If the centreline misses the area centres, edges run between those, at x plus a
+fraction of d; stretching and bending then couple as in (1.2.93).  The fraction, Y02 for a constant height, belongs to
+the edge: edges that meet at a step of the height end at different points of its director.  The volumetric part is on
+the edges, where it cannot lock.  Lambda is Lame's first constant in plane strain, and E nu / (1 - nu^2) if the section
+is free in E1.  For an incompressible section Lambda is a penalty on a times the mean of lambda, less 1: on the area in
+the plane itself, not on its linear part.
 
 Derivatives: with m = (cos b, sin b), b the mean of the two directors' angles, and t = (sin b, -cos b),
     h a = e . t,   h g = e . m,   d(h a)/db = h g,   d(h g)/db = -h a.
@@ -40,7 +40,7 @@ TERMS = (
     "volume",
     "cross-section stretch gradients",
 )
-"""The parts of the energy, in the order of `energy_terms`."""
+"""The parts of the energy, in the order of `terms`."""
 
 VERTEX = np.dtype(
     [
@@ -54,24 +54,24 @@ VERTEX = np.dtype(
         ("k_shear", "f8"),  # k mu A [N]
         ("k_bending", "f8"),  # EI [N m^2]
         ("k_stretch_gradient", "f8"),  # mu I [N m^2]
-        ("low", "f8"),  # its first end from the vertex, in directors of that [1]
-        ("high", "f8"),  # its second end from the next vertex, in directors of that [1]
+        ("low", "f8"),  # its first end from the vertex, in units of its director [1]
+        ("high", "f8"),  # its second end from the next vertex, in units of its director [1]
         # of the vertex
         ("director", "f8"),  # |D| [m]
         ("voronoi", "f8"),  # L [m]
         ("k_section", "f8"),  # 2 mu A [N]
-        # what is added to the DOFs: zero, or the reference where these are displacements [m]
+        # added to the DOFs: zero, or the reference if these are displacements [m]
         ("edge_3", "f8"),
         ("edge_2", "f8"),
         ("director_3", "f8"),
         ("director_2", "f8"),
-        # choices; those of the first vertex count
+        # options, read from the first vertex
         ("barrier", "f8"),  # one with the barriers of Fig. 3.7
         ("product", "?"),  # whether the volume is the product of the stretches, not their sum
     ],
     align=True,
 )
-"""What the kernel reads of each vertex and of the edge after it."""
+"""Constants of each vertex and of the edge after it."""
 STRAIN, SLIDING, TURNING, STRETCH = range(4)
 """Columns of the measures: of edge K the axial strain, the shear and the turning; of vertex K the section stretch."""
 
@@ -96,8 +96,8 @@ def _bending_energy(turn: float, barrier: float) -> tuple[float, float, float]:
 
 
 @njit(cache=True)
-def _curve(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
-    """Add sum over k of w_k v_k v_k + c b + b c, b the last row of v, to the block of eight DOFs from p on."""
+def _add_edge_hessian(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
+    """Add sum over k of w_k v_k v_k + c b + b c, b the last row of v, to the block of eight DOFs at p."""
     for j in range(8):
         for i in range(j, 8):
             total = c[i] * v[5, j] + c[j] * v[5, i]
@@ -107,26 +107,26 @@ def _curve(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
 
 
 @njit(cache=True)
-def _pair(band: Band, p: int, u: Array, v: Array, w: float) -> None:
-    """Add w (u v + v u) to the block of eight DOFs from p on."""
+def _add_symmetric_product(band: Band, p: int, u: Array, v: Array, w: float) -> None:
+    """Add w (u v + v u) to the block of eight DOFs at p."""
     for j in range(8):
         for i in range(j, 8):
             band[p + j, i - j] += w * (u[i] * v[j] + u[j] * v[i])
 
 
 @njit(cache=True)
-def _turn(band: Band, p: int, n0: float, n1: float, across: float, twist: float) -> None:
-    """Add across n' n' - twist (n n' + n' n), n' = (-n1, n0), to the block of a director from unknown p on."""
+def _add_director_block(band: Band, p: int, n0: float, n1: float, across: float, twist: float) -> None:
+    """Add across n' n' - twist (n n' + n' n), n' = (-n1, n0), to the block of a director at DOF p."""
     band[p, 0] += across * n1 * n1 + 2 * twist * n0 * n1
     band[p, 1] += -across * n0 * n1 - twist * (n0 * n0 - n1 * n1)
     band[p + 1, 0] += across * n0 * n0 - 2 * twist * n0 * n1
 
 
 @njit(cache=True, error_model="numpy")
-def _measured(
+def _edge_strains(
     e0: float, e1: float, n0: float, n1: float, p0: float, p1: float
 ) -> tuple[float, float, float, float, float]:
-    """h a, h g and the turning of an edge e between two directions, and the direction m between them."""
+    """h a, h g and T of an edge e between two directions, and the direction m between them."""
     s0, s1 = n0 + p0, n1 + p1
     both = np.sqrt(s0 * s0 + s1 * s1)
     m0, m1 = s0 / both, s1 / both
@@ -135,7 +135,7 @@ def _measured(
 
 @njit(cache=True)
 def _volume(strain: float, wide: float, product: bool) -> float:
-    """Change of volume of an edge by its axial strain and the mean stretch of its sections."""
+    """Change of volume of an edge from its axial strain and the mean stretch of its sections."""
     return (1 + strain) * wide - 1 if product else strain + wide - 1
 
 
@@ -152,13 +152,13 @@ def assemble(
     skew: Band,
     terms: Array,
 ) -> float:
-    """The energy and its parts, as `solvers.potential.KERNEL` says."""
+    """The energy and its parts; arguments as in `solvers.potential.KERNEL`."""
     rod = data.view(VERTEX)
     terms[:] = 0.0
     moving, measuring, curving = after.size > 0, task == STRAINS, task == HESSIAN
     deriving = curving or task == GRADIENT
     barrier, product = rod[0].barrier, rod[0].product
-    # of the vertex before: direction, length and stretch; at the end of a step; and the stretch that stresses go by
+    # of the vertex before: direction, length and stretch; at the end of a step; and the stretch for stresses
     n0 = n1 = r_a = a0 = a1 = end_a = used_a = 0.0
     v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
     for K in range(rod.shape[0]):
@@ -191,7 +191,7 @@ def assemble(
             e0, e1 = q[p] - q[p - 4] + rod[J].edge_3, q[p + 1] - q[p - 3] + rod[J].edge_2
             e0 += high * (q[p + 2] - q[p - 2]) + (high - low) * q[p - 2]
             e1 += high * (q[p + 3] - q[p - 1]) + (high - low) * q[p - 1]
-            A, G, T, m0, m1 = _measured(e0, e1, n0, n1, p0, p1)
+            A, G, T, m0, m1 = _edge_strains(e0, e1, n0, n1, p0, p1)
             if not A > 0.0:
                 return np.inf
             strain, slide, turn = (A - rod[J].axial) / E, (G - rod[J].slide) / E, T
@@ -202,7 +202,7 @@ def assemble(
                 )
                 e0 += high * (after[p + 2] - after[p - 2]) + (high - low) * after[p - 2]
                 e1 += high * (after[p + 3] - after[p - 1]) + (high - low) * after[p - 1]
-                A_end, G_end, turn, _, _ = _measured(e0, e1, a0, a1, b0, b1)
+                A_end, G_end, turn, _, _ = _edge_strains(e0, e1, a0, a1, b0, b1)
                 if not A_end > 0.0:
                     return np.inf
                 strain, slide = (A_end - rod[J].axial) / E, (G_end - rod[J].slide) / E
@@ -223,7 +223,7 @@ def assemble(
                         (strains[J, STRETCH] + strains[K, STRETCH]) / 2,
                     )
                     old_volume = _volume(old, old_wide, product)
-                    if curving:  # but pressure and least tension are those of the start
+                    if curving:  # except pressure and least tension, from the start
                         least, volume = _stretch_energy(1 + old, barrier)[1], old_volume
                     volume, strain = (old_volume + volume) / 2, (old + strain) / 2
                     slide, turn = (strains[J, SLIDING] + slide) / 2, (strains[J, TURNING] + turn) / 2
@@ -261,9 +261,9 @@ def assemble(
                 for i in range(8):
                     if i % 4 > 1:
                         v[5, i] = v[2, i] / 2 if i > 3 else -v[2, i] / 2
-                        share = high if i > 3 else low
-                        v[0, i] = G * v[5, i] + share * v[0, i - 2]
-                        v[1, i] = -A * v[5, i] + share * v[1, i - 2]
+                        weight = high if i > 3 else low
+                        v[0, i] = G * v[5, i] + weight * v[0, i - 2]
+                        v[1, i] = -A * v[5, i] + weight * v[1, i - 2]
                         widening[i] = v[4, i] / 2 if i > 3 else -v[4, i] / 2
                     v[3, i] = by_axial * v[0, i] + by_wide * E * widening[i]
                 w[0], w[1], w[2] = (
@@ -279,10 +279,10 @@ def assemble(
                 c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
                 c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
                 c[2], c[3], c[6], c[7] = -low * c0, -low * c1, high * c0, high * c1
-                _curve(band, p - 4, v, w, c)
+                _add_edge_hessian(band, p - 4, v, w, c)
                 if product:
-                    _pair(band, p - 4, v[0], widening, pressure)
-                _turn(band, p - 2, n0, n1, W_ra / r_a, turn_a / r_a)
+                    _add_symmetric_product(band, p - 4, v[0], widening, pressure)
+                _add_director_block(band, p - 2, n0, n1, W_ra / r_a, turn_a / r_a)
         if deriving:
             gradient[p + 2] += W_rb * p0 - W_turn / r_b * p1
             gradient[p + 3] += W_rb * p1 + W_turn / r_b * p0
@@ -290,7 +290,7 @@ def assemble(
             band[p + 2, 0] += W_rr * p0 * p0
             band[p + 2, 1] += W_rr * p0 * p1
             band[p + 3, 0] += W_rr * p1 * p1
-            _turn(band, p + 2, p0, p1, W_rb / r_b, W_turn / r_b**2)
+            _add_director_block(band, p + 2, p0, p1, W_rb / r_b, W_turn / r_b**2)
         n0, n1, r_a, a0, a1, end_a, used_a = p0, p1, r_b, b0, b1, end_b, used_b
     total: float = terms.sum()
     return total

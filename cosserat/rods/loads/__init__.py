@@ -1,1 +1,1 @@
-"""Loads on a rod, one kind a file; `LOADS` of `rods.problem` lists them."""
+"""Loads on a rod, one kind per file; `rods.problem.LOADS` lists them."""

@@ -1,10 +1,10 @@
-"""Couples: moments that turn with their sections, with a potential.
+"""Couples: moments that rotate with their sections, with a potential.
 
 derived: a couple M on a director at the angle alpha has the potential -M alpha.  Minus its gradient is the director
 force M n / |d|, n across the director: eq. (3.3.41) with |d| in place of lambda H, which for a director that reaches
 the surface at half the height is twice the printed force (E3.10).  With t = d / |d|, grad grad alpha is
--(t n + n t) / |d|^2.  Angles are counted on from vertex to vertex; the winding angle of the first director is an
-internal variable, so that they may count whole turns.
+-(t n + n t) / |d|^2.  Angles are unwrapped from vertex to vertex.  The winding angle of the first director is an
+internal variable, so whole turns count.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ _VERTEX = np.dtype(
 
 
 class Couple(Load):
-    """A moment on one section, positive from E3 towards E2, that turns with it: it does the work of a couple."""
+    """A moment on one section, positive from E3 towards E2, that rotates with it and does the work of a couple."""
 
     at: Vertex
-    """The vertex whose section is turned."""
+    """The vertex of the loaded section."""
     moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
     """Moment, positive from E3 towards E2."""
 
     @property
     def vertices(self) -> tuple[str | int, ...]:
-        """Where it acts."""
+        """The vertex where it acts."""
         return (self.at,)
 
     @classmethod
@@ -64,17 +64,17 @@ def couples(
 ) -> Potential:
     """The potential of couples (N,) [N m] on directors whose reference angles are (N,) [rad].
 
-    per_vertex : number of DOFs of a vertex, of which the director is the second pair.
+    per_vertex : number of DOFs of a vertex; the director is the second pair.
     """
     constants = np.empty(moments.size, _VERTEX)
     constants["moment"], constants["angle"] = moments, angles
     constants["dof"] = per_vertex * np.arange(moments.size) + 2
-    reach = 1 if moments.any() else -1
+    half_bandwidth = 1 if moments.any() else -1
     return Potential(
         _work,
         constants,
         TERMS,
-        half_bandwidth=reach,
+        half_bandwidth=half_bandwidth,
         history=angles[:1].copy(),
         origin=origin,
     )
@@ -100,7 +100,7 @@ def _work(
     skew: Band,
     terms: Array,
 ) -> float:
-    """Minus the work of the couples, as `solvers.potential.KERNEL` says."""
+    """Minus the work of the couples; arguments as in `solvers.potential.KERNEL`."""
     vertices = data.view(_VERTEX)
     ends, first = after if after.size > 0 else q, vertices[0].dof
     if task == COMMIT:

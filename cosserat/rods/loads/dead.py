@@ -1,4 +1,4 @@
-"""Dead loads, which neither turn nor change with the rod: weight, forces at vertices and along stretches of the rod."""
+"""Dead loads, constant in direction and size: weight, forces at vertices and along stretches of the rod."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class DeadLoad(Load):
 
     @classmethod
     def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
-        """Minus the work of the forces from the reference on, eq. (3.3.40)."""
+        """Minus the work of the forces from the reference, eq. (3.3.40)."""
         total = body.no_force
         for load in loads:
             total += load.on_dofs(body)
@@ -40,15 +40,15 @@ class DeadLoad(Load):
 
 
 class Gravity(DeadLoad):
-    """The weight of the rod: its mass matrix times a uniform acceleration, which lumped is rho0 g L of section 3.5."""
+    """The weight of the rod: its mass matrix times a uniform acceleration; lumped, rho0 g L of section 3.5."""
 
     g: Annotated[float, Quantity("m/s^2", "g", "section 3.5")]
     """Acceleration of free fall."""
     along: Direction
-    """Direction in which things fall."""
+    """Direction of free fall."""
 
     def on_dofs(self, body: LoadedRod) -> Array:
-        """The same mass as in motion."""
+        """Weights from the mass matrix of motions."""
         fall = body.no_force
         fall[:, :2] = self.g * unit_vector(self.along)
         return band_product(body.mass, fall.ravel()).reshape(fall.shape)
@@ -58,19 +58,19 @@ class PointForce(DeadLoad):
     """A dead force on the centreline at one vertex."""
 
     at: Vertex
-    """The vertex that is pulled."""
+    """The vertex where it acts."""
     along: Direction
     """Direction of the force."""
     force: Annotated[float, Quantity("N", "n", "section 3.5")]
-    """Size of the force; a negative one pulls the other way."""
+    """Size of the force; a negative one acts the other way."""
 
     @property
     def vertices(self) -> tuple[str | int, ...]:
-        """Where it acts."""
+        """The vertex where it acts."""
         return (self.at,)
 
     def on_dofs(self, body: LoadedRod) -> Array:
-        """On the position of its vertex."""
+        """Force on the position of its vertex."""
         forces = body.no_force
         forces[body.rod.index(self.at), :2] = self.force * unit_vector(self.along)
         return forces
@@ -84,12 +84,12 @@ class LineLoad(DeadLoad):
     density: Annotated[float, Quantity("N/m")]
     """Force per length of the reference centreline."""
     start: Annotated[float, Quantity("m", at_least=0)] = 0.0
-    """Where the load begins, counted along the reference centreline."""
+    """Start of the load along the reference centreline."""
     end: Annotated[float, Quantity("m", above=0)] | None = None
-    """Where the load ends; at the end of the rod, if not given."""
+    """End of the load; the end of the rod by default."""
 
     def check(self, rod: Rod) -> None:
-        """It begins before it ends, on the rod."""
+        """Require a start before the end, both on the rod."""
         end = self._end(rod)
         if not self.start < end <= rod.length * (1 + 1e-12):
             raise PydanticCustomError(
@@ -99,7 +99,7 @@ class LineLoad(DeadLoad):
             )
 
     def on_dofs(self, body: LoadedRod) -> Array:
-        """On the parts round the vertices, as far as it covers them."""
+        """Forces on the covered lengths of the parts round the vertices."""
         forces = body.no_force
         covered = _overlap(body.geometry, self.start, self._end(body.rod))
         forces[:, :2] = self.density * covered[:, None] * unit_vector(self.along)
@@ -137,7 +137,7 @@ def _work(
     skew: Band,
     terms: Array,
 ) -> float:
-    """Minus the work of the forces, as `solvers.potential.KERNEL` says."""
+    """Minus the work of the forces; arguments as in `solvers.potential.KERNEL`."""
     dofs = data.view(_DOF)
     ends = after if after.size > 0 else q
     energy = 0.0

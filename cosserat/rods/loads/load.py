@@ -1,4 +1,4 @@
-"""What every kind of load offers."""
+"""The interface of all kinds of loads."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LoadedRod:
-    """What a load acts on.
+    """The body that a load acts on.
 
-    origin : (n,) what its potential adds to the DOFs to get positions and directors: nothing, or the reference.
+    origin : (n,) added by the potential to the DOFs to get positions and directors: zero, or the reference.
     """
 
     rod: Rod
@@ -56,7 +56,7 @@ class Load(Parameters):
         return ()
 
     def check(self, rod: Rod) -> None:
-        """Raise PydanticCustomError where it does not fit the rod."""
+        """Raise PydanticCustomError if it does not fit the rod."""
 
     @classmethod
     @abstractmethod

@@ -1,4 +1,4 @@
-"""What Sphinx's autodoc has to know of this package: docstrings are plain text, parameter classes are called by key."""
+"""Extension of Sphinx's autodoc: docstrings are plain text, parameter classes take keys."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _set_lines(_: Sphinx, what: str, name: str, thing: Any, options: Any, lines:
 
 
 def as_markup(lines: list[str]) -> list[str]:
-    """The lines of a docstring as reStructuredText: nothing in it is markup but code, sections and lists of terms.
+    """The lines of a docstring as reStructuredText; its only markup is code, sections and lists of terms.
 
     A paragraph that begins with "name : " is such a list, each term at the margin or after two blanks.
     """
@@ -42,7 +42,7 @@ def as_markup(lines: list[str]) -> list[str]:
 
 
 def _terms(paragraph: str) -> str:
-    """A list of terms, one an item."""
+    """A list of terms, one per item."""
     items = re.split(r"\n(?=\S)", re.sub(r"(?<=\.)  (?=\w[\w, ]* : )", "\n", paragraph))
     found = [(_TERM.match(item), " ".join(item.split())) for item in items]
     return "\n".join(
@@ -59,7 +59,7 @@ def _signature(
     signature: str | None,
     returned: str | None,
 ) -> tuple[str | None, str | None]:
-    """Of a parameter class the names of its keys, those that have a default with "=..."; else types by their names."""
+    """Signature: keys of a parameter class, with "=..." if they have a default; otherwise types by their names."""
     if isinstance(thing, type) and issubclass(thing, Parameters):
         fields = thing.model_fields.items()
         keys = [key if field.is_required() else f"{key}=..." for key, field in fields if key != "kind"]
@@ -75,7 +75,7 @@ def _short(signature: str) -> str:
 
 
 def _skips(_: Sphinx, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
-    """Leave out what is no method: the keys of parameter classes stand on a page of their own."""
+    """Skip members that are not methods: keys of parameter classes have their own page."""
     described = isinstance(thing, property | classmethod | functools.cached_property)
     called = inspect.isroutine(thing) and getattr(thing, "__name__", "") == name
     return None if called or described else True

@@ -1,4 +1,4 @@
-"""Chapters into executed notebooks, and those into a book that needs no network."""
+"""Executed notebooks from chapters, and a book from them that needs no network."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
 
 _WRITTEN = ".cosserat-book"
-"""File in a book that lists what was written into it."""
+"""File that lists the files of a book."""
 
 _CONF = """
 project = "cosserat"
@@ -90,7 +90,7 @@ def execute(chapter: Path, output: Path) -> None:
 def render(notebooks: list[Path], output: Path) -> Path:
     """Build the book from executed notebooks, `index.ipynb` among them; returns its first page.
 
-    The folder is replaced only by a whole book, and only if there is nothing in it but a book that this function wrote.
+    Only a whole book replaces the folder, and only if the folder holds nothing but a book from this function.
 
     Raises
     ------
@@ -123,9 +123,9 @@ def render(notebooks: list[Path], output: Path) -> Path:
 
 
 def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
-    """Raise InputError unless a folder is missing, empty, or holds no file but those that a book of ours has.
+    """Raise InputError unless a folder is missing, empty, or holds only files of a book.
 
-    of_a_book : what the new book holds; a book without a list of its own may have nothing else.
+    of_a_book : files of the new book; a book without its own list may have no others.
     """
     remedy = "choose another with --output"
     if output.is_symlink() or (output.exists() and not output.is_dir()):
@@ -149,7 +149,7 @@ def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
 
 
 def _files(folder: Path) -> list[str]:
-    """Everything below a folder but plain folders with something in them, as paths from there."""
+    """Everything below a folder except plain folders that are not empty, as paths from there."""
     return sorted(
         path.relative_to(folder).as_posix()
         for path in folder.rglob("*")
@@ -166,7 +166,7 @@ def _looks_built(file: Path) -> bool:
 
 
 def _copy_mathjax(folder: Path) -> None:
-    """MathJax with its fonts, from the locked package that carries it, so that no page asks the network."""
+    """MathJax with its fonts, from the locked package that contains it, so no page needs the network."""
     spec = importlib.util.find_spec("mathjax")
     if spec is None or not spec.submodule_search_locations:
         raise InputError(

@@ -1,6 +1,6 @@
-"""What a chapter may use: stored data, drawn figures, rows of the report, and the library's own lines.
+"""Functions for chapters: stored data, drawn figures, rows of the report, and lines of the library.
 
-A chapter computes no published case again and types no result; it reads what the workflow made and asserts its rows.
+A chapter computes no published case again and types no result; it reads results of the workflow and asserts its rows.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from cosserat.thesis.table.tolerances import read_report
 
 
 def results() -> Path:
-    """The folder `results` of this checkout, from wherever the chapter runs."""
+    """The folder `results` of this checkout, from any working directory in it."""
     for folder in (Path.cwd(), *Path.cwd().parents):
         if (folder / "results" / "tolerances.csv").is_file():
             return folder / "results"
@@ -68,7 +68,7 @@ def animation(name: str, caption: str) -> HTML:
 
 
 def rows(*prefixes: str) -> HTML:
-    """The rows of the report whose ids begin so, as a table; the chapter cannot be built if one of them fails.
+    """The rows of the report whose ids begin with the prefixes, as a table; a failed row stops the chapter.
 
     Raises
     ------
@@ -107,7 +107,7 @@ def amount(number: str, unit: str) -> str:
 
 
 def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
-    """A plain table; what stands between dollars is mathematics."""
+    """A plain table; text between dollars is mathematics."""
     head = "".join(f"<th>{_mathematics(escape(name))}</th>" for name in columns)
     body = "".join(
         "<tr>" + "".join(f"<td>{_mathematics(escape(str(value)))}</td>" for value in line) + "</tr>"
@@ -117,12 +117,12 @@ def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
 
 
 def _mathematics(html: str) -> str:
-    """What stands between dollars, as the book's other mathematics: MathJax leaves the dollars of an output alone."""
+    """Text between dollars as mathematics of the book: MathJax ignores dollars in outputs."""
     return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)
 
 
 def common_keys() -> HTML:
-    """The keys that a case of any kind may have, as a list of definitions."""
+    """The keys of all kinds, as a list of definitions."""
     return _definitions("every case", listing.common_keys())
 
 
@@ -169,7 +169,7 @@ def _linked(key: Key) -> str:
 
 
 def _prose(text: str) -> str:
-    """A docstring as a paragraph; what stands between backquotes is code."""
+    """A docstring as a paragraph; text between backquotes is code."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(" ".join(text.split())))
 
 
@@ -180,7 +180,7 @@ def errata(*standings: str) -> dict[str, Erratum]:
 
 
 def left_out() -> LeftOutList:
-    """What of the thesis is not here, with the reasons."""
+    """Parts of the thesis that are left out, with the reasons."""
     return read_left_out(results() / "left_out.toml")
 
 
@@ -190,7 +190,7 @@ def source(thing: Any) -> Markdown:
 
 
 def excerpt(thing: Any, first: str, last: str) -> Markdown:
-    """The lines of a function from the one that holds `first` up to the one that holds `last`, left out."""
+    """The lines of a function from the one with `first` up to, but without, the one with `last`."""
     lines = inspect.getsource(getattr(thing, "py_func", thing)).splitlines()
     start = next(number for number, line in enumerate(lines) if first in line)
     stop = next(number for number, line in enumerate(lines) if last in line and number > start)
@@ -204,6 +204,6 @@ def _code(thing: Any, text: str) -> Markdown:
     )
 
 
-def say(text: str) -> Markdown:
+def text(sentence: str) -> Markdown:
     """A sentence with measured numbers in it."""
-    return Markdown(text)
+    return Markdown(sentence)

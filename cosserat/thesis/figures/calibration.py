@@ -1,4 +1,4 @@
-"""How the "right" coefficients, and the error at the published ones, move with the number of vertices."""
+"""The "right" coefficients, and the error at the published ones, over the number of vertices."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _GREEN = "#3a7d44"
 
 
 def limit(data: xr.Dataset) -> float:
-    """Clamped-free tip over Timoshenko's to which the published coefficients lead."""
+    """Limit of the clamped-free tip over Timoshenko's at the published coefficients."""
     procedure = problem_of(data, CalibrationProcedure)
-    posed = procedure.clamped_free
-    assert posed.gravity is not None
-    beam, c = beam_of(posed), posed.rod.calibration
+    problem = procedure.clamped_free
+    assert problem.gravity is not None
+    beam, c = beam_of(problem), problem.rod.calibration
     assert c is not None
-    tip = beams.clamped_free_tip_of_published_rod(beam, posed.gravity.g, c.c3, c.c4, c.c5)
-    exact = beams.clamped_free_displacement(beam, posed.gravity.g, np.array([beam.length]))
+    tip = beams.clamped_free_tip_of_published_rod(beam, problem.gravity.g, c.c3, c.c4, c.c5)
+    exact = beams.clamped_free_displacement(beam, problem.gravity.g, np.array([beam.length]))
     return tip / float(exact[0])
 
 

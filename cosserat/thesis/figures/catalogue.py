@@ -1,4 +1,4 @@
-"""Which figures there are, what they show, and the cases they are drawn from."""
+"""The list of figures, with their titles, cases and rows."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 
 TABLE = Path("results/tolerances.csv")
-"""The results table of the checkout that is worked in."""
+"""The results table of the current checkout."""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One figure: its title, the module of `cosserat.figures` that draws it, and the cases it needs.
+    """One figure: its title, the module of `cosserat.thesis.figures` that draws it, and the cases it needs.
 
     rows : rows of the results table whose published numbers it shows beside the cases.
     """
@@ -160,7 +160,7 @@ def _published(rows: tuple[str, ...], table: Path) -> dict[str, float]:
 
 
 def draw_all(names: Sequence[str], folder: Path, output: Path) -> Iterator[Path]:
-    """Draw figures one by one into the folder `output`, or one figure into the file; yields what was written.
+    """Draw figures one by one into the folder `output`, or one figure into the file; yields each path written.
 
     Raises
     ------

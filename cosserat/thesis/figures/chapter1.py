@@ -1,4 +1,4 @@
-"""The directed rod of Chapter 1 as the body it stands for, drawn from a stored state of a crawler."""
+"""The directed rod of Chapter 1 as a body, drawn from a stored state of a crawler."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ _CLEAR = {
     "facecolor": PAPER,
     "edgecolor": "none",
     "pad": 1.0,
-}  # behind a label that stands on the surface
+}  # behind a label on the surface
 
 
 def surface(state: xr.Dataset, radius: float, around: Array) -> Array:
     """Points r + X^alpha d_alpha of the lateral surface, eq. (1.3.4), shape (sections, len(around), 3) [m].
 
-    around : angles at which the section's boundary X^1 = R cos, X^2 = R sin is taken.
+    around : angles of the points X^1 = R cos, X^2 = R sin on the section's boundary.
     """
     r = np.column_stack([state.height, np.zeros(state.sizes["section"]), state.along])
     d_1 = state.mu_1.to_numpy()[:, None] * np.array([1.0, 0, 0])

@@ -1,4 +1,4 @@
-"""Figures of Chapter 2: muscles, gaits, and what they do to a robot and a worm."""
+"""Figures of Chapter 2: muscles, gaits, and their effect on a robot and a worm."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from cosserat.thesis.table.crawl_readouts import (
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_TALL = 3.0  # how much heights are magnified in Fig. 2.1
+_TALL = 3.0  # magnification of heights in Fig. 2.1
 
 
 def fig_2_1(data: Data) -> Figure:
@@ -68,7 +68,7 @@ def fig_2_1(data: Data) -> Figure:
 
 
 def fig_2_2(data: Data, published: Mapping[str, float]) -> Figure:
-    """Stretches and pressure of segment 50 over the strides, corrected and as printed, beside what Quillin measured."""
+    """Stretches and pressure of segment 50 over the strides, corrected and as printed, and Quillin's measurements."""
     figure, (top, bottom) = canvas(7.2, 5.4, 2, 1)
     for name, style in (("worm", "-"), ("worm_printed", ":")):
         run = segment(data[name])
@@ -115,7 +115,7 @@ def _measured(ax: Axes, level: float, label: str) -> None:
 
 
 def fig_2_5(_: Data) -> Figure:
-    """One muscle of finite width, and rows of more and more of them."""
+    """One muscle of finite width, and rows of several."""
     figure, (left, right) = canvas(7.2, 3.0, 1, 2)
     xi, one = np.linspace(0, 1, 2001), np.array([0.5])
     left.plot(
@@ -148,7 +148,7 @@ def fig_2_5(_: Data) -> Figure:
 
 
 def fig_2_12(data: Data) -> Figure:
-    """Where the worm holds on: both readings of the schedule."""
+    """The anchored point of the worm, in both readings of the schedule."""
     figure, (ax,) = canvas(7.2, 2.6)
     for name, label, colour, size in (
         ("worm", "rear from $t_p/2$", COMPUTED, 5),

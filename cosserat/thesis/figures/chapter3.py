@@ -65,8 +65,8 @@ def fig_3_8(data: Data) -> Figure:
         Patch(facecolor=BODY, edgecolor=COMPUTED, label="body"),
         Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label="centreline"),
         Line2D([], [], color=COMPUTED, marker="^", label="directors of unit length"),
-        Line2D([], [], color=INK, linewidth=3, label="section held"),
-        Line2D([], [], color=INK, linewidth=1.2, label="section held, free to stretch"),
+        Line2D([], [], color=INK, linewidth=3, label="section fixed"),
+        Line2D([], [], color=INK, linewidth=1.2, label="section fixed, free to stretch"),
         *axes[-1].get_legend_handles_labels()[0],
     ]
     figure.legend(handles=looks, loc="outside lower center", ncols=4, fontsize=8)
@@ -76,7 +76,7 @@ def fig_3_8(data: Data) -> Figure:
 def _equilibrium(
     ax: Axes, run: xr.Dataset, other: xr.Dataset, magnified: float, sections: float
 ) -> None:
-    """The body with its supports and loads; what sections do beside the centreline is magnified on its own."""
+    """The body with its supports and loads; section displacements have their own magnification."""
     problem = problem_of(run, RodProblem)
     X, D = run.x_ref.to_numpy(), run.d_ref.to_numpy()
     x, d = X + magnified * run.u.to_numpy(), D + sections * run.delta.to_numpy()
@@ -96,7 +96,7 @@ def _equilibrium(
 
 
 def fig_3_9(data: Data) -> Figure:
-    """The hanging bar: displacement, and what the formula leaves out."""
+    """The hanging bar: displacement, and its difference from the formula."""
     figure, (left, right) = canvas(7.2, 2.9, 1, 2)
     bar = data["hanging_bar"]
     problem = problem_of(bar, RodProblem)
@@ -199,7 +199,7 @@ def fig_3_12(data: Data) -> Figure:
     ]
     for letter, title in (
         ("a", "(a) whole bar"),
-        ("b", "(b) beside the held end"),
+        ("b", "(b) beside the fixed end"),
         ("c", "(c) with the coupling as printed"),
     ):
         ax = panels[letter]
@@ -230,7 +230,7 @@ def fig_3_12(data: Data) -> Figure:
 
 
 def _at_surface(ax: Axes, reach: float) -> None:
-    """A second scale: how far the surface, `reach` from the centreline, moves beside it [um]."""
+    """A second scale: displacement of the surface, at `reach` from the centreline, relative to it [um]."""
     second = ax.secondary_yaxis(
         "right", functions=(lambda e: np.asarray(e) * reach, lambda u: np.asarray(u) / reach)
     )

@@ -1,4 +1,4 @@
-"""The rod that converges: its errors, how far it bends, and the paths it goes."""
+"""The rod that converges: its errors, its large deflections and its paths."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cosserat.exact import elastica
 from cosserat.figures.path import draw_path, draw_shapes
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
-from cosserat.thesis.table.readouts import buckling_share
+from cosserat.thesis.table.readouts import buckling_ratio
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -59,13 +59,13 @@ def fig_paths(data: Data) -> Figure:
     """Load over displacement, stable points filled: the column beside the exact elastica, and the arch."""
     figure, (left, right) = canvas(7.2, 3.2, 1, 2)
     column, arch = data["column_path"], data["arch_path"]
-    share = buckling_share(column)
-    draw_path(left, np.abs(column.x.sel(axis="E2").isel(vertex=-1).to_numpy()), share, column)
+    ratio = buckling_ratio(column)
+    draw_path(left, np.abs(column.x.sel(axis="E2").isel(vertex=-1).to_numpy()), ratio, column)
     angles = np.linspace(0.01, 2.3, 60)
     loads = [elastica.column_load(a) for a in angles]
     exact = [elastica.column_tip(load)[0] for load in loads]
     left.plot(exact, np.array(loads) / (np.pi**2 / 4), color=EXACT, label="exact elastica", zorder=1)
-    left.set(xlabel="tip aside [m]", ylabel="load / Euler's load [1]", title="(a) column")
+    left.set(xlabel="lateral tip displacement [m]", ylabel="load / Euler's load [1]", title="(a) column")
     left.legend()
     middle = arch.sizes["vertex"] // 2
     draw_path(
@@ -76,7 +76,7 @@ def fig_paths(data: Data) -> Figure:
 
 
 def fig_tumbling(data: Data) -> Figure:
-    """A thrown rod: its outline at equal times, and how far energy and momenta stray from where they began."""
+    """A thrown rod: its outline at equal times, and the changes of energy and momenta from their start."""
     figure, (left, right) = canvas(7.2, 3.2, 1, 2)
     flight = data["tumbling"]
     x, d = flight.x.to_numpy(), flight.d.to_numpy()
@@ -98,7 +98,10 @@ def fig_tumbling(data: Data) -> Figure:
         strayed = np.linalg.norm(values - values[0], axis=1) / np.linalg.norm(values[0])
         right.semilogy(flight.time[1:], np.maximum(strayed[1:], 1e-17), color=colour, label=label)
     right.set(
-        xlabel="time [s]", ylabel="relative change [1]", title="(b) what is kept", ylim=(1e-17, 1e-6)
+        xlabel="time [s]",
+        ylabel="relative change [1]",
+        title="(b) conserved quantities",
+        ylim=(1e-17, 1e-6),
     )
     right.axhline(1e-8, color=EXACT, linestyle="--", linewidth=0.8)
     right.legend()

@@ -57,7 +57,7 @@ T_STEP = number("soft_robot", "t_step")
 
 
 def fig_2_8(data: Data) -> Figure:
-    """Discrete values of the robot's fronts: over both cycles, and closely where eta begins."""
+    """Discrete values of the robot's fronts: over both cycles, and in detail where eta begins."""
     run = data["soft_robot"]
     problem = problem_of(run, Crawl)
     figure = Figure(figsize=(7.2, 3.4), layout="constrained")

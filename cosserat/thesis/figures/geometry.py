@@ -37,7 +37,7 @@ def _arrow(ax: Axes, foot: Array, vector: Array, colour: str, label: str = "", f
 
 
 def _label(ax: Axes, place: Array, aside: Array, label: str, colour: str = INK) -> None:
-    """A text whose middle lies `aside`, in points, of a place of the data."""
+    """A text whose middle is offset by `aside`, in points, from a place of the data."""
     ax.annotate(
         label,
         tuple(place),
@@ -58,7 +58,7 @@ def _span(ax: Axes, a: Array, b: Array, colour: str) -> None:
 def _discrete(ax: Axes, x: Array, d: Array, name: str) -> None:
     """Centreline and directorline solid, directors, and the lower boundary as their reflection, dashed.
 
-    name : the letter of centreline positions, beside which the numbers K of the vertices stand.
+    name : the letter of centreline positions, printed with the numbers K of the vertices.
     """
     ax.plot(*x.T, color=INK, marker="o", markersize=4, label="centreline")
     ax.plot(*(x + d).T, color=COMPUTED, marker="s", markersize=3, label="directorline")
@@ -84,15 +84,15 @@ def fig_3_1(data: Data) -> Figure:
 def fig_3_2(data: Data) -> Figure:
     """A rod-like body, L >> D: a centreline close to its middle, and one section as a hatched area.
 
-    A tube with elliptical sections, seen obliquely; of the rod it has the length and the height.
+    A tube with elliptical sections, seen obliquely, with the length and the height of the rod.
     """
     figure, (ax,) = canvas(7.2, 2.7)
     rod = problem_of(data["clamped_free"], RodProblem).rod
     count, cut = 81, 48
     geometry = Geometry.arc(count, rod.length, np.full(count, rod.height / 2), 0.12)
-    share = np.linspace(0, 1, count)[:, None]
+    fraction = np.linspace(0, 1, count)[:, None]
     up = geometry.D * (
-        0.9 + 0.1 * np.sin(2 * np.pi * share)
+        0.9 + 0.1 * np.sin(2 * np.pi * fraction)
     )  # half the thickness, D where it is largest
     away = np.array([0.3, 0.2]) * rod.height / 2  # the other half-axis, seen obliquely
     towards = np.arctan2((away * up).sum(axis=1), (up * up).sum(axis=1))[:, None]
@@ -115,7 +115,7 @@ def fig_3_2(data: Data) -> Figure:
         linewidth=1.2,
         label="section",
     )
-    close = geometry.X + 0.3 * np.cos(3 * share) * up
+    close = geometry.X + 0.3 * np.cos(3 * fraction) * up
     ax.plot(*close.T, color=INK, linestyle="--", label="centreline")
     thick = int(np.argmax(np.hypot(*up.T)))
     top, bottom = geometry.X[thick] + up[thick], geometry.X[thick] - up[thick]
@@ -157,12 +157,12 @@ def fig_3_3(data: Data) -> Figure:
 
 
 def reach(boundary: Array, along: Array) -> float:
-    """How far a closed curve (n, 2) round the origin lies from it along a unit vector [m]."""
+    """Distance of a closed curve (n, 2) round the origin from it along a unit vector [m]."""
     turned = boundary @ np.array([[along[0], -along[1]], [along[1], along[0]]])
     angle = np.arctan2(turned[:, 1], turned[:, 0])
     k = int(np.flatnonzero((angle[:-1] <= 0) & (angle[1:] > 0) & (turned[:-1, 0] > 0))[0])
-    share = turned[k, 1] / (turned[k, 1] - turned[k + 1, 1])
-    return float(turned[k, 0] + share * (turned[k + 1, 0] - turned[k, 0]))
+    fraction = turned[k, 1] / (turned[k, 1] - turned[k + 1, 1])
+    return float(turned[k, 0] + fraction * (turned[k + 1, 0] - turned[k, 0]))
 
 
 def _section(ax: Axes, boundary: Array, along: Array) -> None:
@@ -192,7 +192,7 @@ def _section(ax: Axes, boundary: Array, along: Array) -> None:
 
 
 def fig_3_4(data: Data) -> Figure:
-    """The discrete osculating circle of a negative turning angle: it touches both edges half a Voronoi length away."""
+    """The discrete osculating circle of a negative turning angle: it touches both edges at half a Voronoi length."""
     figure, (ax,) = canvas(6.4, 4.4)
     rod = data["bent_rod"]
     x, K = rod.x.to_numpy(), 4
@@ -235,7 +235,7 @@ def fig_3_4(data: Data) -> Figure:
 def _angle(
     ax: Axes, vertex: Array, begin: Array, angle: float, radius: float, label: str, aside: Array
 ) -> None:
-    """The angle from a unit vector on, positive from E3 towards E2, with an arrowhead where it ends; a label aside."""
+    """An angle from a unit vector, positive from E3 towards E2, with an arrowhead at its end and a label."""
     turned = np.linspace(0, angle, 30)
     c, s = np.cos(turned), np.sin(turned)
     arc = vertex + radius * np.column_stack([c * begin[0] - s * begin[1], s * begin[0] + c * begin[1]])
@@ -251,7 +251,7 @@ def fig_3_5(data: Data) -> Figure:
     rod = problem_of(data["clamped_free"], RodProblem).rod
     for ax, n, title in ((left, 241, "(a) many vertices"), (right, 13, "(b) few vertices")):
         edge = rod.length / (n - 1)
-        curvature = 2 * np.sin(np.pi / (n - 1)) / edge  # the polygon closes
+        curvature = 2 * np.sin(np.pi / (n - 1)) / edge  # closed polygon
         ring = Geometry.arc(n, rod.length, np.full(n, rod.height / 2), curvature)
         flat = Geometry.straight(n, rod.length, rod.height / 2)
         for stretch, colour in ((1.0, COMPUTED), (1.4, VARIANT)):

@@ -21,12 +21,12 @@ from cosserat.studies.calibration import beam_of
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_SHOWN_MODE = 0.06  # largest number of a mode shape in a picture, as a share of the rod's length
+_SHOWN_MODE = 0.06  # largest displacement of a mode shape in a picture, in lengths of the rod
 _WIDTH, _HEIGHT, _MARGIN = 640, 200, 12  # of an animation, in pixels
 
 
 def fig_3_13(data: Data) -> Figure:
-    """Kinetic energies of the two beams released from the first mode shape, and what their tips do meanwhile."""
+    """Kinetic energies and tip displacements of the two beams released from the first mode shape."""
     figure, (left, right) = canvas(7.2, 3.1, 1, 2)
     for name, label, colour, line in (
         ("vibration_c4_2", "$c_4 = 2$", VARIANT, "-"),
@@ -65,7 +65,7 @@ def fig_3_13(data: Data) -> Figure:
 
 
 def fig_modes(data: Data) -> Figure:
-    """The four lowest modes of the beam with high shear stiffness, either way."""
+    """The four lowest modes of the beam with high shear stiffness, with both signs."""
     figure, axes = canvas(7.2, 3.6, 2, 2)
     problem = problem_of(data["vibration_c4_20"], RodMotion)
     found = problem.modes(len(axes))

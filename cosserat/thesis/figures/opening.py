@@ -1,4 +1,4 @@
-"""The picture with which the README and the book open: what the package solves, at one look."""
+"""The first picture of the README and of the book: problems that the package solves."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
 
-_SHARES = (0, 1 / 4, 1 / 2, 3 / 4)  # of the second stride
-_TALL = 3.0  # how much heights of the worm are magnified
-_THICK = 3.0  # how much the slender rods are
+_FRACTIONS = (0, 1 / 4, 1 / 2, 3 / 4)  # of the second stride
+_TALL = 3.0  # magnification of heights of the worm
+_THICK = 3.0  # magnification of the slender rods
 _LANE = 1.5  # from one worm to the next, in its own height at rest
-_SECTIONS = 84  # of a drawn worm; each other one has a line
+_SECTIONS = 84  # of a drawn worm; every second one has a line
 _LEVELS = 8  # of colour, from the thinnest section to the fattest
 _COLOURS = LinearSegmentedColormap.from_list("sections", ["#eaa552", "#f6e8d3", "#9cc1e2"])
 _SWAP = np.array([[0.0, 1.0], [1.0, 0.0]])  # E2 to the right, E3 up
@@ -55,12 +55,12 @@ def fig_opening(data: Mapping[str, xr.Dataset]) -> Figure:
 
 
 def _draw_worm(ax: Axes, run: xr.Dataset) -> None:
-    """Four times of a stride below each other, heights magnified: sections by colour, and lines equally far at rest."""
+    """Four times of a stride below each other, heights magnified: sections by colour, and lines equidistant at rest."""
     problem = problem_of(run, Crawl)
     height = 2e2 * _TALL * problem.crawler.radius
     least, most = float(run.mu_1.min()), float(run.mu_1.max())
     drawn = np.linspace(0, run.sizes["section"] - 1, _SECTIONS).round().astype(int)
-    indices = [nearest(run, (1 + share) * problem.gait.duration) for share in _SHARES]
+    indices = [nearest(run, (1 + fraction) * problem.gait.duration) for fraction in _FRACTIONS]
     reach = 1e2 * run.along[indices]
     for number, index in enumerate(indices):
         state = run.isel(time=index, section=drawn)
@@ -76,7 +76,7 @@ def _draw_worm(ax: Axes, run: xr.Dataset) -> None:
         _draw_lines(ax, np.c_[z, low][::2], np.c_[z, top][::2], INK, 0.3)
         ax.plot(np.r_[z[0], z, z[-1]], np.r_[base, top, base], color=INK, linewidth=0.9)
         ax.annotate(
-            f"{_SHARES[number] * problem.gait.duration:.1f} s",
+            f"{_FRACTIONS[number] * problem.gait.duration:.1f} s",
             (1, base),
             xycoords=("axes fraction", "data"),
             xytext=(0, 4),
@@ -91,7 +91,7 @@ def _draw_worm(ax: Axes, run: xr.Dataset) -> None:
         xlabel=f"along the ground [cm], heights × {_TALL:g}",
         yticks=[],
         xlim=(float(reach.min()) - 2, float(reach.max()) + 3.5),
-        ylim=(-_LANE * height * (len(_SHARES) - 1) - 0.3 * height, 1.2 * height),
+        ylim=(-_LANE * height * (len(_FRACTIONS) - 1) - 0.3 * height, 1.2 * height),
     )
     ax.set_aspect("equal")
     ax.grid(visible=False)

@@ -1,8 +1,8 @@
 """Time and error of the consistent rod and of other packages on shared problems, in one run on one machine.
 
-The other packages live in another environment: each has a script beside this file, which is given a problem as JSON and
-answers, each time it is asked, with what it measured.  Runs of the packages alternate, so that what else the machine
-does falls on all of them.  Errors are taken here, against the same exact answers for everyone.
+The other packages are in another environment.  Each has a script beside this file, which gets a problem as JSON and
+prints its measurement for each line of input.  Runs of the packages alternate, so other load of the machine affects
+all of them.  Errors are computed here, against the same exact answers for all.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ SCRIPTS = {"Exudyn": "with_exudyn.py", "PyElastica": "with_pyelastica.py"}
 
 @dataclass(frozen=True)
 class Problem:
-    """One problem, as every package gets it: a clamped rod in SI units.
+    """One problem for all packages: a clamped rod in SI units.
 
     kind : "weight", "force" or "vibration".  load : weight per length, force, or amplitude of the first mode.
     """
@@ -68,9 +68,9 @@ class Problem:
 
 @dataclass(frozen=True)
 class Line:
-    """One line of the table: median, least and most seconds of several runs, the relative error, and where it was run.
+    """One line of the table: median, least and most seconds of several runs, the relative error, and the machine.
 
-    versions : of the package and of what it computes with.  load : processes that wanted the machine just before.
+    versions : of the package and of its dependencies.  load : processes waiting for the machine just before.
     """
 
     problem: str
@@ -87,12 +87,12 @@ class Line:
 
 
 def problems() -> dict[Problem, RodStatics | RodMotion]:
-    """Every problem, and how our rod poses it."""
-    posed: dict[Problem, RodStatics | RodMotion] = {}
+    """Every problem, with the problem of our rod."""
+    case: dict[Problem, RodStatics | RodMotion] = {}
     weight = find("clamped_free_consistent").problem_as(RodStatics)
     assert weight.gravity is not None
     beam = beam_of(weight)
-    posed[
+    case[
         _problem(
             "(a) clamped-free, 19 elements", "weight", 19, weight, beam.line_density * weight.gravity.g
         )
@@ -105,17 +105,17 @@ def problems() -> dict[Problem, RodStatics | RodMotion]:
             rod=slender.rod.replace(vertices=count + 1),
             forces=(PointForce(at="last", along="E2", force=force),),
         )
-        posed[_problem(f"(b) elastica, {count} elements", "force", count, bent, force)] = bent
+        case[_problem(f"(b) elastica, {count} elements", "force", count, bent, force)] = bent
     for count in (20, 200, 2000):
         moved = (
             find("vibration_consistent").vary("peers", rod={"vertices": count + 1}).problem_as(RodMotion)
         )
-        posed[_problem(f"(c) vibration, {count} elements", "vibration", count, moved, 1e-3)] = moved
-    return posed
+        case[_problem(f"(c) vibration, {count} elements", "vibration", count, moved, 1e-3)] = moved
+    return case
 
 
-def _problem(name: str, kind: str, elements: int, posed: RodStatics | RodMotion, load: float) -> Problem:
-    beam = beam_of(posed)
+def _problem(name: str, kind: str, elements: int, case: RodStatics | RodMotion, load: float) -> Problem:
+    beam = beam_of(case)
     return Problem(
         name,
         kind,
@@ -197,14 +197,14 @@ class _Ours:
 
     name = "cosserat"
 
-    def __init__(self, problem: Problem, posed: RodStatics | RodMotion) -> None:
-        self.problem, self.posed = problem, posed
+    def __init__(self, problem: Problem, case: RodStatics | RodMotion) -> None:
+        self.problem, self.case = problem, case
         self.versions = {"cosserat": source().split(",")[0].split()[1], **environment()}
         self.run()
 
     def run(self) -> dict[str, Any]:
         """One run."""
-        return _solve(self.posed, self.problem)
+        return _solve(self.case, self.problem)
 
 
 @dataclass
@@ -252,7 +252,7 @@ class _Peer:
     def _answer(self) -> dict[str, Any]:
         assert self.process.stdout is not None
         for line in self.process.stdout:
-            if line.startswith("{"):  # whatever else a package prints
+            if line.startswith("{"):  # other output of a package
                 answer: dict[str, Any] = json.loads(line)
                 return answer
         self.process.wait()
@@ -264,24 +264,24 @@ class _Peer:
 
 
 @functools.singledispatch
-def _solve(posed: RodProblem, problem: Problem) -> dict[str, Any]:
-    """One run of ours; as for the others, the model is built before the clock starts."""
-    raise NotImplementedError(type(posed).__name__)
+def _solve(case: RodProblem, problem: Problem) -> dict[str, Any]:
+    """One run of our rod; as for the others, the model is built before the clock starts."""
+    raise NotImplementedError(type(case).__name__)
 
 
 @_solve.register
-def _solve_statics(posed: RodStatics, problem: Problem) -> dict[str, Any]:
-    system = posed.system(posed.rod.geometry())
+def _solve_statics(case: RodStatics, problem: Problem) -> dict[str, Any]:
+    system = case.system(case.rod.geometry())
     start = time.perf_counter()
-    found = solve_full_load(EquilibriumSolver(system, posed.newton, problem.name))
+    found = solve_full_load(EquilibriumSolver(system, case.newton, problem.name))
     taken = time.perf_counter() - start
     u = found.q.reshape(-1, 4)[:, 1]
     return {"seconds": taken, "profile": u.tolist(), "tip": float(u[-1])}
 
 
 @_solve.register
-def _solve_motion(posed: RodMotion, problem: Problem) -> dict[str, Any]:
-    small = posed.replace(start=posed.start.replace(amplitude=problem.load))
+def _solve_motion(case: RodMotion, problem: Problem) -> dict[str, Any]:
+    small = case.replace(start=case.start.replace(amplitude=problem.load))
     system, state = small.system(small.rod.geometry()), small.begin()
     settings = IntegratorSettings(step=problem.duration / problem.steps)
     start = time.perf_counter()
@@ -295,10 +295,10 @@ def _solve_motion(posed: RodMotion, problem: Problem) -> dict[str, Any]:
     return {"seconds": taken, "times": times, "tips": tips}
 
 
-def _error(problem: Problem, posed: RodStatics | RodMotion, answer: dict[str, Any]) -> float:
-    """Against the same exact answers for everyone."""
+def _error(problem: Problem, case: RodStatics | RodMotion, answer: dict[str, Any]) -> float:
+    """Relative error, against the same exact answers for all packages."""
     if problem.kind == "weight":
-        beam = beam_of(posed)
+        beam = beam_of(case)
         g = problem.load / beam.line_density
         xi = np.array(answer.get("places", np.linspace(0, beam.length, problem.elements + 1)))
         exact = beams.clamped_free_displacement(beam, g, xi)
@@ -309,7 +309,7 @@ def _error(problem: Problem, posed: RodStatics | RodMotion, answer: dict[str, An
             problem.load / unit, problem.axial / unit, problem.shear / unit
         )
         return abs(float(answer["tip"]) / problem.length / exact_tip - 1)
-    exact_period = 2 * np.pi / elastica.timoshenko_frequencies(beam_of(posed), 1)[0]
+    exact_period = 2 * np.pi / elastica.timoshenko_frequencies(beam_of(case), 1)[0]
     return abs(period(np.array(answer["times"]), np.array(answer["tips"])) / float(exact_period) - 1)
 
 

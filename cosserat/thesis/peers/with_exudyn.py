@@ -2,8 +2,8 @@
 
 `python with_exudyn.py PROBLEM` prints, as JSON, the versions it uses, then an answer for each line of its input.
 
-Static problems by its Newton solver, with five load steps where the deflection is large, which suited it best; motion
-by its implicit trapezoidal rule with a modified Newton method.
+Static problems use its Newton solver, with five load steps for large deflections, its best number; motion uses its
+implicit trapezoidal rule with a modified Newton method.
 """
 
 # mypy: ignore-errors
@@ -23,7 +23,7 @@ from exudyn.itemInterface import (
     SensorNode,
 )
 
-_DENSE = 25  # elements up to which its dense solver is the faster
+_DENSE = 25  # elements up to which its dense solver is faster
 
 
 def shape(problem, x):
@@ -79,7 +79,7 @@ def build(problem):
 
 
 def settings(problem):
-    """Its solver, quiet, with tolerances like ours."""
+    """Settings of its solver, quiet, with tolerances like ours."""
     chosen = exu.SimulationSettings()
     chosen.solution.file.write = False
     sparse, dense = exu.LinearSolverType.EigenSparse, exu.LinearSolverType.EXUdense
@@ -97,7 +97,7 @@ def settings(problem):
 
 
 def solve(problem):
-    """One run: seconds of the solver alone, the model built before, and what came out."""
+    """One run: seconds of the solver alone, the model built before, and the answer."""
     system, nodes, sensor = build(problem)
     chosen = settings(problem)
     moving = problem["kind"] == "vibration"
@@ -117,7 +117,7 @@ def solve(problem):
 
 
 def main():
-    """Say what is used, then run once for every line that comes in."""
+    """Print the versions, then run once for every line of input."""
     problem = json.loads(sys.argv[1])
     used = {"python": platform.python_version()} | {name: version(name) for name in ("exudyn", "numpy")}
     print(json.dumps(used), flush=True)

@@ -1,8 +1,8 @@
 """PyElastica on one problem: `python with_pyelastica.py PROBLEM` prints, as JSON, the versions it uses, then an answer
 for each line of its input.
 
-It has no static solver: equilibria are reached by relaxation with the critical damping of the first mode.  Its first
-element straddles the wall, which is what makes its clamp second order.  Its step is nine tenths of the stable one.
+It has no static solver: relaxation with the critical damping of the first mode gives equilibria.  Its first element
+straddles the wall, which makes its clamp second order.  Its step is nine tenths of the stable one.
 """
 
 # mypy: ignore-errors
@@ -19,7 +19,7 @@ _MOST_ELEMENTS = 200  # of a motion: with 2000, 0.2 s take 440 000 steps
 
 
 class World(ea.BaseSystemCollection, ea.Constraints, ea.Forcing, ea.Damping):
-    """What of PyElastica is used."""
+    """The system of PyElastica, with its features."""
 
 
 def rod_of(problem):
@@ -109,7 +109,7 @@ def build(problem):
 
 
 def solve(problem, steps=None):
-    """One run: seconds of the stepping alone, and what came out; or so many steps of it, which compiles the kernels."""
+    """One run: seconds of the stepping alone, and the answer; or a given number of steps, to compile the kernels."""
     world, rod, step, duration = build(problem)
     count = steps or int(np.ceil(duration / step))
     stepper, now, times, tips = ea.PositionVerlet(), 0.0, [], []
@@ -134,7 +134,7 @@ def solve(problem, steps=None):
 
 
 def main():
-    """Say what is used, or {} of a problem that would take too long; then run once for every line that comes in."""
+    """Print the versions, or {} for a problem that would take too long; then run once for every line of input."""
     problem = json.loads(sys.argv[1])
     if problem["kind"] == "vibration" and problem["elements"] > _MOST_ELEMENTS:
         print("{}")

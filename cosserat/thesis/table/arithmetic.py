@@ -1,6 +1,6 @@
-"""Numbers of the page that follow from other numbers of the page: done again, with nothing solved.
+"""Numbers of the page that follow from other numbers of the page, computed again without a solver.
 
-These functions take no Dataset, so that no answer of a solver can stand in for the sum.
+These functions take no Dataset, so no answer of a solver can replace the arithmetic.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ def _mass() -> float:
 
 
 def _diameter() -> float:
-    """As Table 2.1 rounds it, with which section 2.8 goes on."""
+    """Rounded as in Table 2.1; section 2.8 uses this value."""
     return 2 * number("worm", "crawler.radius")
 
 
@@ -38,4 +38,4 @@ ARITHMETIC: dict[str, Callable[[], float]] = {
         np.pi / beams.first_frequency(beam("vibration_c4_20"))
     ),
 }
-"""Sums by the name that a row gives."""
+"""Functions by their names in the table."""

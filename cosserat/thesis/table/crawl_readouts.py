@@ -11,7 +11,7 @@ from cosserat.data.dataset import problem_of
 from cosserat.problems.crawl import Crawl
 from cosserat.thesis.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50
 from cosserat.thesis.table.printed import number, push_pull_rod
-from cosserat.thesis.table.reading import Reading
+from cosserat.thesis.table.reading import Measurement
 
 SLOPES = {"stride": 0.41, "speed": 0.33, "frequency": -0.07}
 """Powers of the body mass that Quillin measured on earthworms, the thesis's reference [50]; the thesis prints 0.4 for
@@ -24,7 +24,7 @@ def instants_per_stride(data: xr.Dataset) -> int:
 
 
 def segment(data: xr.Dataset) -> xr.Dataset:
-    """What is stored of segment 50."""
+    """Stored values of segment 50."""
     places = np.linspace(0, 1, data.sizes["section"])
     return data.isel(section=int(np.abs(places - SEGMENT_50).argmin()))
 
@@ -43,64 +43,64 @@ def at_phase(data: xr.Dataset, phase: float) -> xr.Dataset:
 
 
 def slope(data: xr.Dataset, variable: str) -> float:
-    """The power of the body mass with which a variable grows, by least squares of the logarithms."""
+    """The exponent of the body mass in a variable, by least squares of the logarithms."""
     return power(data, data[variable])
 
 
 def power(data: xr.Dataset, values: xr.DataArray) -> float:
-    """The same of any numbers above zero, one for each body mass."""
+    """The exponent of the body mass in any positive numbers, one for each body mass."""
     return float(np.polyfit(np.log(data.body_mass), np.log(values), 1)[0])
 
 
-def _at(variable: str, phase: float) -> Callable[[xr.Dataset], Reading]:
-    return lambda data: Reading(float(at_phase(data, phase)[variable]))
+def _at(variable: str, phase: float) -> Callable[[xr.Dataset], Measurement]:
+    return lambda data: Measurement(float(at_phase(data, phase)[variable]))
 
 
-def _ratio(variable: str) -> Callable[[xr.Dataset], Reading]:
+def _ratio(variable: str) -> Callable[[xr.Dataset], Measurement]:
     """Circular over longitudinal contraction, eq. (2.8.10)."""
 
-    def read(data: xr.Dataset) -> Reading:
+    def read(data: xr.Dataset) -> Measurement:
         circular, longitudinal = (float(at_phase(data, p)[variable]) for p in (CIRCULAR, LONGITUDINAL))
-        return Reading(circular / longitudinal)
+        return Measurement(circular / longitudinal)
 
     return read
 
 
-def _slope(variable: str) -> Callable[[xr.Dataset], Reading]:
-    """The power of the body mass, and the one that the literature gives."""
-    return lambda data: Reading(slope(data, variable), SLOPES[variable])
+def _slope(variable: str) -> Callable[[xr.Dataset], Measurement]:
+    """The exponent of the body mass, and that of the literature."""
+    return lambda data: Measurement(slope(data, variable), SLOPES[variable])
 
 
-def _strain_slope(number: int) -> Callable[[xr.Dataset], Reading]:
-    """The power of a strain as section 2.8 has it, between circular and longitudinal contraction; constant: zero."""
+def _strain_slope(number: int) -> Callable[[xr.Dataset], Measurement]:
+    """The exponent of a strain as in section 2.8, between circular and longitudinal contraction; constant: zero."""
 
-    def read(data: xr.Dataset) -> Reading:
+    def read(data: xr.Dataset) -> Measurement:
         circular, longitudinal = ("least", "most") if number == 1 else ("most", "least")
         ratio = data[f"mu_{number}_{circular}"] / data[f"mu_{number}_{longitudinal}"]
-        return Reading(power(data, abs(ratio - 1)), 0.0)
+        return Measurement(power(data, abs(ratio - 1)), 0.0)
 
     return read
 
 
-def _rest_pressure(data: xr.Dataset) -> Reading:
-    return Reading(float(data.p_coelom.isel(section=data.sizes["section"] // 2)))
+def _rest_pressure(data: xr.Dataset) -> Measurement:
+    return Measurement(float(data.p_coelom.isel(section=data.sizes["section"] // 2)))
 
 
-def _cycle_displacement(data: xr.Dataset) -> Reading:
-    """Of the soft robot in the cycle that is farthest from the closed form, and that form for the printed robot.
+def _cycle_displacement(data: xr.Dataset) -> Measurement:
+    """Displacement of the soft robot in the cycle farthest from the closed form, and that form for the printed robot.
 
-    The front goes on until gamma has a share T of the body left, and holds from then on.
+    The front advances until a fraction T of the body is left for gamma, and then holds.
     """
     rod = push_pull_rod()
     expected = rod.stretched_length(number("soft_robot", "T") * rod.length) - rod.stretched_length(
         rod.length
     )
     cycles = strides(data)
-    return Reading(float(cycles[np.abs(cycles - expected).argmax()]), expected)
+    return Measurement(float(cycles[np.abs(cycles - expected).argmax()]), expected)
 
 
-READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
-    "stride": lambda data: Reading(float(strides(data)[-1])),
+READOUTS: dict[str, Callable[[xr.Dataset], Measurement]] = {
+    "stride": lambda data: Measurement(float(strides(data)[-1])),
     "cycle_displacement": _cycle_displacement,
     "rest_pressure": _rest_pressure,
     "mu_1_circular": _at("mu_1", CIRCULAR),
@@ -113,15 +113,15 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "mu_3_ratio": _ratio("mu_3"),
     "stride_slope": _slope("stride"),
     "speed_slope": _slope("speed"),
-    "stride_exponent": lambda data: Reading(slope(data, "stride")),
+    "stride_exponent": lambda data: Measurement(slope(data, "stride")),
     "strain_across_slope": _strain_slope(1),
     "strain_along_slope": _strain_slope(3),
-    "fitted_young": lambda data: Reading(float(data.fitted_young)),
-    "fitted_anchoring_share": lambda data: Reading(
+    "fitted_young": lambda data: Measurement(float(data.fitted_young)),
+    "fitted_anchoring_share": lambda data: Measurement(
         float(data.fitted_anchoring) / number("worm", "D_peak")
     ),
-    "fitted_advancing_share": lambda data: Reading(
+    "fitted_advancing_share": lambda data: Measurement(
         float(data.fitted_advancing) / number("worm", "p_peak")
     ),
 }
-"""Read-outs by the name that a row gives."""
+"""Read-outs by their names in the table."""

@@ -1,4 +1,4 @@
-"""The errata table: where the page is wrong, silent or doubtful, what we take instead, and the test that shows it."""
+"""The errata table: where the page is wrong, silent or doubtful, our replacement, and the test of it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Erratum(Parameters):
 
     standing : "erratum" (the printed form fails something checkable that the corrected one meets), "assumption" (the
     page is silent or ambiguous), "question" (suspicious, not proven), "refuted" (looked wrong, is right).
-    evidence : the test that shows it, `file::function`.
+    evidence : the test of it, as "file::function".
     """
 
     where: str

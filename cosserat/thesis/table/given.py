@@ -1,4 +1,4 @@
-"""What a printed input is."""
+"""Inputs printed in the thesis."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from cosserat.units import to_si
 class Input:
     """One input as the page gives it.
 
-    value : a number as printed, with its unit; or what a sentence says (a direction, what a support holds).
+    value : a number as printed, with its unit; or the content of a sentence (a direction, the DOFs of a support).
     where : the place.
-    unit : SI unit of a number, "1" for a ratio; empty for all else.
-    assumed : where the page is silent or ambiguous, the entry of the errata that says what we take.
+    unit : SI unit of a number, "1" for a ratio; empty for other values.
+    assumed : if the page is silent or ambiguous, the entry of the errata with our assumption.
     """
 
     value: object
@@ -30,7 +30,7 @@ class Input:
 
     @property
     def plain(self) -> object:
-        """What a case must hold: the number in its SI unit, or the value itself."""
+        """The value for a case: the number in its SI unit, or the value itself."""
         return self.si if self.unit else self.value
 
 

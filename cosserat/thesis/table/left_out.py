@@ -1,4 +1,4 @@
-"""The list of what is left out of the thesis: numbered equations, figures, tables, and topics, each with a reason."""
+"""The list of omissions from the thesis: numbered equations, figures, tables and topics, each with a reason."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ KINDS = ("equations", "figures", "tables")
 
 
 class Numbered(Parameters):
-    """How many of each the thesis has: equations by section, figures and tables by chapter."""
+    """Numbers of equations by section, of figures and tables by chapter, in the thesis."""
 
     equations: dict[str, int]
     figures: dict[str, int]
@@ -66,7 +66,7 @@ class LeftOutList(Parameters):
         return [name for item in self.left_out for name in item.names(kind)]
 
     def kept(self, kind: str) -> tuple[int, int]:
-        """How many of a kind are not left out, and how many there are."""
+        """How many of a kind are included, and how many there are."""
         total = len(self.numbered.names(kind))
         return total - len(self.names(kind)), total
 
@@ -93,6 +93,6 @@ def read_left_out(path: Path) -> LeftOutList:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise InputError(
-            f"cannot read the list {path} of what is left out: {error}; restore it from the repository"
+            f"cannot read the list of omissions {path}: {error}; restore it from the repository"
         ) from None
     return LeftOutList.read(table, str(path))

@@ -51,11 +51,11 @@ _STANDINGS = {
     "recomputed": "arithmetic on other numbers of the page",
     "not attempted": "not attempted",
 }
-"""What came of a number, from the best down, in words."""
+"""Outcomes of a number in words, the best first."""
 
 
 def outcomes(report: Sequence[Mapping[str, str]]) -> dict[str, str]:
-    """What came of each number of the thesis, by the id of its first row: the best of its readings.
+    """Outcome of each number of the thesis, by the id of its first row: the best of its readings.
 
     report : the rows of a report of the thesis's own numbers, as texts.
     """
@@ -70,19 +70,19 @@ def outcomes(report: Sequence[Mapping[str, str]]) -> dict[str, str]:
 
 
 def distance(row: Mapping[str, str]) -> float:
-    """How far a row is from what is expected, as a share of that; of what is a share already, the difference."""
+    """Relative error of a row; for a row that is itself a ratio, the difference."""
     expected, error = float(row["expected"]), float(row["error"])
     return error if row["against"] or not expected else error / abs(expected)
 
 
 def summary(report: Sequence[Mapping[str, str]]) -> str:
-    """What came of the thesis's numbers, by how much those that are missed are off, and our own rod apart."""
+    """Summary: outcomes of the thesis's numbers, errors of the missed ones, and our own rod separately."""
     lines = [sentence(report)]
     missed = _missed(report)
     if missed:
         lines.append(
             "Missed, in the nearest reading by: "
-            + ", ".join(f"{number} {100 * share:.2g} %" for number, share in missed.items())
+            + ", ".join(f"{number} {100 * fraction:.2g} %" for number, fraction in missed.items())
         )
     of_thesis = _of_thesis(report)
     solved = [row for row in of_thesis if row["standing"] not in ("recomputed", "not attempted")]
@@ -100,13 +100,13 @@ def summary(report: Sequence[Mapping[str, str]]) -> str:
 
 
 def sentence(report: Sequence[Mapping[str, str]]) -> str:
-    """The sentence that the README has too."""
+    """The sentence of the README."""
     came = list(outcomes(_of_thesis(report)).values())
     parts = [f"{came.count(name)} {words}" for name, words in _STANDINGS.items() if name in came]
     missed = list(_missed(report).items())
     if missed:
-        number, share = missed[0]
-        worst = f"missed (the worst, {number}, by {100 * share:.2g} %)"
+        number, fraction = missed[0]
+        worst = f"missed (the worst, {number}, by {100 * fraction:.2g} %)"
         parts = [part.replace("missed", worst) for part in parts]
     sums = [row for row in _of_thesis(report) if row["standing"] == "recomputed"]
     others = len(sums) - _met(sums)
@@ -127,7 +127,7 @@ def _of_thesis(report: Sequence[Mapping[str, str]]) -> list[Mapping[str, str]]:
 
 
 def _missed(report: Sequence[Mapping[str, str]]) -> dict[str, float]:
-    """Numbers that no reading meets, and how far off the nearest is, worst first."""
+    """Numbers that no reading meets, with the error of the nearest reading, worst first."""
     rows = _of_thesis(report)
     far = {
         number: min(distance(row) for row in rows if number in (row["id"], row["reading_of"]))
@@ -150,7 +150,7 @@ def check(report: list[dict[str, str]]) -> str:
 
     Raises
     ------
-    OutOfToleranceError : some claim does not hold; names each row, what was expected and what was measured.
+    OutOfToleranceError : some claim does not hold; names each row, with its expected and its measured number.
     """
     failed = [
         f"{row['id']}: {row['quantity']}: published {row['published']}, expected {row['expected']} {row['units']}, "

@@ -1,8 +1,8 @@
-"""The power of the results table: inputs and physics are changed one at a time, and the rows that notice are named.
+"""The power of the results table: change inputs and physics one at a time, and name the rows that notice.
 
-A row notices a change if its claim no longer holds.  Each change is noticed by some row of the cases that it touches,
-or says why no number can; one that says so and is noticed after all says something wrong.  Rows of the thesis stand on
-cases of the thesis and those of our own rod on cases of its own, so that neither can answer for the other.
+A row notices a change if its claim no longer holds.  Either some row of the affected cases notices a change, or the
+change gives a reason why no number can; both together are an error.  Rows of the thesis use cases of the thesis, rows
+of our own rod use its own cases, so neither can replace the other.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ _SHOWN = 3  # rows that a line names
 class Change:
     """One change of some cases.
 
-    what : in a few words.  cases : whose rows are asked.
-    places, edit : inputs of the cases that are changed, such as "rod.young", and how.
-    physics : a context in which the mechanics is another.
+    what : in a few words.  cases : whose rows are judged.
+    places, edit : the changed inputs of the cases, such as "rod.young", and the change.
+    physics : a context with different mechanics.
     unseen : why no printed number can see the change.
     """
 
@@ -57,12 +57,12 @@ class Noticed:
 
     @property
     def sound(self) -> bool:
-        """Whether a row notices, or none can and that is said."""
+        """Whether a row notices, or a reason says that none can."""
         return bool(self.rows) != bool(self.change.unseen)
 
 
 def changes() -> tuple[Change, ...]:
-    """All that are tried, in the order of the thesis."""
+    """All changes, in the order of the thesis."""
     from cosserat.thesis.table import power_crawlers, power_rods
 
     return power_crawlers.CHANGES + power_rods.CHANGES
@@ -83,11 +83,11 @@ def edited(case: Case, change: Change) -> Case:
 
 
 def notices(change: Change, rows: Sequence[Row]) -> Noticed:
-    """Which rows notice; those of a case that no longer has an answer all do.
+    """The rows that notice: all rows of a case that no longer has an answer.
 
     Raises
     ------
-    InputError : the change is no case, so that nothing was tried.
+    InputError : the changed case is invalid, so nothing was tried.
     """
     found: list[str] = []
     with change.physics():
@@ -105,7 +105,7 @@ def notices(change: Change, rows: Sequence[Row]) -> Noticed:
 
 
 def _named(item: Judged) -> str:
-    """The id of a row, and how far it is out of what it allows."""
+    """The id of a row, and its error over its tolerance."""
     if item.row.claim == "within":
         return f"{item.row.id} ({item.error_over_tolerance:.2g})"
     assert item.measured is not None
@@ -115,7 +115,7 @@ def _named(item: Judged) -> str:
 
 
 def table(rows: Sequence[Row], words: Sequence[str] = ()) -> Iterator[Noticed]:
-    """Each change whose description has one of the words, and which rows notice it.
+    """Each change whose description has one of the words, and the rows that notice it.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What is changed in the crawlers of Chapter 2 to see whether the results table notices."""
+"""Changes of the crawlers of Chapter 2 that the results table should notice."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def _mu_3_as_printed() -> contextlib.AbstractContextManager[object]:
         mu: Array, n: Array, c: Array, g: float, p: float, m: float, printed_contact: bool
     ) -> tuple[Array, Array, Array]:
         f, df, mu_3 = known(mu, n, c, g, p, m, printed_contact)
-        shorter = np.where(c != 0, 2 * p, 0.0)  # what mu_3 loses
+        shorter = np.where(c != 0, 2 * p, 0.0)  # the loss of mu_3
         return f - (p * g * shorter)[:, None], df, mu_3 - shorter
 
     known = crawler._compressible
@@ -130,7 +130,7 @@ def _without_the_passive_part(problem: Crawl, mu: Array, reactive: Array) -> Arr
 
 
 def _power_of_mass(name: str, more: float) -> Physics:
-    """A law of Table 2.1 with another exponent, the same at 10 g."""
+    """A law of Table 2.1 with another exponent and the same value at 10 g."""
 
     @contextlib.contextmanager
     def physics() -> Iterator[None]:

@@ -1,4 +1,4 @@
-"""What is changed in the rods of Chapter 3 to see whether the results table notices."""
+"""Changes of the rods of Chapter 3 that the results table should notice."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def _calibration(
     physics: Physics = contextlib.nullcontext,
     unseen: str = "",
 ) -> Change:
-    """A change of the problems that are fitted, at the published number of vertices alone."""
+    """A change of the fitted problems, at the published number of vertices only."""
 
     def edited(value: Any) -> Any:
         if isinstance(value, tuple | list):  # the numbers of vertices
@@ -101,7 +101,7 @@ def _calibration(
 
 
 def scaled(name: str, factor: float) -> Physics:
-    """A property or method of the rod that is too large by a factor."""
+    """A property or method of the rod, too large by a factor."""
 
     @contextlib.contextmanager
     def physics() -> Iterator[None]:
@@ -153,7 +153,7 @@ def square_of_the_angle() -> contextlib.AbstractContextManager[None]:
 
 @contextlib.contextmanager
 def current_curvature() -> Iterator[None]:
-    """kappa in place of mu kappa, where the centreline is prescribed: k3 over the square of its stretch.
+    """kappa in place of mu kappa for a prescribed centreline: k3 over the square of its stretch.
 
     The moments are then those of k3/2 kappa^2 L; the forces along the edges, which no row reads, are not.
     """
@@ -290,4 +290,4 @@ CHANGES: tuple[Change, ...] = (
         )
     ],
 )
-"""Each is tried by itself."""
+"""Changes of the rods, each tried by itself."""

@@ -1,8 +1,8 @@
-"""What the thesis prints as inputs of Chapters 2 and 3: the one second copy of its numbers that the project allows.
+"""Inputs printed in Chapters 2 and 3 of the thesis: the only second copy of its numbers in the project.
 
-The case files hold the same numbers, and a test holds each case of the thesis to this module.  Closed forms that rows
-are judged by take their beams and loads from here, never from the case that was solved: where a case has another
-modulus than the page, its answer moves and what is expected does not.
+The case files hold the same numbers, and a test compares each case of the thesis with this module.  Closed forms for
+rows take their beams and loads from here, never from the solved case: if a case has another modulus than the page, its
+answer changes and the expected number does not.
 """
 
 from __future__ import annotations
@@ -134,18 +134,18 @@ OURS = (
     "strides",
     "step",
 )
-"""Keys of a case that say how it is solved and what is stored, on which the page says nothing."""
+"""Keys of a case for the solver and the stored values, where the page is silent."""
 
 
 def number(case: str, place: str) -> float:
-    """A printed number in its SI unit: of a case ("necking", "forces.1.force"), or one that inputs are made of."""
+    """A printed number in its SI unit: of a case ("necking", "forces.1.force"), or a source of inputs."""
     given = PRINTED[case].get(place) or BEHIND[case][place]
     return given.si
 
 
 @functools.cache
 def beam(case: str) -> Beam:
-    """The beam of a case of Chapter 3 as the closed forms know it; I = W H^3 / 12 of the printed rectangle."""
+    """The beam of a case of Chapter 3 for the closed forms; I = W H^3 / 12 of the printed rectangle."""
     wide, high = number(case, "rod.width"), number(case, "rod.height")
     return Beam(
         length=number(case, "rod.length"),
@@ -159,7 +159,7 @@ def beam(case: str) -> Beam:
 
 
 def push_pull_rod() -> PushPullRod:
-    """The soft robot as its closed form knows it, the stiffnesses by eq. (2.6.20) of the printed E, nu and R."""
+    """The soft robot for its closed form, the stiffnesses by eq. (2.6.20) from the printed E, nu and R."""
     robot = functools.partial(number, "soft_robot")
     radius = robot("crawler.radius")
     area, poisson = np.pi * radius**2, robot("crawler.material.poisson")

@@ -1,4 +1,4 @@
-"""What the thesis prints as inputs of Chapter 2; see `printed`."""
+"""Inputs printed in Chapter 2 of the thesis; see `cosserat.thesis.table.printed`."""
 
 from __future__ import annotations
 
@@ -162,4 +162,4 @@ BEHIND: Mapping[str, Inputs] = {
         "segment 50": Input("2/5", "after eq. (2.8.6), from the anterior end", "1"),
     },
 }
-"""Printed numbers that are inputs of no case themselves; inputs are made of them."""
+"""Printed numbers that are not inputs of a case themselves, but sources of inputs."""

@@ -1,4 +1,4 @@
-"""What a read-out gives back."""
+"""The result of a read-out."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Reading:
-    """measured, in the unit of the row; expected, where not the published number itself is what is expected."""
+class Measurement:
+    """measured, in the unit of the row; expected : None for the published number itself."""
 
     measured: float
     expected: float | None = None

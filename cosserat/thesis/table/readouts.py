@@ -1,8 +1,8 @@
 """Named read-outs: a Dataset in, one measured number and, where a closed form judges it, the number expected.
 
-A row of `results/tolerances.csv` names its read-out here.  Shares of a curve are largest deviations over the vertices
-divided by the largest ordinate of the closed form.  Closed forms take their beam and loads from
-`thesis.table.printed`, not from the case that was solved, unless they are handed another beam.
+A row of `results/tolerances.csv` names its read-out here.  Relative deviations of a curve are the largest over the
+vertices divided by the largest ordinate of the closed form.  Closed forms take their beam and loads from
+`thesis.table.printed`, not from the solved case, unless another beam is given.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from cosserat.exact import beams, elastica
 from cosserat.rods.problem import RodProblem
 from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table import crawl_readouts, printed
-from cosserat.thesis.table.reading import Reading
+from cosserat.thesis.table.reading import Measurement
 
 Array = NDArray[np.float64]
 
@@ -45,12 +45,12 @@ def midspan(values: Array) -> float:
 
 
 def vertices_of(data: xr.Dataset, beam: beams.Beam) -> Array:
-    """Where the vertices of a uniform rod of the beam's length are, shape (N,) [m]."""
+    """Arc lengths of the vertices of a uniform rod of the beam's length, shape (N,) [m]."""
     return np.linspace(0.0, beam.length, data.sizes["vertex"])
 
 
 def half_height(beam: beams.Beam) -> float:
-    """Where the lateral surface of a rectangle stands, H/2 = sqrt(3 I / A) [m]."""
+    """Distance of the lateral surface of a rectangle from its middle, H/2 = sqrt(3 I / A) [m]."""
     return float(np.sqrt(3 * beam.second_moment / beam.area))
 
 
@@ -105,25 +105,25 @@ def necking_curve(
     return data.lam.to_numpy() - 1, exact
 
 
-def at_tip(curves: tuple[Array, Array]) -> Reading:
+def at_tip(curves: tuple[Array, Array]) -> Measurement:
     """Both curves at the last vertex."""
-    return Reading(float(curves[0][-1]), float(curves[1][-1]))
+    return Measurement(float(curves[0][-1]), float(curves[1][-1]))
 
 
-def at_midspan(curves: tuple[Array, Array]) -> Reading:
+def at_midspan(curves: tuple[Array, Array]) -> Measurement:
     """Both curves at mid-span."""
-    return Reading(midspan(curves[0]), midspan(curves[1]))
+    return Measurement(midspan(curves[0]), midspan(curves[1]))
 
 
-def largest_share(curves: tuple[Array, Array]) -> Reading:
-    """Largest deviation of two curves as a share of the largest ordinate of the second."""
+def largest_deviation(curves: tuple[Array, Array]) -> Measurement:
+    """Largest deviation of two curves over the largest ordinate of the second."""
     computed, exact = curves
-    return Reading(float(np.abs(computed - exact).max() / np.abs(exact).max()), 0.0)
+    return Measurement(float(np.abs(computed - exact).max() / np.abs(exact).max()), 0.0)
 
 
 def period(times: Array, values: Array) -> float:
     """Period of the sinusoid that fits a record best, in least squares, near its strongest line [s]."""
-    from scipy.optimize import minimize_scalar  # 0.3 s: only where it is used
+    from scipy.optimize import minimize_scalar  # takes 0.3 s: only here
 
     line = np.abs(np.fft.rfft(values - values.mean()))
     step = times[1] - times[0]
@@ -143,19 +143,19 @@ def period(times: Array, values: Array) -> float:
     return float(2 * np.pi / best.x)
 
 
-def _kinetic_energy_period(data: xr.Dataset) -> Reading:
-    return Reading(period(data.time.to_numpy(), data.kinetic_energy.to_numpy()))
+def _kinetic_energy_period(data: xr.Dataset) -> Measurement:
+    return Measurement(period(data.time.to_numpy(), data.kinetic_energy.to_numpy()))
 
 
-def _displacement_period(data: xr.Dataset) -> Reading:
+def _displacement_period(data: xr.Dataset) -> Measurement:
     tip = data.x.sel(axis="E2").isel(vertex=-1).to_numpy()
-    return Reading(period(data.time.to_numpy(), tip))
+    return Measurement(period(data.time.to_numpy(), tip))
 
 
-def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Reading]:
-    """A coefficient as the calibration recovers it at the published number of vertices."""
+def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Measurement]:
+    """A coefficient by the calibration at the published number of vertices."""
 
-    def read(data: xr.Dataset) -> Reading:
+    def read(data: xr.Dataset) -> Measurement:
         meshes = data.vertices.to_numpy().tolist()
         published = printed.number("clamped_free", "rod.vertices")
         if published not in meshes:
@@ -164,17 +164,17 @@ def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Reading
             )
         fitted = data[f"{problem}_coefficients"].isel(mesh=meshes.index(published))
         (dim,) = fitted.dims
-        return Reading(float(fitted.sel({dim: coefficient})))
+        return Measurement(float(fitted.sel({dim: coefficient})))
 
     return read
 
 
-def _elongation(data: xr.Dataset) -> Reading:
-    """How much longer the necked bar is, and n L / EA of a bar without held sections [m]."""
+def _elongation(data: xr.Dataset) -> Measurement:
+    """Elongation of the necked bar, and n L / EA of a bar without fixed sections [m]."""
     beam = printed.beam("necking")
     along = data.u.sel(axis="E3").to_numpy()
     pull = printed.number("necking", "forces.1.force")
-    return Reading(float(along[-1] - along[0]), pull * beam.length / beam.axial_stiffness)
+    return Measurement(float(along[-1] - along[0]), pull * beam.length / beam.axial_stiffness)
 
 
 def _uniform(stretch: float) -> float:
@@ -182,16 +182,16 @@ def _uniform(stretch: float) -> float:
     return 2 * stretch - 1 - 1 / stretch**2
 
 
-def _stretched(data: xr.Dataset) -> Reading:
+def _stretched(data: xr.Dataset) -> Measurement:
     """Largest deviation of the two edges from stretches of 2 and 1/2.
 
     derived: n = k1/2 (2 mu - 1 - mu^-2) with k1 = c1 EA, c1 = 1/2: 11/16 EA at the first and -EA at the other.
     """
-    return Reading(float(np.abs(data.mu_edge.to_numpy() - [2.0, 0.5]).max()), 0.0)
+    return Measurement(float(np.abs(data.mu_edge.to_numpy() - [2.0, 0.5]).max()), 0.0)
 
 
-def _thinned(data: xr.Dataset) -> Reading:
-    """Force along a director in the middle of a rod whose sections are all held at half their height [N].
+def _thinned(data: xr.Dataset) -> Measurement:
+    """Force along a director in the middle of a rod whose sections are all fixed at half their height [N].
 
     derived: k2/2 (2 lambda - 1 - lambda^-2) L / |D| with k2 = c2 EA and |D| = H/2.
     """
@@ -199,10 +199,10 @@ def _thinned(data: xr.Dataset) -> Reading:
     part = beam.length / (data.sizes["vertex"] - 1)
     k2 = printed.number("clamped_free", "rod.calibration.c2") * beam.axial_stiffness
     force = float(data.support_force.sel(dof="d2").isel(vertex=1))
-    return Reading(force, k2 / 2 * _uniform(0.5) * part / half_height(beam))
+    return Measurement(force, k2 / 2 * _uniform(0.5) * part / half_height(beam))
 
 
-def _sheared(data: xr.Dataset) -> Reading:
+def _sheared(data: xr.Dataset) -> Measurement:
     """Force across the tip of a rod sheared by 45 degrees [N].
 
     derived: with tan(theta) = g and mu^2 = 1 + g^2, minus the derivative of k1/2 (mu^2 - mu + 1/mu) + k4/2 g^2 by g.
@@ -210,11 +210,11 @@ def _sheared(data: xr.Dataset) -> Reading:
     beam, stretch = printed.beam("clamped_free"), np.sqrt(2.0)
     c1, c4 = (printed.number("clamped_free", f"rod.calibration.{c}") for c in ("c1", "c4"))
     expected = c4 * beam.shear_stiffness + c1 * beam.axial_stiffness / 2 * _uniform(stretch) / stretch
-    return Reading(float(data.support_force.sel(dof="x2")[-1]), float(expected))
+    return Measurement(float(data.support_force.sel(dof="x2")[-1]), float(expected))
 
 
-def _inflated(data: xr.Dataset) -> Reading:
-    """Moment at the middle vertex of two edges that turn by arctan(4/3), whatever their stretch [N m].
+def _inflated(data: xr.Dataset) -> Measurement:
+    """Moment at the middle vertex of two edges with a turning angle of arctan(4/3), for any stretch [N m].
 
     derived: the derivative by phi of 2 k3/L tan^2(phi/2), which is k3/2 (mu kappa)^2 L by eqs. (3.3.20), (3.3.23);
     here tan(phi/2) = 1/2.
@@ -224,39 +224,40 @@ def _inflated(data: xr.Dataset) -> Reading:
     part = beam.length / (data.sizes["vertex"] - 1)
     edge = np.diff(data.x.to_numpy(), axis=0)[-1]
     force = data.support_force.sel(dof=["x3", "x2"])[-1].to_numpy()
-    return Reading(float(edge[0] * force[1] - edge[1] * force[0]), 2 * k3 / part * 0.5 * (1 + 0.5**2))
+    moment = edge[0] * force[1] - edge[1] * force[0]
+    return Measurement(float(moment), 2 * k3 / part * 0.5 * (1 + 0.5**2))
 
 
-def buckling_share(data: xr.Dataset) -> Array:
-    """Axial load of a clamped-free column as a share of Euler's, pi^2 EI / (4 L^2), at every point of its path."""
+def buckling_ratio(data: xr.Dataset) -> Array:
+    """Axial load of a clamped-free column over Euler's, pi^2 EI / (4 L^2), at every point of its path."""
     problem = problem_of(data, RodProblem)
     beam = beam_of(problem)
     euler = np.pi**2 / 4 * beam.bending_stiffness / beam.length**2
-    share: Array = data.load_factor.to_numpy() * problem.forces[0].force / euler
-    return share
+    fraction: Array = data.load_factor.to_numpy() * problem.forces[0].force / euler
+    return fraction
 
 
-def _elastica_tip(data: xr.Dataset) -> Reading:
-    """Sideways displacement of the tip of a rod of one metre, and that of Reissner's with P L^2 / EI = 10."""
+def _elastica_tip(data: xr.Dataset) -> Measurement:
+    """Lateral displacement of the tip of a rod of one metre, and that of Reissner's with P L^2 / EI = 10."""
     axial = 4 / THIN**2  # EA L^2 / EI
     exact, _ = elastica.shearable_tip(10.0, axial, 5 / 6 / 2 * axial)
-    return Reading(float(data.u.sel(axis="E2")[-1]), exact)
+    return Measurement(float(data.u.sel(axis="E2")[-1]), exact)
 
 
-def _column_tip(data: xr.Dataset) -> Reading:
+def _column_tip(data: xr.Dataset) -> Measurement:
     """Tip of a column of one metre, and that of the exact elastica at twice Euler's load, pi^2 EI / (4 L^2)."""
     exact = elastica.column_tip(2 * np.pi**2 / 4)[0]
-    return Reading(abs(float(data.x.sel(axis="E2")[-1, -1])), exact)
+    return Measurement(abs(float(data.x.sel(axis="E2")[-1, -1])), exact)
 
 
-def _timoshenko_period(data: xr.Dataset) -> Reading:
+def _timoshenko_period(data: xr.Dataset) -> Measurement:
     exact = 2 * np.pi / elastica.timoshenko_frequencies(printed.beam("vibration_c4_20"), 1)[0]
-    return Reading(_displacement_period(data).measured, float(exact))
+    return Measurement(_displacement_period(data).measured, float(exact))
 
 
-def _roll_up(data: xr.Dataset) -> Reading:
+def _roll_up(data: xr.Dataset) -> Measurement:
     """Distance of the end from the start of a rod of one metre."""
-    return Reading(float(np.hypot(*data.x[-1].to_numpy())), 0.0)
+    return Measurement(float(np.hypot(*data.x[-1].to_numpy())), 0.0)
 
 
 Curve = Callable[[xr.Dataset, beams.Beam | None], tuple[Array, Array]]
@@ -268,21 +269,21 @@ _CURVES: dict[str, Curve] = {
 }
 
 
-def _of_a_beam(curve: Curve, case: str) -> Callable[[xr.Dataset], Reading]:
+def _of_a_beam(curve: Curve, case: str) -> Callable[[xr.Dataset], Measurement]:
     """Largest deviation of a curve from that of the beam of another case."""
-    return lambda data: largest_share(curve(data, printed.beam(case)))
+    return lambda data: largest_deviation(curve(data, printed.beam(case)))
 
 
-READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
+READOUTS: dict[str, Callable[[xr.Dataset], Measurement]] = {
     "hanging_bar_tip": lambda data: at_tip(hanging_bar_curve(data)),
-    "hanging_bar_profile": lambda data: largest_share(hanging_bar_curve(data)),
-    "largest_director_displacement": lambda data: Reading(float(np.abs(data.delta).max()), 0.0),
+    "hanging_bar_profile": lambda data: largest_deviation(hanging_bar_curve(data)),
+    "largest_director_displacement": lambda data: Measurement(float(np.abs(data.delta).max()), 0.0),
     "clamped_free_tip": lambda data: at_tip(clamped_free_curve(data)),
-    "clamped_free_profile": lambda data: largest_share(clamped_free_curve(data)),
-    "clamped_free_directors": lambda data: largest_share(clamped_free_directors(data)),
+    "clamped_free_profile": lambda data: largest_deviation(clamped_free_curve(data)),
+    "clamped_free_directors": lambda data: largest_deviation(clamped_free_directors(data)),
     "clamped_clamped_midspan": lambda data: at_midspan(clamped_clamped_curve(data)),
-    "clamped_clamped_profile": lambda data: largest_share(clamped_clamped_curve(data)),
-    "clamped_clamped_directors": lambda data: largest_share(clamped_clamped_directors(data)),
+    "clamped_clamped_profile": lambda data: largest_deviation(clamped_clamped_curve(data)),
+    "clamped_clamped_directors": lambda data: largest_deviation(clamped_clamped_directors(data)),
     **{
         f"{name}_k_1": _of_a_beam(curve, f"{beam}_k_1")
         for beam in ("clamped_free", "clamped_clamped")
@@ -304,7 +305,7 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "kinetic_energy_period": _kinetic_energy_period,
     "displacement_period": _displacement_period,
     "necking_midspan": lambda data: at_midspan(necking_curve(data)),
-    "necking_profile": lambda data: largest_share(necking_curve(data)),
+    "necking_profile": lambda data: largest_deviation(necking_curve(data)),
     "necking_elongation": _elongation,
     "stretched": _stretched,
     "thinned": _thinned,
@@ -314,7 +315,7 @@ READOUTS: dict[str, Callable[[xr.Dataset], Reading]] = {
     "column_tip": _column_tip,
     "timoshenko_period": _timoshenko_period,
     "roll_up": _roll_up,
-    "necking_free_section": lambda data: largest_share(necking_curve(data, "free section")),
+    "necking_free_section": lambda data: largest_deviation(necking_curve(data, "free section")),
     **crawl_readouts.READOUTS,
 }
-"""Read-outs by the name that a row gives."""
+"""Read-outs by their names in the table."""

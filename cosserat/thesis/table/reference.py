@@ -1,4 +1,4 @@
-"""Stored results of every case: whether anything moved, and how a new result is accepted."""
+"""Stored results of every case: their comparison with fresh ones, and their replacement."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
 
 RELATIVE = 1e-9
-"""Change allowed in a variable, as a share of its largest stored value; the variable's rounding floor comes on top."""
+"""Change allowed in a variable, relative to its largest stored value; the variable's round-off floor is added."""
 
 _MAY_DIFFER = (
     "source",
     "environment",
     "solver",
     "history",
-)  # where it was computed and how many steps that took
+)  # machine and number of steps
 
 
 @dataclass(frozen=True)
 class Change:
-    """The largest change of one variable, where it is, and what was allowed, in the variable's unit."""
+    """The largest change of one variable, its place, and the allowed change, in the variable's unit."""
 
     variable: str
     units: str
@@ -46,7 +46,7 @@ class Change:
 
 
 def thin(dataset: xr.Dataset) -> xr.Dataset:
-    """What is stored of a result: about as many values along each dimension as its kind of problem says."""
+    """The stored part of a result: about as many values along each dimension as its kind of problem sets."""
     for dim, count in case_of(dataset).problem.thinned.items():
         if dim in dataset.sizes:
             every = max(1, (dataset.sizes[dim] - 1) // count)
@@ -55,7 +55,7 @@ def thin(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
-    """Changes of every variable, of a fresh result as `thin` leaves it.
+    """Changes of every variable of a fresh result after `thin`.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
         )
     for key in sorted((set(fresh.attrs) | set(stored.attrs)) - set(_MAY_DIFFER)):
         if key == "parameters" and case_of(fresh) == case_of(stored):
-            continue  # equal also where a parameter has come since, at its default
+            continue  # also equal if a new parameter has its default
         if fresh.attrs.get(key) != stored.attrs.get(key):
             raise InputError(
                 f"attribute '{key}' differs: {fresh.attrs.get(key)!r}, stored {stored.attrs.get(key)!r}"
@@ -96,7 +96,7 @@ def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset) -> Change:
 
 
 def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
-    """Store a Dataset as the reference of its case, with the reason; returns what changed, largest first.
+    """Store a Dataset as the reference of its case, with the reason; returns the changes, largest first.
 
     Raises
     ------
@@ -118,6 +118,6 @@ def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
                 for change in sorted(changes, key=lambda c: c.largest / c.allowed, reverse=True)
             ]
         except InputError as error:
-            report = [f"not comparable with what was stored: {error}"]
+            report = [f"not comparable with the stored reference: {error}"]
     save(thin(fresh).assign_attrs(history=history), path)
     return report

@@ -1,6 +1,6 @@
-"""The results table: one row for each number or curve that the thesis publishes, and how it is judged.
+"""The results table: one row for each published number or curve of the thesis, with its judgement.
 
-`results/tolerances.csv` is written by hand; `report.csv` is the same rows with what was measured.
+`results/tolerances.csv` is written by hand; `report.csv` has the same rows with the measured numbers.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ from cosserat.units import to_si
 Standing = Literal["reproduced", "erratum", "assumption", "recomputed", "not attempted"]
 Kind = Literal["printed", "analytic", "in words", "literature", "arithmetic"]
 
-_PRINTED = ("printed", "arithmetic")  # kinds whose published text is the number expected
-_LOOSE = 1e-3  # an error this small a share of its tolerance shows that the tolerance hides more than it allows
+_PRINTED = ("printed", "arithmetic")  # kinds whose published text is the expected number
+_LOOSE_RATIO = 1e-3  # ratio of error to tolerance below which the tolerance is loose
 
 
 class Row(Parameters):
     """One published number or curve.
 
-    published : the text exactly as printed, or what stands in its place where nothing is.
+    published : the text exactly as printed, or a description if nothing is printed.
     kind : "printed" numbers are compared with that text; "analytic" ones with a closed form, the page's or another
-    exact one; "in words" with what the sentence says; "literature" with what a source of the page measured and the page
-    does not print.  In these three the read-out knows what is expected.  "arithmetic" numbers follow from others of the
-    page: nothing is solved, no case is read, and they stand as "recomputed", which is less than "reproduced".
-    claim : whether we say that the measured number lies within the tolerance.
-    found, found_tolerance : outside it, the number that we say is measured in its place, and how closely, both in the
-    row's unit.
-    reading_of : the row that has the same published number in the reading that we take; this one is of another.
-    against : the published number of another row, in its SI unit, which the table names by its id; what is measured is
-    then the distance of the read-out from that number, as a share of it.
+    exact one; "in words" with the statement; "literature" with a measurement of a source of the page that the page does
+    not print.  In these three the read-out gives the expected number.  "arithmetic" numbers follow from others of the
+    page: nothing is solved, no case is read, and their standing is "recomputed", which is less than "reproduced".
+    claim : whether the measured number should lie within the tolerance.
+    found, found_tolerance : for a claim outside it, the number measured instead, and its tolerance, both in the row's
+    unit.
+    reading_of : the row with the same published number in our reading; this row is another reading.
+    against : the published number of another row, in its SI unit; the table gives that row's id.  The measured number
+    is then the relative distance of the read-out from it.
     """
 
     id: str
@@ -113,19 +113,19 @@ class Row(Parameters):
 
     @property
     def expected(self) -> float | None:
-        """The published text as a number in the row's unit; None if a read-out has to say what is expected."""
+        """The published text as a number in the row's unit; None if the read-out gives the expected number."""
         if self.kind not in _PRINTED:
             return None
         return to_si(self.published, self.units, unit_required=False)
 
     @property
     def ours(self) -> bool:
-        """Whether it is of the project's own rod and not a number of the thesis."""
+        """Whether it belongs to the project's own rod and not to the thesis."""
         return self.id.startswith("C-")
 
 
 class Judged(Parameters):
-    """A row beside what was measured."""
+    """A row with its measured number."""
 
     row: Row
     expected: float | None = None
@@ -140,7 +140,7 @@ class Judged(Parameters):
 
     @property
     def error_over_tolerance(self) -> float | None:
-        """The error as a multiple of what the tolerance allows."""
+        """The error over the tolerance."""
         if self.error is None or self.expected is None or self.row.tolerance is None:
             return None
         scale = abs(self.expected) if self.row.tolerance_kind == "rel" else 1.0
@@ -148,9 +148,9 @@ class Judged(Parameters):
 
     @property
     def holds(self) -> bool:
-        """Whether the claim of the row is true; a number that is not finite makes no claim true.
+        """Whether the claim of the row is true; with a non-finite number it is not.
 
-        A number claimed outside the published tolerance has to lie there, and as near to `found` as the row says.
+        A number claimed outside the published tolerance must lie outside it, and within `found_tolerance` of `found`.
         """
         ratio, row = self.error_over_tolerance, self.row
         if row.standing == "not attempted":
@@ -173,7 +173,7 @@ class Judged(Parameters):
         if self.row.claim == "outside":
             return "outside, as claimed"
         ratio = self.error_over_tolerance
-        return "within, loose" if ratio is not None and 0 < ratio < _LOOSE else "within"
+        return "within, loose" if ratio is not None and 0 < ratio < _LOOSE_RATIO else "within"
 
 
 VERDICTS = ("within", "within, loose", "outside, as claimed", "not attempted", "FAILS")
@@ -185,7 +185,7 @@ def read_table(path: Path) -> list[Row]:
 
     Raises
     ------
-    InputError : the file is missing, a row is not valid, or an id stands twice.
+    InputError : the file is missing, a row is not valid, or an id occurs twice.
     """
     try:
         with path.open(encoding="utf-8", newline="") as file:
@@ -207,14 +207,14 @@ def read_table(path: Path) -> list[Row]:
     twice = sorted({name for name in ids if ids.count(name) > 1})
     if twice:
         raise InputError(
-            f"{path}: the id {', '.join(twice)} stands more than once; give each row its own"
+            f"{path}: the id {', '.join(twice)} occurs more than once; give each row its own"
         )
     _check_readings(rows, path)
     return rows
 
 
 def _check_readings(rows: list[Row], path: Path) -> None:
-    """Another reading is of a row of the table that is no reading itself and has the same published text."""
+    """Check that each other reading names a first reading with the same published text."""
     known = {row.id: row for row in rows}
     for row in rows:
         if not row.reading_of:
@@ -228,7 +228,7 @@ def _check_readings(rows: list[Row], path: Path) -> None:
 
 
 def _published_by(wanted: str, lines: list[dict[str, str]], name: str) -> float:
-    """The published number of the line with that id, in its SI unit; `name` is the row that asks."""
+    """The published number of the line with that id, in its SI unit; `name` : the row that refers to it."""
     for line in lines:
         if line.get("id") == wanted and line.get("kind") in _PRINTED:
             return to_si(line["published"], line["units"], unit_required=False)
@@ -236,7 +236,7 @@ def _published_by(wanted: str, lines: list[dict[str, str]], name: str) -> float:
 
 
 def write_report(judged: list[Judged], path: Path) -> None:
-    """Write the joined table; numbers with six digits, which is more than any tolerance resolves."""
+    """Write the joined table; numbers with six digits, more than any tolerance resolves."""
     lines = []
     for item in judged:
         line = {name: getattr(item.row, name) for name in Row.model_fields}
