@@ -103,7 +103,7 @@ def test_the_frequency_of_one_number_is_that_of_its_curvature():
     system = snapping(0.3, mass=2.0)
     point = solve_full_load(solver_of(system))
     right = np.sqrt((3 * (point.q[0] - 1) ** 2 - 1) / 2)
-    found = modes(system, point.q, 1, "the body", anchored=True)
+    found = modes(system, point.q, 1, "the body", supported=True)
     np.testing.assert_allclose(found.angular_frequency, right, rtol=1e-12)
     np.testing.assert_allclose(found.shape, 1 / np.sqrt(2), rtol=1e-12)
     assert highest_frequency(system, point.q) == pytest.approx(right)
@@ -145,7 +145,7 @@ def test_numbers_that_only_their_mass_couples_move_as_the_exponential_says(metho
     right = shapes @ (np.cos(3 * np.sqrt(squared)) * (shapes.T @ to_dense(band) @ start.q))
     end, _ = moved(system, start, 3.0, method, 1e-3)
     np.testing.assert_allclose(end.q, right, atol=1e-5 if method == "implicit" else 1e-9)
-    found = modes(system, np.zeros(n), n, "the body", anchored=True).angular_frequency
+    found = modes(system, np.zeros(n), n, "the body", supported=True).angular_frequency
     np.testing.assert_allclose(found, np.sqrt(squared), rtol=1e-12)
 
 
@@ -210,10 +210,10 @@ def test_the_hessian_of_points_is_the_slope_of_their_gradient():
 def test_a_tetrahedron_has_six_zero_modes_and_the_frequencies_of_a_molecule():
     """Of four equal masses with central forces: omega^2 m / k = 1, 1, 2, 2, 2, 4 (Herzberg 1945, P4)."""
     system, q = tetrahedron(), TETRAHEDRON.ravel()
-    found = modes(system, q, 12, "the body", anchored=False).angular_frequency
+    found = modes(system, q, 12, "the body", supported=False).angular_frequency
     np.testing.assert_array_equal(found[:6], 0.0)
     np.testing.assert_allclose(found[6:] ** 2 * 0.7 / 3, [1, 1, 2, 2, 2, 4], rtol=1e-12)
-    assert first_elastic_frequency(system, q, anchored=False) == pytest.approx(found[6])
+    assert first_elastic_frequency(system, q, supported=False) == pytest.approx(found[6])
     for motion in system.space.rigid_motions(q):
         np.testing.assert_allclose(hessian(system, q)[1] @ motion, 0.0, atol=1e-12)
 

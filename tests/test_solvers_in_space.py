@@ -183,7 +183,7 @@ def test_a_free_rod_has_six_zero_frequencies_and_those_of_a_beam_in_both_planes(
     for edges in (10, 20):
         rod = straight(edges + 1, radii=radii)
         system = rod.system()
-        found.append(modes(system, system.space.reference, 8, "rod", anchored=False).angular_frequency)
+        found.append(modes(system, system.space.reference, 8, "rod", supported=False).angular_frequency)
     np.testing.assert_array_equal(np.array(found)[:, :6], 0.0)
     right = free_beam(1) ** 2 * np.sort(radii)
     errors = np.array(found)[:, 6:] / right - 1

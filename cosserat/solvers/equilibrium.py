@@ -47,7 +47,7 @@ class Equilibrium:
     reaction : (n,) force that holds each constrained DOF [N].
     residual, tolerance : largest unbalanced force and the largest one allowed [N].
     rounding : largest force that round-off can cause, a lower bound of any residual [N].
-    negative : how many eigenvalues of the Hessian are negative, as `Tangent.negative` says.
+    negative : how many eigenvalues of the Hessian are negative, as `Tangent` counts them.
     """
 
     q: Vector
