@@ -267,7 +267,7 @@ def test_every_entry_of_the_errata_has_evidence_that_pytest_finds():
 def test_a_test_named_after_an_erratum_names_one_that_there_is():
     named = {
         f"{match[1]}.{match[2]}"
-        for file in (ROOT / "tests").glob("test_*.py")
+        for file in (ROOT / "tests").rglob("test_*.py")
         for match in re.finditer(r"^def test_(E\d+)_(\d+)_", file.read_text(), flags=re.MULTILINE)
     }
     assert len(named) > 20

@@ -26,7 +26,7 @@ ELSEWHERE = {  # lines that are not executed here, and where they are
     "make test-workflow": "minutes: .ci/run",
     "source .venv/bin/activate": "sets the path up, as is done here by hand",
     ".venv/bin/python -m tests.outside": "minutes: tests/outside/test_public_cases.py runs its quick cases",
-    ".venv/bin/cosserat power": "minutes: tests/test_power.py runs it for some changes",
+    ".venv/bin/cosserat power": "minutes: tests/thesis/test_power.py runs it for some changes",
 }
 
 
