@@ -15,9 +15,14 @@ Numer. Anal. 5, 506, 1968): a mode loses energy at the rate c, resolved or not, 
 
 Newton's method solves each step.  It keeps its matrix from one step to the next while the corrections shrink fast, as
 they do if little changes in a step.
+
+Functions that allocate nothing are compiled without reference counts, which take a fifth of a short step.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 import numpy as np
 from numba import njit
@@ -28,6 +33,8 @@ from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, STRAINS
 from cosserat.solvers.step import CORRECTED, UNCORRECTED, Bodies, Room, Run
 
 Fields = NDArray[np.float64]
+F = TypeVar("F", bound=Callable[..., Any])
+_uncounted: Callable[[F], F] = njit(cache=True, _nrt=False)  # type: ignore[call-overload] # an option of Numba all the same
 
 TOLERANCE = 1e-11  # of the last correction, as a fraction of the step
 MAX_ITERATIONS = 60
@@ -42,7 +49,7 @@ _EPS = float(np.finfo(float).eps)
 _MIN_DEFORMING_FRACTION = 0.1  # deforming fraction of a step below which sigma is omitted
 
 
-@njit(cache=True)
+@_uncounted
 def _multiply(band: Band, x: Vector, y: Vector) -> None:
     """Overwrite y with H x."""
     n, width = band.shape
@@ -54,7 +61,7 @@ def _multiply(band: Band, x: Vector, y: Vector) -> None:
             y[j] += band[j, k] * x[j + k]
 
 
-@njit(cache=True)
+@_uncounted
 def _uncouple(band: Band, constrained: Mask) -> None:
     """Zero in place the rows and columns of the constrained DOFs of a symmetric or skew-symmetric matrix."""
     n, width = band.shape
@@ -64,7 +71,7 @@ def _uncouple(band: Band, constrained: Mask) -> None:
                 band[j, k] = 0.0
 
 
-@njit(cache=True)
+@_uncounted
 def _cholesky(band: Band) -> bool:
     """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive."""
     n, width = band.shape
@@ -83,7 +90,7 @@ def _cholesky(band: Band) -> bool:
     return True
 
 
-@njit(cache=True)
+@_uncounted
 def _substitute(factor: Band, x: Vector) -> None:
     """Overwrite a right-hand side with the solution."""
     n, width = factor.shape
@@ -98,7 +105,7 @@ def _substitute(factor: Band, x: Vector) -> None:
         x[j] = total * factor[j, 0]
 
 
-@njit(cache=True)
+@_uncounted
 def _remove(part: Vector, x: Vector) -> None:
     """Make x orthogonal to part."""
     share, size = 0.0, 0.0
@@ -109,7 +116,7 @@ def _remove(part: Vector, x: Vector) -> None:
         x[i] -= share / size * part[i]
 
 
-@njit(cache=True)
+@_uncounted
 def _deforming_part(
     change: Vector, middle: Vector, translations: Fields, rotations: Fields, z: Vector
 ) -> bool:
@@ -118,7 +125,7 @@ def _deforming_part(
     rotations : (d (d - 1) / 2, n) is overwritten.  DOFs are components of vectors of a space of dimension d, the number
     of translations.  True if hardly anything is left.
     """
-    z[:] = change
+    _copy(change, z)
     dimension = translations.shape[0]
     if dimension == 0:
         return False
@@ -140,10 +147,14 @@ def _deforming_part(
             _remove(translations[k], z)
         for k in range(number):
             _remove(rotations[k], z)
-    return bool((z * z).sum() < _MIN_DEFORMING_FRACTION**2 * (change * change).sum())
+    deforming = whole = 0.0
+    for i in range(z.size):
+        deforming += z[i] * z[i]
+        whole += change[i] * change[i]
+    return deforming < _MIN_DEFORMING_FRACTION**2 * whole
 
 
-@njit(cache=True)
+@_uncounted
 def _step_matrix(band: Band, mass: Band, inertia: float, constrained: Mask) -> float:
     """Overwrite a Hessian with half of it plus inertia times the mass, constrained DOFs uncoupled; stiffest entry."""
     n, width = band.shape
@@ -158,7 +169,7 @@ def _step_matrix(band: Band, mass: Band, inertia: float, constrained: Mask) -> f
     return stiffest
 
 
-@njit(cache=True)
+@_uncounted
 def _sigma(
     change: Vector, gradient: Vector, z: Vector, before: float, after: float, blur: float
 ) -> float:
@@ -208,7 +219,7 @@ _FRESH, _JUDGED, _TURNING, _STIFFEST = range(
 )  # indices of `memory`, which a step passes to the next one
 
 
-@njit(cache=True)
+@_uncounted
 def _body(bodies: Bodies, q: Vector, after: Vector, task: int, gradient: Vector, band: Band) -> float:
     """The energy of the body; adds its gradient and Hessian."""
     energy: float = bodies.kernels[0](
@@ -226,7 +237,7 @@ def _body(bodies: Bodies, q: Vector, after: Vector, task: int, gradient: Vector,
     return energy
 
 
-@njit(cache=True)
+@_uncounted
 def _loads(
     bodies: Bodies, role: int, q: Vector, after: Vector, task: int, gradient: Vector, band: Band
 ) -> float:
@@ -249,7 +260,7 @@ def _loads(
     return energy
 
 
-@njit(cache=True)
+@_uncounted
 def _commit(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> None:
     """Overwrite the internal variables by those at q, an accepted state."""
     for k in bodies.counted:
@@ -267,7 +278,7 @@ def _commit(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> None:
         )
 
 
-@njit(cache=True)
+@_uncounted
 def _started(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> float:
     """The energy at the start of a step; stores the strains there."""
     energy = _body(bodies, q, q[:0], STRAINS, gradient, band)
@@ -277,7 +288,7 @@ def _started(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> float:
     return energy
 
 
-@njit(cache=True)
+@_uncounted
 def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
     """The first guess of a step: an extrapolation of the last two changes, or the velocity."""
     h, load, constrained, moved = run.h, run.load, run.constrained, run.moved
@@ -298,7 +309,7 @@ def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
         change[moved[i]] = first[moved[i]] = run.places[done + 1, i] - run.places[done, i]
 
 
-@njit(cache=True)
+@_uncounted
 def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector) -> bool:
     """Assemble and factor Newton's matrix at the midpoint; False if that fails."""
     middle, end, gradient, factor = room.middle, room.end, room.gradient, room.factor
@@ -313,7 +324,7 @@ def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector) -> bool:
     return _cholesky(factor)
 
 
-@njit(cache=True)
+@_uncounted
 def _meet_energy(
     change: Vector,
     middle: Vector,
@@ -328,7 +339,7 @@ def _meet_energy(
     """Add the force to the gradient that makes the work of the forces the change of energy."""
     rigid = _deforming_part(change, middle, translations, rotations, z)
     if rigid:
-        z[:] = gradient
+        _copy(gradient, z)
     sigma = _sigma(change, gradient, z, before, after, blur)
     if rigid and abs(sigma) > _MAX_SCALED_FRACTION:
         sigma = 0.0
@@ -336,24 +347,24 @@ def _meet_energy(
         _add(gradient, sigma, z)
 
 
-@njit(cache=True)
+@_uncounted
 def _add(x: Vector, factor: float, y: Vector) -> None:
     """x += factor y."""
     for i in range(x.size):
         x[i] += factor * y[i]
 
 
-@njit(cache=True)
+@_uncounted
 def _accelerate(
     change: Vector, moved: NDArray[np.int64], rates: Fields, done: int, h: float, gained: Vector
 ) -> None:
     """The change, with the constrained DOFs accelerated from one prescribed velocity to the next."""
-    gained[:] = change
+    _copy(change, gained)
     for i in range(moved.size):
         gained[moved[i]] = h / 2 * (rates[done, i] + rates[done + 1, i])
 
 
-@njit(cache=True)
+@_uncounted
 def _unbalance(
     constrained: Mask, pull: Vector, inertia: float, product: Vector, gradient: Vector, force: Vector
 ) -> None:
@@ -362,7 +373,7 @@ def _unbalance(
         force[i] = 0.0 if constrained[i] else pull[i] - inertia * product[i] - gradient[i]
 
 
-@njit(cache=True)
+@_uncounted
 def _correct(factor: Band, force: Vector, change: Vector) -> tuple[float, float]:
     """Correct the change of the step; returns the largest correction and the largest change."""
     _substitute(factor, force)
@@ -373,7 +384,23 @@ def _correct(factor: Band, force: Vector, change: Vector) -> tuple[float, float]
     return size, farthest
 
 
-@njit(cache=True)
+@_uncounted
+def _copy(x: Vector, y: Vector) -> None:
+    """y = x."""
+    for i in range(x.size):
+        y[i] = x[i]
+
+
+@_uncounted
+def _largest(x: Vector) -> float:
+    """The largest size of an entry."""
+    size = 0.0
+    for i in range(x.size):
+        size = max(size, abs(x[i]))
+    return size
+
+
+@_uncounted
 def _ends(q: Vector, change: Vector, middle: Vector, end: Vector) -> None:
     """Midpoint and end of a step."""
     for i in range(q.size):
@@ -381,7 +408,7 @@ def _ends(q: Vector, change: Vector, middle: Vector, end: Vector) -> None:
         end[i] = q[i] + change[i]
 
 
-@njit(cache=True)
+@_uncounted
 def _solve_step(
     bodies: Bodies, run: Run, room: Room, q: Vector, memory: Vector, before: float, done: int
 ) -> bool:
@@ -392,7 +419,7 @@ def _solve_step(
     kernel, constants, history = bodies.kernels[0], bodies.constants[0], bodies.history[0]
     strains, terms, none = bodies.strains[0], bodies.terms[0], factor[:0]
     translations, rotations, moved, rates = run.translations, room.rotations, run.moved, run.rates
-    near, largest = False, np.abs(q).max()
+    near, largest = False, _largest(q)
     turning = memory[_TURNING] != 0.0
     stale = memory[_FRESH] != 0.0 and not turning  # whether the matrix is of an earlier step
     memory[_FRESH] = 1.0 if stale else 0.0
@@ -405,7 +432,7 @@ def _solve_step(
             memory[_FRESH], memory[_TURNING] = 0.0, 1.0
             stale, near = False, False
             relative = size = np.inf
-            change[:] = room.first
+            _copy(room.first, change)
         _ends(q, change, middle, end)
         if memory[_FRESH] == 0.0:
             if not _factorise(bodies, run, room, memory):
@@ -445,7 +472,7 @@ def _solve_step(
     return False
 
 
-@njit(cache=True)
+@_uncounted
 def _accept(run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, done: int) -> None:
     """Accept the step: DOFs, velocities, and the energy that moved supports have given."""
     h, load, moved = run.h, run.load, run.moved

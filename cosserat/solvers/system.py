@@ -188,22 +188,26 @@ class MechanicalSystem:
         return self.mass
 
     @cached_property
-    def dead_load(self) -> Vector:
-        """The force of the linear potentials, which is the same everywhere, (n,) [N]."""
-        gradient = np.zeros(self.constrained.size)
-        for load in self.external:
-            if load.linear:
-                load.add_gradient(self.space.reference, load.history, gradient)
-        return -gradient
-
-    @cached_property
-    def load_sizes(self) -> tuple[float, float]:
-        """The largest force and the sum of all forces of the loads at the reference [N]."""
-        size = np.zeros(self.constrained.size)
+    def _reference_loads(self) -> tuple[Vector, Vector]:
+        """At the reference: the force of the linear loads, and the sizes of all loads, each (n,) [N]."""
+        dead, size = np.zeros(self.constrained.size), np.zeros(self.constrained.size)
         for load in self.external:
             gradient = np.zeros_like(size)
             load.add_gradient(self.space.reference, load.history, gradient)
             size += np.abs(gradient)
+            if load.linear:
+                dead -= gradient
+        return dead, size
+
+    @property
+    def dead_load(self) -> Vector:
+        """The force of the linear loads, which is the same everywhere, (n,) [N]."""
+        return self._reference_loads[0]
+
+    @cached_property
+    def load_sizes(self) -> tuple[float, float]:
+        """The largest force and the sum of all forces of the loads at the reference [N]."""
+        size = self._reference_loads[1]
         return float(size.max()), float(size.sum())
 
     def unloaded(self) -> MechanicalSystem:
