@@ -104,27 +104,29 @@ def vertex_cuts(arc: Array) -> Array:
 
 
 class EdgeMasses(NamedTuple):
-    """Masses of the edges between their two vertices a and b, each (N - 1,) [kg]: of a, shared by both, of b."""
+    """Masses of the edges between their two vertices a and b, each (3, N - 1) [kg]: of a, shared by both, of b.
+
+    The rows have masses times the powers 0, 1 and 2 of the scale factor of the height.
+    """
 
     before: Array
     shared: Array
     after: Array
 
 
-def edge_masses(
-    stations: Sequence[Station], line_density: float, arc: Array, power: int = 0
-) -> EdgeMasses:
-    """The mean of the lumped and the consistent mass of every edge, times a power of the scale factor of the height.
+def edge_masses(stations: Sequence[Station], line_density: float, arc: Array) -> EdgeMasses:
+    """The mean of the lumped and the consistent mass of every edge.
 
     derived: with s from 0 to 1 along an edge and M_k the integral of s^k over its mass, linear interpolation gives
     M_0 - 2 M_1 + M_2, M_1 - M_2 and M_2; the two masses at the ends that keep M_0 and M_1 are M_0 - M_1 and M_1.  Both
     keep mass and centre of mass, and their errors in a frequency are opposite.
     """
-    M0, M1, M2 = (np.diff(arc) * line_density) * mean(
-        stations,
-        lambda scale, s: mass_scale(scale) * scale.height**power * s ** np.arange(3)[:, None],
-        arc,
-    )
+    powers = np.arange(3)[:, None]
+
+    def moments(scale: Scales, s: Array) -> Array:
+        return mass_scale(scale) * scale.height ** powers[..., None] * s**powers
+
+    M0, M1, M2 = np.moveaxis((np.diff(arc) * line_density) * mean(stations, moments, arc), 1, 0)
     return EdgeMasses(M0 - 3 / 2 * M1 + M2 / 2, (M1 - M2) / 2, (M1 + M2) / 2)
 
 

@@ -88,23 +88,19 @@ def stiffnesses(
         """Length of the line of the area centres per length of the centreline."""
         return 1 - curvature * offset * s.height
 
-    def on_edges(s: Scales, _: Array) -> Array:
-        axial, volume, shear, bending, gradient = along(s)
-        both = axial + volume
-        ratios = [1 / both, axial / both, volume / both, axial * volume / both]
-        return centres(s) * np.stack([*ratios, 1 / shear, 1 / bending, 1 / gradient])
-
     first_height = stations[0].height if stations else 1.0
 
-    def off_axis(s: Scales, _: Array) -> Array:
-        higher = s.height - first_height
-        turning = centres(s) / along(s)[3]
-        return np.stack([higher, higher * turning, higher**2 * turning])
+    def on_edges(s: Scales, _: Array) -> Array:
+        axial, volume, shear, bending, gradient = along(s)
+        both, higher, line = axial + volume, s.height - first_height, centres(s)
+        ratios = [1 / both, axial / both, volume / both, axial * volume / both]
+        sums = [line * ratio for ratio in (*ratios, 1 / shear, 1 / bending, 1 / gradient)]
+        turning = line / bending
+        return np.stack([*sums, higher * turning, higher**2 * turning, higher])
 
-    above, lever, square = mean(stations, off_axis, arc)
+    *means, above = mean(stations, on_edges, arc)
     length = 1 - curvature * offset * (first_height + above)
-    compliance, axial, volume, product, shear, bending, gradient = mean(stations, on_edges, arc) / length
-    lever, square = lever / length, square / length
+    compliance, axial, volume, product, shear, bending, gradient, lever, square = means / length
     alpha = 1 / (compliance + offset**2 * (square - lever**2 / bending))
     axis = first_height + lever / bending
     more = (product - alpha * axial * volume) * length * np.diff(arc) / 2

@@ -70,12 +70,14 @@ class Reissner(Energy):
 
         Y02 and Y22 are those of the sections along an edge, in units of the directors of the vertices.
         """
-        arc, heights = geometry.arc_length, rod.height_fractions()
-        edges = [edge_masses(rod.stations, rod.line_density, arc, power) for power in range(3)]
-        own = [np.append(edge.before, 0.0) + np.insert(edge.after, 0, 0.0) for edge in edges]
+        heights = rod.height_fractions()
+        edges = edge_masses(rod.stations, rod.line_density, geometry.arc_length)
+        own = np.zeros((3, heights.size))
+        own[:, :-1] += edges.before
+        own[:, 1:] += edges.after
         m0, m1, m2 = own[0], rod.Y02 * own[1] / heights, rod.Y22 * own[2] / heights**2
         low, high = heights[:-1], heights[1:]
-        n0, n1, n2 = (edge.shared for edge in edges)
+        n0, n1, n2 = edges.shared
         between = [[n0, rod.Y02 * n1 / high], [rod.Y02 * n1 / low, rod.Y22 * n2 / (low * high)]]
         return self.kinematics.mass_band(np.array([[m0, m1], [m1, m2]]), np.array(between))
 
@@ -115,8 +117,9 @@ def potential(
     """
     rod = np.zeros(geometry.X.shape[0], VERTEX)
     rod["low"][:-1], rod["high"][:-1] = np.broadcast_to(offsets, (2, rod.size - 1))
-    e, turn = centre_edges(rod, geometry.X, geometry.D), np.diff(unwrapped_angles(geometry.D))
-    b = unwrapped_angles(geometry.D)[:-1] + turn / 2
+    e, angles = centre_edges(rod, geometry.X, geometry.D), unwrapped_angles(geometry.D)
+    turn = np.diff(angles)
+    b = angles[:-1] + turn / 2
     edges = {
         "edge": np.linalg.norm(np.diff(geometry.X, axis=0), axis=1) * stiffness.length,
         "axial": e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b),
