@@ -54,7 +54,7 @@ def changes(old: xr.Dataset, new: xr.Dataset, *, bits: bool) -> list[tuple[str, 
     before_run, after_run = (json.loads(data.attrs.get("solver", "{}")) for data in (old, new))
     for key in sorted({RENAMED.get(key, key) for key in before_run} | set(after_run)):
         was = {RENAMED.get(name, name): value for name, value in before_run.items()}.get(key)
-        same = was == after_run.get(key) or (not bits and key in REMAINDERS)
+        same = was in (None, after_run.get(key)) or (not bits and key in REMAINDERS)  # None: a new one
         found.append((f"statistic {key}: {was} -> {after_run.get(key)}", 0.0 if same else np.inf, same))
     for key in sorted((set(old.attrs) | set(new.attrs)) - set(EXEMPT) - {"solver"}):
         if old.attrs.get(key) != new.attrs.get(key):

@@ -43,6 +43,8 @@ Array = NDArray[np.float64]
 
 FRAMES_PER_PART = 50
 """Most frames in one stored part of a run."""
+ROTATION = "largest_step_rotation_rad"
+"""Statistic: largest rotation of a section in one step; of a method that chooses its steps, zero."""
 JUDGED = 100
 """Most states of a motion that are checked for unresolved modes."""
 WORK_PER_PART = 5e5
@@ -95,7 +97,7 @@ class CheckpointedRun:
         """
         first = number * self.stops_per_part
         last = min(first + self.stops_per_part, self.problem.frames * self.substeps_per_frame)
-        states, steps, stopped = ([state] if number == 0 else []), 0, None
+        states, steps, fastest, stopped = ([state] if number == 0 else []), 0, 0.0, None
         substep = self.problem.between_frames / self.substeps_per_frame
         for stop in range(first + 1, last + 1):
             try:
@@ -111,12 +113,13 @@ class CheckpointedRun:
             except (NotConvergedError, DivergedError, CrossingError) as error:
                 stopped = error
                 break
+            fastest = max(fastest, 2 * math.asin(min(1.0, state.largest_change / 2)))
             # the stored time: a resumed run must not differ by round-off
             state = replace(state, time=stop / self.substeps_per_frame * self.problem.between_frames)
             states.append(state)
             steps += done
         fields = _fields(self.problem.rod, self.geometry, self.system, states) if states else {}
-        statistics = {"steps": steps, **self._judged(states)}
+        statistics = {"steps": steps, **self._judged(states), ROTATION: fastest}
         return Solution(fields, statistics, {"axis": self.problem.rod.kinematics.axes}), state, stopped
 
     @property
@@ -148,7 +151,7 @@ class CheckpointedRun:
         return (
             *self._unbalanced(whole),
             *self._unresolved(whole.statistics),
-            *self._too_fast(whole),
+            *self._too_fast(whole.statistics),
             *self._driven_too_fast(),
             *coarse(whole["d"]),
             *self._damped_beyond(),
@@ -175,10 +178,8 @@ class CheckpointedRun:
                 "shorter 'integrator.step' if they matter, or a start that does not set them off"
             )
 
-    def _too_fast(self, whole: Solution) -> Iterator[str]:
-        d, rate = whole["d"], whole["d_rate"]
-        turning = (d[..., 0] * rate[..., 1] - d[..., 1] * rate[..., 0]) / (d**2).sum(axis=-1)
-        fastest = float(np.abs(turning).max()) * self.step
+    def _too_fast(self, statistics: Mapping[str, float]) -> Iterator[str]:
+        fastest = statistics[ROTATION]
         if fastest > FAST:
             yield (
                 f"fast rotation: a section rotates by up to {fastest:.2g} rad in a step of {self.step:.3g} s; "
@@ -244,7 +245,10 @@ def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
         )
         for name, (dims, values) in first.fields.items()
     }
-    statistics = {key: sum(part.statistics[key] for part in parts) for key in first.statistics}
+    statistics = {
+        key: (max if key == ROTATION else sum)(part.statistics[key] for part in parts)
+        for key in first.statistics
+    }
     return Solution(fields, statistics, first.labels)
 
 

@@ -66,6 +66,13 @@ class RodSpace:
         fastest = float((_lengths(change) / _lengths(d)).max())
         return _MAX_ROTATION / fastest if fastest > 0 else np.inf
 
+    def rotation_weights(self, q: Vector) -> Vector:
+        """One over the lengths of the directors, zero for positions, (n,)."""
+        vectors = self.kinematics.split(self.placed(q))
+        weights = np.zeros_like(vectors)
+        weights[:, 1:] = 1 / _lengths(vectors[:, 1:])[..., None]
+        return weights.ravel()
+
     def rates(self, q: Vector, change: Vector) -> Array:
         """How fast edges and directors rotate [rad] and stretch as the DOFs change, (parts, 2) in the plane."""
         vectors, rates = self.kinematics.parts(self.placed(q)), self.kinematics.parts(change)

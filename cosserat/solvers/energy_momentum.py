@@ -473,7 +473,9 @@ def _solve_step(
 
 
 @_uncounted
-def _accept(run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, done: int) -> None:
+def _accept(
+    run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, turned: Vector, done: int
+) -> None:
     """Accept the step: DOFs, velocities, and the energy that moved supports have given."""
     h, load, moved = run.h, run.load, run.moved
     change, earlier, earliest, gradient = room.change, room.earlier, room.earliest, room.gradient
@@ -481,6 +483,11 @@ def _accept(run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, done:
         k = moved[i]
         pushed = 2 / h**2 * room.product[k] - (room.pull[k] - load[k])
         exchanged[1] += pushed * room.gained[k] + (gradient[k] - load[k]) * change[k]
+    for i in range(0, q.size, run.dimension):
+        square = 0.0
+        for k in range(i, i + run.dimension):
+            square += change[k] * change[k]
+        turned[0] = max(turned[0], run.weights[i] * np.sqrt(square))
     for i in range(q.size):
         q[i] += change[i]
         v[i] = 2 / h * change[i] - v[i]
@@ -490,11 +497,12 @@ def _accept(run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, done:
 
 
 def integrate_steps(
-    bodies: Bodies, run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector
+    bodies: Bodies, run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, turned: Vector
 ) -> int:
     """Take steps, overwriting q, v and the internal variables; returns how many, fewer if one does not converge.
 
     exchanged : energy that the damping has taken, and that moved supports have given; added to [J].
+    turned : (1,) largest change of a vector that rotates, in one step, as a fraction of its length; raised.
     """
     memory = np.zeros(4)
     steps = run.places.shape[0] - 1
@@ -509,7 +517,7 @@ def integrate_steps(
         _predict(run, room, v, done, memory[_TURNING] != 0.0)
         if not _solve_step(bodies, run, room, q, memory, before, done):
             return done
-        _accept(run, room, q, v, exchanged, done)
+        _accept(run, room, q, v, exchanged, turned, done)
         if run.damping_rate > 0.0:
             _decay(v, run.mass, room.mass_factor, run.constrained, fraction, room.product, exchanged)
         _commit(bodies, q, room.gradient, room.factor)

@@ -33,10 +33,10 @@ def _compiled_steps(count: int) -> Callable[..., int]:
     several = [types.UniTuple(one, count) for one in each]
     bodies = types.NamedTuple((*several, whole, types.boolean, whole), Bodies)
     number = types.float64
-    given = (matrix, vector, mask, matrix, number, number, whole, matrix, matrix)
+    given = (matrix, vector, mask, matrix, number, number, types.int64, vector, whole, matrix, matrix)
     run = types.NamedTuple(given, Run)
     room = types.NamedTuple((*(vector,) * 12, matrix, matrix, matrix), Room)
-    signature = types.int64(bodies, run, room, vector, vector, vector)
+    signature = types.int64(bodies, run, room, vector, vector, vector, vector)
     (compiled,) = njit(signature, cache=True)(integrate_steps).overloads.values()
     steps: Callable[..., int] = (
         compiled.entry_point
@@ -76,20 +76,24 @@ def integrate_implicitly(
         np.ascontiguousarray(free),
         h,
         system.damping_rate,
+        system.space.dimension,
+        system.space.rotation_weights(state.q),
         *_prescribed(system, state.time, h, count),
     )
     vectors = [np.zeros(n) for _ in range(12)]
     bands = [rotations, np.empty((n, max(width, system.half_bandwidth + 1))), mass.copy()]
     room = Room._make([*vectors, *bands])
     q, v, exchanged = state.q.copy(), state.v.copy(), np.array([state.dissipated, state.driven])
-    done = _compiled_steps(len(bodies.kernels))(bodies, run, room, q, v, exchanged)
+    turned = np.zeros(1)
+    done = _compiled_steps(len(bodies.kernels))(bodies, run, room, q, v, exchanged, turned)
     if done < count:
         raise NotConvergedError(
             f"{name}: a time step of {h:.3g} s found no solution; take a shorter 'integrator.step'",
             iterations=MAX_ITERATIONS,
             tolerance=TOLERANCE,
         )
-    return State(q, v, tuple(history), state.time + count * h, *exchanged.tolist()), count
+    gone = state.time + count * h, *exchanged.tolist(), float(turned[0])
+    return State(q, v, tuple(history), *gone), count
 
 
 def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:

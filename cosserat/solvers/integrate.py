@@ -43,6 +43,7 @@ class State:
     """DOFs q and velocities v, each (n,), at a time.
 
     history : the internal variables of every potential of the system.
+    largest_change : of a vector that rotates, in one of the steps that led here, as a fraction of its length.
     dissipated, driven : energy that the damping has taken and that moved supports have given since the start [J].
     """
 
@@ -52,6 +53,7 @@ class State:
     time: float = 0.0
     dissipated: float = 0.0
     driven: float = 0.0
+    largest_change: float = 0.0
 
 
 def kinetic_energy(system: MechanicalSystem, state: State) -> float:

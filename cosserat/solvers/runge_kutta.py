@@ -17,7 +17,8 @@ def fixed(
 ) -> tuple[State, int]:
     """Move on by equal steps of the classical method."""
     count = step_count(duration, settings)
-    h, rate = duration / count, _Rates(system)
+    h, rate, largest = duration / count, _Rates(system), 0.0
+    weights = system.space.rotation_weights(state.q)
     with np.errstate(over="ignore", invalid="ignore"):
         for _ in range(count):
             rate.history, y, t = state.history, _packed(state), state.time
@@ -25,8 +26,11 @@ def fixed(
             k2 = rate(t + h / 2, y + h / 2 * k1)
             k3 = rate(t + h / 2, y + h / 2 * k2)
             k4 = rate(t + h, y + h * k3)
+            before = state.q
             state = _accepted(system, state, t + h, y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
-    return state, count
+            vectors = (weights * (state.q - before)).reshape(-1, system.space.dimension)
+            largest = max(largest, float(np.sqrt((vectors**2).sum(axis=1)).max()))
+    return replace(state, largest_change=largest), count
 
 
 def adaptive(

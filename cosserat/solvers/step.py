@@ -40,6 +40,8 @@ class Run(NamedTuple):
 
     mass : band (n, w).  load : (n,) dead load.  constrained : (n,).  translations : (d, n), or (0, n) where a DOF is
     constrained.  h : the time step.  damping_rate : c.
+    dimension : number of components of a vector.
+    weights : (n,) one over the lengths of vectors whose change is a rotation, zero for other DOFs.
     moved : (m,) constrained DOFs that move; places, rates : (steps + 1, m) their displacements and rates.
     """
 
@@ -49,6 +51,8 @@ class Run(NamedTuple):
     translations: Fields
     h: float
     damping_rate: float
+    dimension: int
+    weights: Vector
     moved: NDArray[np.int64]
     places: Fields
     rates: Fields

@@ -75,6 +75,9 @@ class ConfigurationSpace(Protocol):
     def max_step_fraction(self, q: Vector, step: Vector) -> float:
         """Largest fraction of a step that rotates no part by more than a radian."""
 
+    def rotation_weights(self, q: Vector) -> Vector:
+        """One over the lengths of the vectors whose change is a rotation, zero for other DOFs, (n,)."""
+
     def rates(self, q: Vector, change: Vector) -> Fields:
         """Rates of rotation [rad] and stretch of the parts of the body as the DOFs change, (parts, k)."""
 
@@ -124,6 +127,10 @@ class FlatSpace:
         """Largest fraction of a step that changes no DOF by more than its size."""
         fastest = float((np.abs(step) / self.scale).max())
         return 1.0 / fastest if fastest > 0 else np.inf
+
+    def rotation_weights(self, q: Vector) -> Vector:
+        """Nothing rotates."""
+        return np.zeros_like(q)
 
     def rates(self, q: Vector, change: Vector) -> Fields:
         """The change by the sizes, (n, 1)."""

@@ -5,7 +5,7 @@ import pytest
 from conftest import make_rod
 
 import cosserat
-from cosserat.data.dataset import warnings_of
+from cosserat.data.dataset import statistics_of, warnings_of
 from cosserat.errors import CrossingError
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.reference import Geometry
@@ -154,6 +154,14 @@ def test_an_energy_that_runs_away_is_named(monkeypatch):
 def test_turning_too_far_in_a_step_is_named():
     data = cosserat.run(spinning(0.05, 5).vary("fast", every=0.7))
     assert "fast rotation" in named(data)
+
+
+@pytest.mark.parametrize("steps", [5, 50])
+def test_every_step_counts_whatever_the_frames(steps):
+    """A steady spin omega turns by 2 atan(omega h / 2) in each step of the midpoint rule; frames see the last only."""
+    data = cosserat.run(spinning(0.05, steps).vary("spin", every=3.0))
+    turned = statistics_of(data)["largest_step_rotation_rad"]
+    assert turned == pytest.approx(2 * np.arctan(np.pi / steps), rel=2e-2)
 
 
 @pytest.mark.parametrize("hertz", [160.0, 500.0, 999.0, 1000.0])
