@@ -152,6 +152,8 @@ class Rod(Parameters):
 
     def height_fractions(self) -> Array:
         """Heights at the vertices over the nominal one, after any step at a vertex, shape (N,) [1]."""
+        if not self.stations:
+            return np.ones(self.vertices)
         arc = np.linspace(0.0, self.length, self.vertices)
         return scale_at(self.stations, "height", arc, before=False)
 

@@ -45,6 +45,16 @@ class Scales(NamedTuple):
     density: Array
 
 
+def _gauss(cuts: Array) -> tuple[Array, Array]:
+    """Nodes and weights of Gauss's rule on every interval between neighbouring cuts, in order."""
+    half = (cuts[1:, None] - cuts[:-1, None]) / 2
+    return (cuts[:-1, None] + half * (1 + _NODES)).ravel(), (half * _WEIGHTS).ravel()
+
+
+_ONE = _gauss(np.array([0.0, 1.0]))
+_NOMINAL = Scales(*(np.ones_like(_ONE[0]) for _ in Scales._fields))
+"""Of a uniform rod: nodes and weights of one interval, and the scale factors there."""
+
 Property = Callable[[Scales, Array], Array]
 
 
@@ -76,8 +86,8 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
     """
     count = cuts.size - 1
     if not stations:  # uniform: one interval represents all
-        nodes, weights = _gauss(np.array([0.0, 1.0]))
-        one = value(Scales(*(np.ones_like(nodes) for _ in Scales._fields)), nodes) @ weights
+        nodes, weights = _ONE
+        one = value(_NOMINAL, nodes) @ weights
         return np.repeat(np.asarray(one)[..., None], count, axis=-1)
     steps = np.array([station.at for station in stations])
     nodes, weights = _gauss(
@@ -90,12 +100,6 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
     first = np.searchsorted(owner, np.arange(count))
     means: Array = np.add.reduceat(parts, first, axis=-1)
     return means
-
-
-def _gauss(cuts: Array) -> tuple[Array, Array]:
-    """Nodes and weights of Gauss's rule on every interval between neighbouring cuts, in order."""
-    half = (cuts[1:, None] - cuts[:-1, None]) / 2
-    return (cuts[:-1, None] + half * (1 + _NODES)).ravel(), (half * _WEIGHTS).ravel()
 
 
 def vertex_cuts(arc: Array) -> Array:
