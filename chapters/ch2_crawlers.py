@@ -239,7 +239,7 @@ page.rows("2.8-stride", "2.8.4-stride")
 # ## Calibrated again
 #
 # The page found E, the force and the pressure by calibration "to match the expected outcomes": the two ratios (2.8.6) and
-# the two pressures that were measured. Least squares of these four numbers, each misfit as a share, ask for other values
+# the two pressures that were measured. Least squares of these four numbers, each misfit as a fraction, ask for other values
 # (assumption E2.27). Both pressures are then met, and the ratios of stretches as well as before.
 
 # %% tags=["remove-input"]

@@ -62,7 +62,7 @@ VARIABLES: dict[str, Variable] = {
         1e-10,
     ),
     "errors": Variable(
-        ("measure", "mesh"), "1", "error as a share of the exact value", "", "3.5.3", 1e-8
+        ("measure", "mesh"), "1", "error as a fraction of the exact value", "", "3.5.3", 1e-8
     ),
     "time": Variable(("time",), "s", "time", "t", "3.3.50", 1e-14),
     "x_rate": Variable(
@@ -133,7 +133,7 @@ VARIABLES: dict[str, Variable] = {
     "anchor_along": Variable(
         ("time",), "m", "position of the anchored point", r"z(\xi_A)", "2.5.10", 1e-10
     ),
-    "load_factor": Variable(("point",), "1", "share of the full load", "", "3.3.40", 1e-9),
+    "load_factor": Variable(("point",), "1", "fraction of the full load", "", "3.3.40", 1e-9),
     "stable": Variable(
         ("point",), "1", "one where the potential has a minimum, else zero", "", "3.4.7", 1e-9
     ),
