@@ -78,7 +78,7 @@ class CheckpointedRun:
         """
         geometry = problem.rod.geometry()
         system = problem.system(geometry)
-        work = _work_of_a_frame(problem, system, geometry)
+        work = _work_of_a_frame(problem, system)
         substeps_per_frame = max(1, math.ceil(work / WORK_PER_PART))
         stops = 1 if substeps_per_frame > 1 else max(1, min(FRAMES_PER_PART, int(WORK_PER_PART / work)))
         substep = problem.between_frames / substeps_per_frame
@@ -199,7 +199,7 @@ class CheckpointedRun:
         c, h = self.system.damping_rate, self.step
         if self.problem.integrator.method != "implicit" or not c:
             return
-        highest = highest_frequency(self.system, self.geometry.q)
+        highest = highest_frequency(self.system, self.system.space.reference)
         if c * highest * h**2 > DAMPED:
             yield (
                 f"damping: modes faster than {DAMPED / (c * h**2):.3g} rad/s (the fastest has {highest:.3g}) lose "
@@ -252,11 +252,11 @@ def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
     return Solution(fields, statistics, first.labels)
 
 
-def _work_of_a_frame(problem: RodMotion, system: MechanicalSystem, geometry: Geometry) -> float:
+def _work_of_a_frame(problem: RodMotion, system: MechanicalSystem) -> float:
     """Cost of one frame, in vertex-steps of the implicit method."""
     settings = problem.integrator
     if settings.method == "rk45":
-        stable = stable_step(system, geometry.q)
+        stable = stable_step(system, system.space.reference)
         settings = settings.replace(step=min(settings.step, stable))
     alone, each = _COST[settings.method]
     return step_count(problem.between_frames, settings) * (alone + each * problem.rod.vertices)

@@ -24,6 +24,7 @@ from cosserat.rods.kinematics import Kinematics
 from cosserat.rods.loads.load import Load
 from cosserat.rods.problem import CONSTRAINTS, LOADS
 from cosserat.solution import Solution
+from cosserat.solvers.integrate import IntegratorSettings
 from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, STRAINS, Potential
 
 CLAMP = {"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}
@@ -130,8 +131,8 @@ def trussed(monkeypatch):
     return {"energy": "truss", "calibration": "none", "vertices": 9, "height": 0.2, "length": 2.0}
 
 
-def linear_truss(rod, load):
-    """Displacements by a dense stiffness matrix: bars resist along their own direction."""
+def truss_stiffness(rod):
+    """The dense stiffness matrix: bars resist along their own direction."""
     own, at_rest = Truss(), Truss().reference(rod.geometry()).reshape(-1, 3, 2)
     K = np.zeros((6 * rod.vertices, 6 * rod.vertices))
     for a, b, one, other in own.bars(rod):
@@ -141,6 +142,12 @@ def linear_truss(rod, load):
         row[a] -= np.outer(one, r)
         row = row.ravel() / np.linalg.norm(r)
         K += rod.young * rod.area / np.linalg.norm(r) * np.outer(row, row)
+    return K
+
+
+def linear_truss(rod, load):
+    """Displacements of small size."""
+    K = truss_stiffness(rod)
     free = np.r_[4 : K.shape[0]]  # x and d of the first vertex are fixed
     u = np.zeros(K.shape[0])
     u[free] = np.linalg.solve(K[np.ix_(free, free)], load[free])
@@ -171,6 +178,25 @@ def test_an_energy_of_its_own_unknowns_rests_moves_and_vibrates(trussed):
     assert np.ptp(total) < 1e-9 * total[0]
     assert np.ptp(flown.angular_momentum.to_numpy()) < 1e-10 * abs(flown.angular_momentum[0])
     assert flown.other_dofs.shape == (5, 9, 2)
+
+
+def test_a_damped_motion_of_its_own_unknowns_knows_its_fastest_mode(trussed):
+    """The one of the dense matrices, which the warning of a damping that steps do not follow names."""
+    case = cosserat.case("vibration_consistent").vary(
+        "damped",
+        rod={**trussed, "young": 1e6},
+        supports=[CLAMP],
+        start={"shape": "reference"},
+        damping=1.0,
+    )
+    rod = case.problem.rod
+    mass = np.repeat(rod.part_masses(rod.geometry()) / 3, 6)[4:]
+    squared = np.linalg.eigvalsh(truss_stiffness(rod)[4:, 4:] / np.sqrt(np.outer(mass, mass)))
+    lowest, highest = np.sqrt(squared[[0, -1]])
+    step = float(np.sqrt(10 / (2 * lowest * highest)))
+    moved = case.problem.replace(duration=step, every=step, integrator=IntegratorSettings(step=step))
+    (named,) = [words for words in moved.solve("damped").warnings if words.startswith("damping")]
+    assert f"the fastest has {highest:.3g})" in named
 
 
 def test_a_misspelt_energy_is_answered_with_those_there_are(trussed):
