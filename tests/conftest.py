@@ -51,6 +51,12 @@ def assembled(potential, q):
     return energy, gradient, to_dense(band)
 
 
+def jacobian(function, q, h):
+    """Derivatives of a function at q by central differences, one column per entry of q."""
+    columns = [(function(q + shift) - function(q - shift)) / (2 * h) for shift in h * np.eye(q.size)]
+    return np.array(columns).T
+
+
 def differentiated(potential, q):
     """Energy and gradient (n,) at q."""
     gradient = np.zeros(q.size)

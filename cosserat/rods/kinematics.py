@@ -101,6 +101,15 @@ SPATIAL = Kinematics(("E1", "E2", "E3"), ("x", "d1_", "d2_"))
 """A rod in space with two directors, as in Chapter 1; it has no energy yet."""
 
 
+def lengths(vectors: Array) -> Array:
+    """Norms of vectors (..., d): (...,)."""
+    planar = vectors.shape[-1] == 2
+    norms: Array = (
+        np.hypot(vectors[..., 0], vectors[..., 1]) if planar else np.linalg.norm(vectors, axis=-1)
+    )
+    return norms
+
+
 def rotation_rates(vectors: Array, rates: Array) -> Array:
     """Rates of rotation of vectors (k, d) that change at rates (k, d): (k, d (d - 1) / 2) [rad]."""
     square = (vectors**2).sum(axis=1)
@@ -122,9 +131,7 @@ def rotated(vectors: Array, angles: Array) -> Array:
         return np.column_stack(
             [c * vectors[:, 0] - s * vectors[:, 1], s * vectors[:, 0] + c * vectors[:, 1]]
         )
-    axes = np.column_stack(
-        [angles[:, 2], -angles[:, 1], angles[:, 0]]
-    )  # pairs 12, 13, 23 -> axes 3, -2, 1
+    axes = angles[:, ::-1] * [1, -1, 1]  # rotations from 1 to 2, 1 to 3 and 2 to 3 are about 3, -2 and 1
     angle = np.linalg.norm(axes, axis=1)[:, None]
     unit = axes / np.maximum(angle, np.finfo(float).tiny)
     along = (unit * vectors).sum(axis=1)[:, None] * unit

@@ -12,6 +12,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from cosserat.rods.kinematics import lengths
+
 Array = NDArray[np.float64]
 
 
@@ -184,9 +186,3 @@ def edge_shear(e: Array, d: Array) -> Array:
     m = unit[1:] + unit[:-1]
     angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
     return angle
-
-
-def lengths(vectors: Array) -> Array:
-    """Norms of the rows of an (n, 2) array: (n,)."""
-    norm: Array = np.hypot(vectors[:, 0], vectors[:, 1])
-    return norm

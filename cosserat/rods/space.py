@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.kinematics import Kinematics, rotated, rotation_rates, stretch_rates
+from cosserat.rods.kinematics import Kinematics, lengths, rotated, rotation_rates, stretch_rates
 from cosserat.solvers.banded import Mask, Vector
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ class RodSpace:
     def scale(self) -> Vector:
         """Lengths of edges and directors, and additions to the DOFs: stretches are rounded as fractions of them."""
         sizes = np.empty_like(self.kinematics.split(self.at_rest))
-        length = _lengths(self.kinematics.parts(self.at_rest))
+        length = lengths(self.kinematics.parts(self.at_rest))
         count = sizes.shape[0] - 1
         sizes[:-1, 0], sizes[-1, 0] = length[:count, None], length[count - 1]
         sizes[:, 1:] = length[count:].reshape(count + 1, -1, 1)
@@ -63,14 +63,14 @@ class RodSpace:
         """Largest fraction of a step that changes no director by more than its length, one radian."""
         d = self.kinematics.split(self.placed(q))[:, 1:]
         change = self.kinematics.split(step)[:, 1:]
-        fastest = float((_lengths(change) / _lengths(d)).max())
+        fastest = float((lengths(change) / lengths(d)).max())
         return _MAX_ROTATION / fastest if fastest > 0 else np.inf
 
     def rotation_weights(self, q: Vector) -> Vector:
         """One over the lengths of the directors, zero for positions, (n,)."""
         vectors = self.kinematics.split(self.placed(q))
         weights = np.zeros_like(vectors)
-        weights[:, 1:] = 1 / _lengths(vectors[:, 1:])[..., None]
+        weights[:, 1:] = 1 / lengths(vectors[:, 1:])[..., None]
         return weights.ravel()
 
     def rates(self, q: Vector, change: Vector) -> Array:
@@ -85,8 +85,8 @@ class RodSpace:
 
         Rotated edges miss the supports; the gap is distributed along the rod between them.
         """
-        at = self.kinematics.split(self.placed(q))
-        vectors = self.kinematics.parts(self.placed(q))
+        placed = self.placed(q)
+        at, vectors = self.kinematics.split(placed), self.kinematics.parts(placed)
         vectors = rotated((1 + moved[:, -1:]) * vectors, moved[:, :-1])
         count = at.shape[0] - 1
         x = at[0, 0] + np.vstack([np.zeros(self.dimension), np.cumsum(vectors[:count], axis=0)])
@@ -113,12 +113,3 @@ class RodSpace:
         if supported.any():
             translation[:, 0] = vectors[supported, 0].mean(axis=0)
         return translation.ravel()
-
-
-def _lengths(vectors: Array) -> Array:
-    """Norms along the last axis."""
-    if vectors.shape[-1] == 2:
-        size: Array = np.hypot(vectors[..., 0], vectors[..., 1])
-        return size
-    norm: Array = np.linalg.norm(vectors, axis=-1)
-    return norm

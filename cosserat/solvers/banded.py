@@ -53,36 +53,21 @@ def absolute_product(band: Band, x: Vector) -> Vector:
 
 
 @njit(cache=True)
-def multiply(band: Band, x: Vector, y: Vector) -> None:
-    """Overwrite y with H x."""
-    n, width = band.shape
-    y[:] = 0.0
-    for j in range(n):
-        y[j] += band[j, 0] * x[j]
-        for k in range(1, min(width, n - j)):
-            y[j + k] += band[j, k] * x[j]
-            y[j] += band[j, k] * x[j + k]
-
-
-@njit(cache=True)
 def largest_product(band: Band, x: Vector, scale: Vector) -> float:
     """The largest entry of |H| max(|x|, scale)."""
-    n, width = band.shape
-    y, size = np.zeros(n), np.maximum(np.abs(x), scale)
-    for j in range(n):
-        y[j] += abs(band[j, 0]) * size[j]
-        for k in range(1, min(width, n - j)):
-            entry = abs(band[j, k])
-            y[j + k] += entry * size[j]
-            y[j] += entry * size[j + k]
-    return float(y.max())
+    return float(absolute_product(band, np.maximum(np.abs(x), scale)).max())
 
 
 @njit(cache=True)
 def band_product(band: Band, x: Vector) -> Vector:
     """H x, shape (n,)."""
-    y = np.empty(x.size)
-    multiply(band, x, y)
+    n, width = band.shape
+    y = np.zeros(n)
+    for j in range(n):
+        y[j] += band[j, 0] * x[j]
+        for k in range(1, min(width, n - j)):
+            y[j + k] += band[j, k] * x[j]
+            y[j] += band[j, k] * x[j + k]
     return y
 
 

@@ -20,7 +20,7 @@ from cosserat.solvers.step import CORRECTED, COUNTED, UNCORRECTED, Bodies, Room,
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
-_POTENTIAL_SLOTS = 3  # for potentials, of compiled steps; where there are more, steps are compiled anew
+_POTENTIAL_SLOTS = 3  # of compiled steps; more potentials need another compilation
 types: Any = numba_types  # which says nothing of its own types
 
 
@@ -38,9 +38,8 @@ def _compiled_steps(count: int) -> Callable[..., int]:
     room = types.NamedTuple((*(vector,) * 12, matrix, matrix, matrix), Room)
     signature = types.int64(bodies, run, room, vector, vector, vector, vector)
     (compiled,) = njit(signature, cache=True)(integrate_steps).overloads.values()
-    steps: Callable[..., int] = (
-        compiled.entry_point
-    )  # types are known; to find them anew takes a millisecond a call
+    # called directly: the types are known, and to find them anew takes half a millisecond a call
+    steps: Callable[..., int] = compiled.entry_point
     return steps
 
 
@@ -65,15 +64,14 @@ def integrate_implicitly(
     bodies = _bodies(potentials, [history[k] for k in met])
     width = 1 + max(np.flatnonzero(system.inertia.any(axis=0)), default=0)
     mass = np.ascontiguousarray(system.inertia[:, :width])
-    free = system.space.rigid_motions(state.q)[
-        : 0 if system.constrained.any() else system.space.dimension
-    ]
-    rotations = np.zeros((free.shape[0] * (free.shape[0] - 1) // 2, n))
+    translations = _free_translations(system, state)
+    dimension = translations.shape[0]
+    rotations = np.zeros((dimension * (dimension - 1) // 2, n))
     run = Run(
         mass,
         system.dead_load,
         system.constrained,
-        np.ascontiguousarray(free),
+        translations,
         h,
         system.damping_rate,
         system.space.dimension,
@@ -92,16 +90,17 @@ def integrate_implicitly(
             iterations=MAX_ITERATIONS,
             tolerance=TOLERANCE,
         )
-    gone = state.time + count * h, *exchanged.tolist(), float(turned[0])
-    return State(q, v, tuple(history), *gone), count
+    dissipated, driven = exchanged.tolist()
+    time = state.time + count * h
+    return State(q, v, tuple(history), time, dissipated, driven, float(turned[0])), count
 
 
 def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
     """The potentials for compiled code, padded to a compiled number of slots."""
-    places = _POTENTIAL_SLOTS
-    while places < len(potentials):
-        places *= 2
-    empty = places - len(potentials)
+    slots = _POTENTIAL_SLOTS
+    while slots < len(potentials):
+        slots *= 2
+    empty = slots - len(potentials)
     given = [*potentials, *potentials[:1] * empty]
     return Bodies(
         tuple(p.evaluate for p in given),
@@ -136,11 +135,20 @@ def _prescribed(
     return moved, path[0], path[1]
 
 
+def _free_translations(system: MechanicalSystem, state: State) -> Fields:
+    """The translations (d, n) of a free body; (0, n) where a DOF is constrained."""
+    if system.constrained.any():
+        return np.empty((0, state.q.size))
+    return np.ascontiguousarray(system.space.rigid_motions(state.q)[: system.space.dimension])
+
+
 def _check_positions(system: MechanicalSystem, state: State, name: str) -> None:
     """Raise InputError where compiled steps would take displacements for positions."""
-    still = system.space.rigid_motions(np.zeros_like(state.q))[system.space.dimension :]
-    free = not system.constrained.any()
-    if any(p.origin is not None for p in system.potentials) or (free and still.any()):
+    displaced = any(potential.origin is not None for potential in system.potentials)
+    if not displaced and not system.constrained.any():  # positions at the origin have no rotation
+        rotations = system.space.rigid_motions(np.zeros_like(state.q))[system.space.dimension :]
+        displaced = bool(rotations.any())
+    if displaced:
         raise InputError(
             f"{name}: the method 'implicit' moves positions, and these degrees of freedom are displacements; "
             "take a configuration space whose degrees of freedom are positions"

@@ -8,7 +8,7 @@ replaces by the means of its two ends.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -111,10 +111,7 @@ class Potential:
     def energy_terms(self, q: Vector) -> Vector:
         """The parts of the energy at q [J], in the order of `terms`."""
         terms = np.zeros(len(self.terms))
-        q = q if self.origin is None else q + self.origin
-        self.evaluate(
-            q, NOTHING, self.data, self.history, _NO_STRAINS, ENERGY, NOTHING, NO_BAND, NO_BAND, terms
-        )
+        self._called(q, self.history, ENERGY, NOTHING, NO_BAND, NO_BAND, terms)
         return terms
 
     def committed(self, q: Vector, history: Vector) -> Vector:
@@ -125,18 +122,18 @@ class Potential:
         self._called(q, after, COMMIT, NOTHING, NO_BAND, NO_BAND)
         return after
 
-    def with_constants(self, **columns: object) -> Potential:
-        """The same potential with other constants in the named fields."""
-        constants = self.constants.copy()
-        for name, values in columns.items():
-            constants[name] = values
-        return replace(self, constants=constants)
-
     def _called(
-        self, q: Vector, history: Vector, task: int, gradient: Vector, band: Band, skew: Band
+        self,
+        q: Vector,
+        history: Vector,
+        task: int,
+        gradient: Vector,
+        band: Band,
+        skew: Band,
+        terms: Vector | None = None,
     ) -> float:
         q = q if self.origin is None else q + self.origin
-        terms = np.empty(len(self.terms))
+        terms = np.empty(len(self.terms)) if terms is None else terms
         return float(
             self.evaluate(q, NOTHING, self.data, history, _NO_STRAINS, task, gradient, band, skew, terms)
         )

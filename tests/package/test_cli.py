@@ -280,6 +280,18 @@ def test_the_whole_chain_by_hand(capsys, solved, tmp_path):
     assert "do not hold" in err
 
 
+def executed(code, folder):
+    """A process of its own that executes some Python in a folder."""
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
 def test_running_a_case_as_a_process_loads_no_more_than_it_needs(tmp_path):
     """Most of the time of a short run is imports; `cosserat speed` and the workflow's benchmarks have the seconds."""
     spared = "matplotlib", "IPython", "snakemake", "sphinx", "nbclient", "jupytext", "hypothesis"
@@ -290,14 +302,7 @@ from cosserat.cli import main
 assert main(["run", "clamped_free"]) == 0
 print(sorted(set({spared}) & set(sys.modules)))
 """
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = executed(code, tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.splitlines()[-1] == "[]"
 
@@ -320,14 +325,7 @@ def test_a_rod_of_ones_own_needs_nothing_of_the_book_or_the_workflow(tmp_path):
         "sys.exit(main(['run', 'clamped_free']) or main(['show', 'clamped_free.nc'])"
         " or main(['plot', 'clamped_free.nc']))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = executed(code, tmp_path)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "clamped_free.svg").is_file()
 

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from conftest import assembled, random_state
+from conftest import assembled, jacobian, random_state
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -64,11 +64,8 @@ def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(centreline, s
     rod = tapered(centreline, section)
     body, q = body_of(rod), random_state(rod, seed, size=0.1)
     _, gradient, hessian = assembled(body, q)
-    h = 1e-6
-    numeric, columns = np.empty(q.size), np.empty((q.size, q.size))
-    for k, shift in enumerate(h * np.eye(q.size)):
-        numeric[k] = (body.energy(q + shift) - body.energy(q - shift)) / (2 * h)
-        columns[k] = (force(body, q + shift) - force(body, q - shift)) / (2 * h)
+    numeric = jacobian(body.energy, q, 1e-6)
+    columns = jacobian(lambda p: force(body, p), q, 1e-6)
     np.testing.assert_allclose(gradient, numeric, atol=1e-6 * np.abs(gradient).max())
     np.testing.assert_allclose(hessian, columns, atol=1e-6 * np.abs(hessian).max())
 
@@ -83,12 +80,7 @@ def test_the_hessian_of_a_step_of_no_length_is_the_derivative_of_its_force(centr
     _, plain, hessian = assembled(body, q)
     gradient = step(body, q, q, q)
     np.testing.assert_allclose(gradient, plain, atol=1e-12 * np.abs(plain).max())
-    h = 1e-6
-    columns = np.empty((q.size, q.size))
-    for k, shift in enumerate(h * np.eye(q.size)):
-        ahead = step(body, q, q + shift, q + 2 * shift, GRADIENT)
-        behind = step(body, q, q - shift, q - 2 * shift, GRADIENT)
-        columns[k] = (ahead - behind) / (2 * h)
+    columns = jacobian(lambda p: step(body, q, p, 2 * p - q, GRADIENT), q, 1e-6)
     np.testing.assert_allclose(hessian, columns, atol=1e-6 * np.abs(hessian).max())
 
 

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from conftest import differentiated, jacobian
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -78,7 +79,7 @@ def strained(geometry, seed, size=0.01):
 
 def derivatives(potential, q):
     """Gradient and Hessian by the kernel, and by differences of the energy and of the gradient."""
-    n, h = q.size, 1e-6
+    n = q.size
     gradient, band = np.zeros(n), np.zeros((n, max(potential.half_bandwidth, 0) + 1))
     skew = np.zeros((0 if potential.symmetric else n, band.shape[1]))
     potential.add(q, potential.history, gradient, band, skew)
@@ -86,13 +87,8 @@ def derivatives(potential, q):
     if skew.size:
         lower = np.tril(to_dense(skew), -1)
         hessian = hessian + lower - lower.T
-    by_energy, by_gradient = np.empty(n), np.empty((n, n))
-    for k in range(n):
-        ahead, behind = np.zeros(n), np.zeros(n)
-        shift = h * np.eye(n)[k]
-        difference = potential.add_gradient(q + shift, potential.history, ahead)
-        difference -= potential.add_gradient(q - shift, potential.history, behind)
-        by_energy[k], by_gradient[:, k] = difference / (2 * h), (ahead - behind) / (2 * h)
+    by_energy = jacobian(potential.energy, q, 1e-6)
+    by_gradient = jacobian(lambda p: differentiated(potential, p)[1], q, 1e-6)
     return gradient, hessian, by_energy, by_gradient
 
 

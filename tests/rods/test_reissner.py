@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import assembled, differentiated
+from conftest import assembled, differentiated, jacobian
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
@@ -75,13 +75,8 @@ def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(section, barr
     geometry, rod = small_rod(section, barrier, offset=offset)
     q = strained(geometry, seed)
     _, gradient, hessian = assembled(rod, q)
-    h = 1e-7
-    numeric, columns = np.empty(q.size), np.empty((q.size, q.size))
-    for k in range(q.size):
-        shift = h * np.eye(q.size)[k]
-        (up, ahead), (down, behind) = differentiated(rod, q + shift), differentiated(rod, q - shift)
-        numeric[k] = (up - down) / (2 * h)
-        columns[k] = (ahead - behind) / (2 * h)
+    numeric = jacobian(rod.energy, q, 1e-7)
+    columns = jacobian(lambda p: differentiated(rod, p)[1], q, 1e-7)
     np.testing.assert_allclose(gradient, numeric, atol=1e-6 * np.abs(gradient).max())
     np.testing.assert_allclose(hessian, columns, atol=1e-6 * np.abs(hessian).max())
     assert rod.energy(q) == rod.energy_terms(q).sum()
