@@ -100,7 +100,7 @@ assert 0.3 * rod.young < of_edges.young[edge] < rod.young
 # %% [markdown]
 # The joint lies inside an edge, and there the averages of Table 3.1 cost accuracy: what adds up along a bar is compliance,
 # $1/EA$, and the table takes the mean of $E$. The error is of first order in the edge. The rod of Chapter 4 adds up
-# compliances and falls with the square of the edge. Beside the closed form, $u = \int n/EA\, d\xi$:
+# compliances and its error falls with the square of the edge. Beside the closed form, $u = \int n/EA\, d\xi$:
 
 # %%
 problem = bar.problem
