@@ -17,6 +17,7 @@ import re
 import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal, Self, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler, ValidationError
@@ -47,8 +48,7 @@ class Quantity:
 
     def check(self, value: object, info: core_schema.ValidationInfo) -> float:
         """Read and range-check one value."""
-        required = info.context is not None and info.context.get("units") == "required"
-        number = to_si(value, self.unit, unit_required=required)
+        number = to_si(value, self.unit, unit_required=from_file(info))
         shown = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
         if number <= self.above:
             raise PydanticCustomError("range", f"is {shown}; it must be above {self.above:g}")
@@ -87,6 +87,39 @@ class Count:
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self.check)
+
+
+class Reader:
+    """Base of annotations that read a value by a rule of their own; descriptions and schemas follow its forms."""
+
+    @property
+    def alternatives(self) -> Any:
+        """The forms, as a type with annotations."""
+        raise NotImplementedError
+
+    @property
+    def said(self) -> str:
+        """The type in words, for a description; empty where the alternatives say it."""
+        return ""
+
+    def check(self, value: object, info: core_schema.ValidationInfo) -> object:
+        """Read one value.
+
+        Raises
+        ------
+        PydanticCustomError : it has none of these forms.
+        """
+        raise NotImplementedError
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.check)
+
+
+def from_file(info: core_schema.ValidationInfo) -> bool:
+    """Whether a value comes from a file, where a number needs its unit."""
+    return info.context is not None and info.context.get("units") == "required"
 
 
 @dataclass(frozen=True)
@@ -130,17 +163,26 @@ class Parameters(BaseModel):
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined] # values from files never come here
 
     @classmethod
-    def read(cls, values: Mapping[str, Any], name: str, *, units_required: bool = True) -> Self:
+    def read(
+        cls,
+        values: Mapping[str, Any],
+        name: str,
+        *,
+        units_required: bool = True,
+        folder: Path | None = None,
+    ) -> Self:
         """Build from a plain mapping; `name` : its name in error sentences.
 
         units_required : a dimensional number needs its unit, as in every file; if not, such a number is in SI.
+        folder : where the files that it names are; the current one by default.
 
         Raises
         ------
         InputError : unknown or missing key, wrong type or unit, out of range; one clause for each fault.
         """
         try:
-            return cls.model_validate(values, context=FROM_FILE if units_required else None)
+            context = {**(FROM_FILE if units_required else {}), "folder": folder}
+            return cls.model_validate(values, context=context)
         except ValidationError as error:
             raise InputError(explain(error, cls, name)) from None
 
@@ -202,6 +244,8 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
             meaning.append(" of ".join(filter(None, (letter, cited(about.source)))))
             least = f"write a whole number, {about.at_least} or more" if isinstance(about, Count) else ""
             remedy = least or how_to_write(getattr(about, "unit", "1"))
+        elif isinstance(about, Reader) and about.said:
+            remedy = f"write {about.said}"
     if tables:
         needed = [name for name, inner in tables[0].model_fields.items() if inner.is_required()]
         meaning.append(_first_sentence(tables[0].__doc__))

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 _KINDS = {
     "1": "a ratio",
+    "%": "a percentage",
     "m": "a length",
     "m^2": "an area",
     "m^3": "a volume",

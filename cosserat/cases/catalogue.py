@@ -98,7 +98,7 @@ def find(name: str, file: str | Path | None = None) -> Case:
     if file is not None:
         tables = _read(file)
         if name in tables and not name.startswith("_"):
-            return _build(name, published_tables() | tables)
+            return _build(name, published_tables() | tables, path_of(file).parent)
     known = published() if file is None else load(file)
     if name not in known:
         place = "" if file is None else f" in {file}"
@@ -114,7 +114,7 @@ def load(file: str | Path) -> Mapping[str, Case]:
     InputError : the file cannot be read, is not TOML, or one of its cases is not valid.
     """
     tables = _read(file)
-    return _build_all(tables, published_tables() | tables)
+    return _build_all(tables, published_tables() | tables, path_of(file).parent)
 
 
 def _read(file: str | Path) -> dict[str, Any]:
@@ -176,25 +176,29 @@ def parse(parameters: str) -> Case:
         ) from None
 
 
-def _build_all(asked: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Case]:
-    return {name: _build(name, known) for name in asked if not name.startswith("_")}
+def _build_all(asked: Mapping[str, Any], known: Mapping[str, Any], folder: Path) -> dict[str, Case]:
+    return {name: _build(name, known, folder) for name in asked if not name.startswith("_")}
 
 
-def _build(name: str, known: Mapping[str, Any]) -> Case:
+def _build(name: str, known: Mapping[str, Any], folder: Path | None = None) -> Case:
+    """A case of these tables; files that it names are in the folder."""
     table = _inherit(name, known, ())
     own = known[name]
     title, source = (own.get(key, "") for key in ("title", "source"))  # a title is not inherited
-    problem = _read_problem(table, f"case '{name}'", units_required=True)
+    problem = _read_problem(table, f"case '{name}'", units_required=True, folder=folder)
     about = {"name": name, "title": title or name, "source": source, "problem": problem}
     return Case.read(about, f"case '{name}'")
 
 
-def _read_problem(table: dict[str, Any], name: str, *, units_required: bool) -> Problem:
+def _read_problem(
+    table: dict[str, Any], name: str, *, units_required: bool, folder: Path | None = None
+) -> Problem:
     """The problem of a table, read by the class of its kind."""
     kind = table.pop("kind", "")
     if not isinstance(kind, str) or kind not in kinds():
         raise InputError(f"{name}: 'kind' is {kind!r}{nearest(str(kind), list(kinds()))}")
-    return kinds()[kind].problem_class().read(table, name, units_required=units_required)
+    reader = kinds()[kind].problem_class().read
+    return reader(table, name, units_required=units_required, folder=folder)
 
 
 def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:

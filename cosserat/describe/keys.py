@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import types
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
@@ -16,12 +16,11 @@ from pydantic.fields import FieldInfo
 
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
-from cosserat.parameters import NONE_BY_WORD, Count, OneOf, Quantity, docstrings, nearest
+from cosserat.parameters import NONE_BY_WORD, Count, OneOf, Quantity, Reader, docstrings, nearest
 from cosserat.problem import Problem
 from cosserat.publications import kinds
-from cosserat.rods.naming import VertexName
 
-Form = Literal["quantity", "count", "vertex", "word", "name", "text", "truth", "table", "list", "row"]
+Form = Literal["quantity", "count", "word", "name", "text", "truth", "table", "list", "row", "either"]
 
 
 @dataclass(frozen=True)
@@ -31,8 +30,9 @@ class Value:
     about : unit and range of a quantity or a count.
     words : the allowed words.
     tables : the possible classes of a table; several differ in their `kind`.
-    items : types of the items of a list, or of the places of a row.
+    items : types of the items of a list, of the places of a row, or of the alternatives of "either".
     none : whether the word "none" removes the value.
+    said : the type in words, if its parts do not say it.
     """
 
     form: Form
@@ -41,6 +41,7 @@ class Value:
     tables: tuple[type[BaseModel], ...] = ()
     items: tuple[Value, ...] = ()
     none: bool = False
+    said: str = ""
 
     @property
     def innermost(self) -> Value:
@@ -182,13 +183,17 @@ def _value(annotation: Any) -> Value | None:
             return Value("quantity" if isinstance(mark, Quantity) else "count", mark, none=none)
         if isinstance(mark, OneOf):
             return Value("word", words=tuple(mark.registry))
-        if isinstance(mark, VertexName):
-            return Value("vertex")
+        if isinstance(mark, Reader):
+            forms = _value(mark.alternatives)
+            assert forms is not None
+            return replace(forms, said=mark.said, none=none)
     origin, parts = get_origin(annotation), get_args(annotation)
     if origin in (Union, types.UnionType):
         found = [value for part in parts if (value := _value(part)) is not None]
         if len(found) == 1:
             return Value(**{**vars(found[0]), "none": none})
+        if not all(value.tables for value in found):
+            return Value("either", items=tuple(found), none=none)
         return Value(
             "table", tables=tuple(table for value in found for table in value.tables), none=none
         )

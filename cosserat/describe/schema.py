@@ -176,7 +176,6 @@ def _form(value: Value) -> Schema:
     if value.problem:
         return {"anyOf": [{"$ref": f"#/$defs/{_word(value.problem)}"}]}
     forms: dict[str, Schema] = {
-        "vertex": {"anyOf": [{"enum": ["first", "last"]}, {"type": "integer", "minimum": 0}]},
         "word": {"enum": list(value.words)},
         "name": {
             "anyOf": [
@@ -188,6 +187,7 @@ def _form(value: Value) -> Schema:
         "text": {"type": "string"},
         "truth": {"type": "boolean"},
         "list": {"type": "array", "items": _form(value.items[0]) if value.items else {}},
+        "either": {"anyOf": [_form(item) for item in value.items]},
         "row": {
             "type": "array",
             "prefixItems": [_form(item) for item in value.items],

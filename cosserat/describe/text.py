@@ -80,9 +80,10 @@ def span(about: Quantity | Count) -> str:
 
 
 def _type(value: Value) -> str:
+    if value.said:
+        return value.said
     words = {
         "count": "a whole number",
-        "vertex": '"first", "last" or the index of a vertex, counted from 0',
         "name": "the name of a case, or a list of names",
         "text": "a text",
         "truth": "true or false",
@@ -98,6 +99,8 @@ def _type(value: Value) -> str:
         return (
             "a list of tables" if value.items[0].tables else f"a list, each item {_type(value.items[0])}"
         )
+    if value.form == "either":
+        return _either([_type(item) for item in value.items])
     if value.form == "row":
         return f"[{', '.join(_type(item) for item in value.items)}]"
     if value.problem:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
 from cosserat.rods.naming import unit_vector
+from cosserat.rods.places import Located, located, vertex_at
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
@@ -81,7 +82,7 @@ def draw_outline(ax: Axes, x: Array, d: Array, problem: RodProblem, **colours: A
 def draw_supports(ax: Axes, problem: RodProblem, x: Array, D: Array) -> None:
     """A bar across each fixed section, thick if the section cannot stretch either."""
     for support in problem.supports:
-        index = problem.rod.index(support.at)
+        index = vertex_at(support.at, problem.arc_length)
         section = np.column_stack([x[index] - 1.7 * D[index], x[index] + 1.7 * D[index]])
         whole = {"d3", "d2"} <= set(support.fixed)
         ax.plot(*section, color=INK, linewidth=3.0 if whole else 1.2, solid_capstyle="butt", zorder=4)
@@ -98,22 +99,30 @@ def draw_loads(ax: Axes, problem: RodProblem, x: Array, d: Array) -> None:
     for force in problem.forces:
         if force.force:
             along = np.sign(force.force) * unit_vector(force.along)
-            _draw_arrow(ax, _foot(x, problem.rod.index(force.at), along, size), along * size, "$n$")
+            place = located(force.at, problem.arc_length)
+            _draw_arrow(ax, _foot(x, place, along, size), along * size, "$n$")
+    parts = np.linspace(0, 1, x.shape[0])
     for line in problem.line_loads:
         end = problem.rod.length if line.end is None else line.end
         along = np.sign(line.density) * unit_vector(line.along)
-        _draw_row(ax, x, d, np.linspace(line.start, end, 9) / problem.rod.length, along * size / 2)
+        places = np.interp(np.linspace(line.start, end, 9), problem.arc_length, parts)
+        _draw_row(ax, x, d, places, along * size / 2)
     for couple in problem.couples:
         if couple.moment:
-            _draw_turn(ax, x[problem.rod.index(couple.at)], size / 2, couple.moment > 0)
+            place = located(couple.at, problem.arc_length)
+            _draw_turn(ax, point_at(x, place), size / 2, couple.moment > 0)
 
 
-def _foot(x: Array, index: int, along: Array, size: float) -> Array:
-    """Start of the arrow of a force: at its vertex, or outside an end that it compresses."""
-    outward = {0: x[0] - x[1], x.shape[0] - 1: x[-1] - x[-2]}.get(index, np.zeros(2))
-    pressed = outward @ along < -0.5 * np.linalg.norm(outward)
-    foot: Array = x[index] - along * size if pressed else x[index]
-    return foot
+def point_at(x: Array, place: Located) -> Array:
+    """The point at a place of the centreline x (N, 2), shape (2,)."""
+    return np.asarray(sum(weight * x[vertex] for vertex, weight in place.weights))
+
+
+def _foot(x: Array, place: Located, along: Array, size: float) -> Array:
+    """Start of the arrow of a force: at its place, or outside an end that it compresses."""
+    outward = {0: x[0] - x[1], x.shape[0] - 1: x[-1] - x[-2]}.get(place.index, np.zeros(2))
+    pressed = place.share == 0 and outward @ along < -0.5 * np.linalg.norm(outward)
+    return point_at(x, place) - along * size * pressed
 
 
 def _draw_row(ax: Axes, x: Array, d: Array, places: Array, arrow: Array) -> None:

@@ -76,7 +76,7 @@ class CheckpointedRun:
         ------
         InputError : the integrator's fixed step is beyond its stability limit at the start.
         """
-        geometry = problem.rod.geometry()
+        geometry = problem.geometry
         system = problem.system(geometry)
         work = _work_of_a_frame(problem, system)
         substeps_per_frame = max(1, math.ceil(work / WORK_PER_PART))

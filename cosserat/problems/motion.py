@@ -97,7 +97,7 @@ class RodMotion(RodProblem):
         ------
         UnstableError : small motions about it grow.
         """
-        geometry = self.rod.geometry()
+        geometry = self.geometry
         system = self.system(geometry)
         rest = system.space.reference
         return modes(system.unloaded(), rest, count, name, supported=self._anchored(geometry))
@@ -109,7 +109,7 @@ class RodMotion(RodProblem):
 
     def begin(self) -> State:
         """The state at time zero."""
-        geometry = self.rod.geometry()
+        geometry = self.geometry
         X, D, xi = geometry.X.copy(), geometry.D.copy(), geometry.arc_length
         if self.start.shape == "first beam mode":
             shape, slope = beams.first_beam_mode(self.rod.length, xi)

@@ -73,7 +73,7 @@ class RodPath(RodProblem):
         UnsupportedRodError : a rigid motion is left free.
         NotConvergedError : the path could not be followed; the error has the load reached and the last state.
         """
-        geometry = self.rod.geometry()
+        geometry = self.geometry
         system = self.system(geometry)
         check_supports(self.rod, geometry, system.constrained, name)
         solver = EquilibriumSolver(system, self.newton, name)

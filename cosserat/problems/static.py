@@ -52,7 +52,7 @@ class RodStatics(RodProblem):
         NotConvergedError : no equilibrium within the tolerance.
         CrossingError : neighbouring sections of the equilibrium cross.
         """
-        geometry = self.rod.geometry()
+        geometry = self.geometry
         system = self.system(geometry)
         point, solver = self.equilibrium(geometry, system, name)
         found = _solution(self.rod, geometry, point, solver)
@@ -75,7 +75,7 @@ class RodStatics(RodProblem):
         UnsupportedRodError, NotConvergedError : there is no equilibrium.
         UnstableError : small motions about the equilibrium grow.
         """
-        geometry = self.rod.geometry()
+        geometry = self.geometry
         system = self.system(geometry)
         point, _ = self.equilibrium(geometry, system, name)
         return modes(system, point.q, count, name, supported=True, history=point.history)

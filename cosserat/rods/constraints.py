@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Parameters, Quantity
-from cosserat.rods.naming import DofName, Vertex
+from cosserat.rods.naming import DofName
+from cosserat.rods.places import Place, vertex_at
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.solvers.banded import Mask
@@ -120,8 +121,8 @@ class RodConstraints:
 class Constraint(Parameters):
     """A constraint at one vertex of a case."""
 
-    at: Vertex
-    """The vertex that is constrained."""
+    at: Place
+    """The place that is constrained; the rod has a vertex there."""
 
     @property
     def fixes(self) -> tuple[DofName, ...]:
@@ -186,7 +187,7 @@ class PrescribedDisplacement(Constraint):
 
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
         """The proportional motion of its DOF."""
-        return DisplacedDof(rod.dof(self.at, self.dof), self.by, self.frequency)
+        return DisplacedDof(rod.dof(self.at, self.dof, geometry.arc_length), self.by, self.frequency)
 
 
 class PrescribedRotation(Constraint):
@@ -222,5 +223,5 @@ class PrescribedRotation(Constraint):
 
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
         """The motion of its director along a circle."""
-        D = geometry.D[rod.index(self.at)]
-        return RotatedDirector(rod.dof(self.at, "d3"), D, self.by, self.frequency)
+        D = geometry.D[vertex_at(self.at, geometry.arc_length)]
+        return RotatedDirector(rod.dof(self.at, "d3", geometry.arc_length), D, self.by, self.frequency)

@@ -1,44 +1,64 @@
-"""Names in a case: of vertices, of directions in the plane, of degrees of freedom (DOFs)."""
+"""Names in a case: of directions in the plane and of degrees of freedom (DOFs)."""
 
 from __future__ import annotations
 
-import numbers
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import GetCoreSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
+
+from cosserat.parameters import Quantity, Reader, from_file
+from cosserat.units import to_si
 
 Array = NDArray[np.float64]
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
 
 
-class VertexName:
-    """Annotation: 'first', 'last' or an index."""
+class DirectionName(Reader):
+    """Annotation: an axis, an angle from E3 towards E2, or components along E3 and E2 of any length."""
 
-    @staticmethod
-    def check(value: object) -> str | int:
-        """Read one name of a vertex."""
-        if isinstance(value, str) and value in ("first", "last"):
+    @property
+    def alternatives(self) -> Any:
+        """A word, an angle or two numbers."""
+        number = Annotated[float, Quantity("1")]
+        return (
+            Literal["E3", "-E3", "E2", "-E2"] | Annotated[float, Quantity("rad")] | tuple[number, number]
+        )
+
+    @property
+    def said(self) -> str:
+        """In words."""
+        return (
+            '"E3", "-E3", "E2" or "-E2", an angle from E3 towards E2, such as "30 deg", or components [E3, E2] of '
+            "any length, such as [3, 4]"
+        )
+
+    def check(self, value: object, info: core_schema.ValidationInfo) -> Any:
+        """Read one direction."""
+        if isinstance(value, str) and value in _DIRECTIONS:
             return value
-        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 0:
-            raise PydanticCustomError(
-                "type", f"is {value!r}; it must be 'first', 'last' or the index of a vertex"
-            )
-        return int(value)
+        required = from_file(info)
+        try:
+            if not isinstance(value, list | tuple):
+                return to_si(value, "rad", unit_required=required)
+            components = tuple(to_si(part, "1", unit_required=required) for part in value)
+        except PydanticCustomError:
+            components = ()
+        if len(components) != 2 or not any(components):
+            raise PydanticCustomError("direction", f"is {value!r}; it must be {self.said}")
+        return components
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.check)
 
-
-Vertex = Annotated[str | int, VertexName()]
-Direction = Literal["E3", "-E3", "E2", "-E2"]
+Direction = Annotated[str | float | tuple[float, float], DirectionName()]
 DofName = Literal["x3", "x2", "d3", "d2"]
 
 
-def unit_vector(direction: Direction) -> Array:
-    """The unit vector of a named direction, shape (2,)."""
-    return np.array(_DIRECTIONS[direction])
+def unit_vector(direction: str | float | tuple[float, float]) -> Array:
+    """The unit vector of a direction, shape (2,)."""
+    if isinstance(direction, str):
+        return np.array(_DIRECTIONS[direction])
+    if isinstance(direction, tuple):
+        components: Array = np.array(direction) / np.hypot(*direction)
+        return components
+    return np.array([np.cos(direction), np.sin(direction)])

@@ -21,6 +21,7 @@ from cosserat.rods.constraints import (
 from cosserat.rods.loads.couples import Couple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
 from cosserat.rods.loads.load import Load, LoadedRod
+from cosserat.rods.places import check_place, mesh
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.rods.space import RodSpace
@@ -76,27 +77,32 @@ class RodProblem(Problem):
             for item in getattr(self, key, ()):
                 yield key, item
 
+    @property
+    def arc_length(self) -> Array:
+        """Reference arc length of the vertices, one of them at every constraint, shape (N,) [m]."""
+        return mesh(self.rod.vertices, self.rod.length, [item.at for _, item in self.constraints()])
+
+    @property
+    def geometry(self) -> Geometry:
+        """The reference configuration of the rod."""
+        return self.rod.geometry(self.arc_length)
+
     @model_validator(mode="after")
     def _fits(self) -> Self:
         loads = [load for key in LOADS for load in self.loads_of(key)]
-        named = [at for load in loads for at in load.vertices]
+        named = [at for load in loads for at in load.places]
         for at in [*(item.at for _, item in self.constraints()), *named]:
-            if isinstance(at, int) and at >= self.rod.vertices:
-                raise PydanticCustomError(
-                    "range",
-                    f"'at' is {at}, but the rod's vertices are 0 to {self.rod.vertices - 1}; "
-                    "choose one of those, 'first' or 'last'",
-                )
+            check_place(at, self.rod.vertices, self.rod.length)
         for load in loads:
             load.check(self.rod)
         return self
 
     @model_validator(mode="after")
     def _what_moves_is_constrained(self) -> Self:
-        constrained, met = self.constrained(), dict[int, str]()
+        constrained, arc, met = self.constrained(), self.arc_length, dict[int, str]()
         for key, item in self.constraints():
             for dof in item.moves:
-                number = self.rod.dof(item.at, dof)
+                number = self.rod.dof(item.at, dof, arc)
                 if number in met:
                     keys = " and ".join(f"'{name}'" for name in dict.fromkeys([met[number], key]))
                     raise PydanticCustomError(
@@ -146,7 +152,8 @@ class RodProblem(Problem):
     def constrained(self) -> NDArray[np.bool_]:
         """Which DOFs are constrained, shape (n,)."""
         constrained = np.zeros(self.rod.vertices * self.rod.kinematics.per_vertex, dtype=np.bool_)
+        arc = self.arc_length
         for _, item in self.constraints():
             for dof in item.fixes:
-                constrained[self.rod.dof(item.at, dof)] = True
+                constrained[self.rod.dof(item.at, dof, arc)] = True
         return constrained

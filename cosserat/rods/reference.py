@@ -60,16 +60,16 @@ class Geometry:
         return cls(X, D)
 
     @classmethod
-    def arc(cls, vertices: int, length: float, director_length: Array, curvature: float) -> Geometry:
+    def arc(cls, arc: Array, director_length: Array, curvature: float) -> Geometry:
         """A rod bent from the origin into an arc from E3 towards E2, its directors along b, eq. (3.3.25).
 
-        length is that of the polygon, whose vertices lie on a circle.  The directors are orthogonal to the vertex
-        tangents, so there is no intrinsic shear.
+        arc : (N,) arc length of the vertices along the polygon, which lie on a circle [m].  The directors are
+        orthogonal to the vertex tangents, so there is no intrinsic shear between equal edges.
         """
-        edge = length / (vertices - 1)
+        edge = np.diff(arc)
         turn = 2 * np.arcsin(curvature * edge / 2)
-        angles = turn * (np.arange(vertices - 1) + 0.5)
-        steps = edge * np.column_stack([np.cos(angles), np.sin(angles)])
+        angles = np.cumsum(turn) - turn / 2
+        steps = edge[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
         X = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
         tangents = vertex_tangents(X)
         return cls(X, director_length[:, None] * np.column_stack([-tangents[:, 1], tangents[:, 0]]))

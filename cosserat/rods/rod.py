@@ -20,7 +20,8 @@ from cosserat.rods.energies.hemingway_stiffness import (
     PoissonCoupling,
 )
 from cosserat.rods.kinematics import Kinematics
-from cosserat.rods.naming import DofName, Vertex
+from cosserat.rods.naming import DofName
+from cosserat.rods.places import vertex_at
 from cosserat.rods.reference import Geometry
 from cosserat.rods.variation import Station, mass_scale, mean, scale_at, vertex_cuts
 
@@ -145,16 +146,19 @@ class Rod(Parameters):
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
         return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
 
-    def geometry(self) -> Geometry:
-        """Its reference configuration; the directors reach the upper surface."""
-        heights = self.height * self.height_fractions()
-        return Geometry.arc(self.vertices, self.length, (1 - self.centreline) * heights, self.curvature)
+    def geometry(self, arc: Array | None = None) -> Geometry:
+        """Its reference configuration; the directors reach the upper surface.
 
-    def height_fractions(self) -> Array:
-        """Heights at the vertices over the nominal one, after any step at a vertex, shape (N,) [1]."""
+        arc : (N,) arc length of the vertices [m]; equally spaced by default.
+        """
+        arc = np.linspace(0.0, self.length, self.vertices) if arc is None else arc
+        heights = self.height * self.height_fractions(arc)
+        return Geometry.arc(arc, (1 - self.centreline) * heights, self.curvature)
+
+    def height_fractions(self, arc: Array) -> Array:
+        """Heights at arc lengths (N,) [m] over the nominal one, after any step there, shape (N,) [1]."""
         if not self.stations:
-            return np.ones(self.vertices)
-        arc = np.linspace(0.0, self.length, self.vertices)
+            return np.ones(arc.size)
         return scale_at(self.stations, "height", arc, before=False)
 
     def part_masses(self, geometry: Geometry) -> Array:
@@ -170,13 +174,9 @@ class Rod(Parameters):
         """Mass matrix as a symmetric band, (n, w), eq. (3.3.43)."""
         return self.strain_energy.mass(self, geometry)
 
-    def index(self, at: Vertex) -> int:
-        """The index of a vertex that a load or a constraint names."""
-        return {"first": 0, "last": self.vertices - 1}[at] if isinstance(at, str) else at
-
-    def dof(self, at: Vertex, name: DofName) -> int:
-        """The index of a degree of freedom of a vertex."""
-        return self.index(at) * self.kinematics.per_vertex + self.kinematics.dofs.index(name)
+    def dof(self, at: str | int, name: DofName, arc: Array) -> int:
+        """The index of a degree of freedom of the vertex at a place; arc : (N,) of the vertices [m]."""
+        return vertex_at(at, arc) * self.kinematics.per_vertex + self.kinematics.dofs.index(name)
 
     def vectors(self, geometry: Geometry, u: Array) -> Array:
         """The vectors of every vertex, displaced by u (n,) from the reference: (N, m, 2) [m]."""

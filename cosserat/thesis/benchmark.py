@@ -62,7 +62,7 @@ def integrator() -> Iterator[str]:
         settings = IntegratorSettings(step=_STEP)
         for vertices, steps in ((20, 800), (200, 200), (2000, 20)):
             problem = find(name).vary("speed", rod={"vertices": vertices}).problem_as(RodMotion)
-            system, state = problem.system(problem.rod.geometry()), problem.begin()
+            system, state = problem.system(problem.geometry), problem.begin()
             integrate(system, state, settings.step, settings, "speed")
             work = functools.partial(integrate, system, state, steps * settings.step, settings, "speed")
             best, _ = _fastest(work, _RUNS)

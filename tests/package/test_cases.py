@@ -189,11 +189,11 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
         ),
         (
             'like = "clamped_free"\nsupports = [{ fixed = ["x3"] }]',
-            "'supports.0.at' is missing, the vertex that is constrained: see the cases in cosserat/thesis/cases ",
+            '\'supports.0.at\' is missing, the place that is constrained: write "first", "last", the index',
         ),
         (
             'like = "clamped_free"\ngravity = "none"\nforces = [{ at = 1, force = "1 N" }]',
-            "'forces.0.along' is missing, direction of the force: write 'E3' or '-E3' or 'E2' or '-E2'",
+            '\'forces.0.along\' is missing, direction of the force: write "E3", "-E3", "E2" or "-E2", an angle',
         ),
         (
             'kind = "crawl"\ncrawler.material.kind = "incompressible"',

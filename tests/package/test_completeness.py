@@ -29,6 +29,7 @@ ROOMS = (
     "errors",
     "units",
     "parameters",
+    "tables",
     "problem",
     "kinds",
     "publications",

@@ -258,7 +258,7 @@ def test_a_key_reads_so():
     assert said_of["rod.barrier"].startswith("true or false; default false ")
     assert said_of["rod.calibration"].startswith('a table or "none"; may be left out ')
     assert said_of["supports[].at"].startswith(
-        '"first", "last" or the index of a vertex, counted from 0; req'
+        '"first", "last", the index of a vertex, counted from 0, a distance from the first vertex along '
     )
     assert said_of["supports"].startswith("a list of tables; required ")
     assert said_of["rod.vertices"].startswith("a whole number (from 3 to 20000000); required ")

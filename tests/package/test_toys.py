@@ -235,7 +235,7 @@ class Push(Load):
         constants = np.zeros(1, PUSH)
         constants["force"] = sum(load.force for load in loads)
         constants["length"] = body.geometry.director_length[-1]
-        constants["at"] = body.rod.dof("last", "x3")
+        constants["at"] = body.rod.dof("last", "x3", body.geometry.arc_length)
         return Potential(
             push,
             constants,
@@ -393,7 +393,7 @@ class Circle(Constraint):
         return ("x3", "x2")
 
     def part(self, rod, geometry):
-        return Led(rod.dof(self.at, "x3"), self.radius, self.angle)
+        return Led(rod.dof(self.at, "x3", geometry.arc_length), self.radius, self.angle)
 
 
 class LedStatics(RodStatics):

@@ -27,7 +27,7 @@ def vibrating(name="beam", **changes):
 
 def parts_of(case):
     problem = case.problem
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     return problem, problem.system(geometry), problem.begin()
 
 
@@ -100,7 +100,7 @@ def test_a_free_rod_keeps_momentum_and_angular_momentum_to_rounding():
 def in_its_first_mode(amplitude, **changes):
     """The beam displaced by a micrometre in its own first mode, in which no stiff mode moves."""
     problem, system, _ = parts_of(BEAM.vary("beam", **changes))
-    start = problem.rod.geometry().q
+    start = problem.geometry.q
     shape = problem.modes(1).shape[0]
     return system, integrate.State(
         start + amplitude * shape / np.abs(shape).max(), np.zeros(start.size), system.history
@@ -150,7 +150,7 @@ def test_both_integrators_agree_on_the_published_case_in_what_they_resolve():
     """
     problem, system, state = parts_of(BEAM)
     found = problem.modes(state.q.size)
-    start = found.coordinates(system.mass, [state.q - problem.rod.geometry().q])[0]
+    start = found.coordinates(system.mass, [state.q - problem.geometry.q])[0]
     energy = (found.angular_frequency * start) ** 2 / 2
     stiff = int(np.argmax(energy[1:])) + 1
     assert energy.sum() == pytest.approx(system.internal.energy(state.q), rel=1e-3)
@@ -198,7 +198,7 @@ def test_modes_about_a_loaded_equilibrium_are_those_of_small_motions_there():
 def test_modes_are_orthonormal_and_free_rods_have_three_of_no_frequency():
     problem = free_flight().problem
     found = problem.modes(6)
-    system = problem.system(problem.rod.geometry())
+    system = problem.system(problem.geometry)
     products = np.array(
         [[a @ banded.band_product(system.mass, b) for b in found.shape] for a in found.shape]
     )
@@ -221,7 +221,7 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
     assert frequencies[1] == pytest.approx(frequencies[0] * np.sqrt(0.5), rel=0.1)
     assert 0 < frequencies[2] < 0.4 * frequencies[0]
     problem = column.problem
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     push = {"at": "last", "along": "-E3", "force": euler}
     pushed = problem.replace(forces=(push,))
     system = pushed.system(geometry)
@@ -236,7 +236,7 @@ def test_damping_of_a_free_rod_is_a_share_of_that_of_its_first_bending():
     """Its three rigid motions have no frequency to be damped by."""
     problem = free_flight(damping=1.0).problem
     elastic = problem.modes(4).angular_frequency[3]
-    assert problem.system(problem.rod.geometry()).damping_rate == pytest.approx(2 * elastic, rel=1e-9)
+    assert problem.system(problem.geometry).damping_rate == pytest.approx(2 * elastic, rel=1e-9)
     data = cosserat.run(free_flight(damping=0.01, duration=0.05, every=1e-3))
     gone = np.exp(-2 * 0.01 * elastic * data.time)
     np.testing.assert_allclose(
@@ -323,7 +323,7 @@ def test_E3_21_kinetic_energy_of_a_translation_counts_the_length_once(vertices):
     problem, system, state = parts_of(case)
     mass = problem.rod.line_density * problem.rod.length
     assert integrate.kinetic_energy(system, state) == pytest.approx(mass * 9 / 2)
-    part = problem.rod.geometry().voronoi_length
+    part = problem.geometry.voronoi_length
     twice = (problem.rod.line_density * part * part * 9 / 2).sum()
     assert abs(twice / (mass * 9 / 2) - 1) > 0.5
 
@@ -419,7 +419,7 @@ def test_modes_of_a_motion_are_those_of_the_unloaded_rod():
     ).problem
     assert (motor.modes(3).angular_frequency == plain.modes(3).angular_frequency).all()
     assert plain.modes(1).angular_frequency[0] == 0
-    damping_rates = [problem.system(problem.rod.geometry()).damping_rate for problem in (plain, motor)]
+    damping_rates = [problem.system(problem.geometry).damping_rate for problem in (plain, motor)]
     assert damping_rates[0] == damping_rates[1] == pytest.approx(2 * plain.modes(2).angular_frequency[1])
 
 

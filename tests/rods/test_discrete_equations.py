@@ -73,7 +73,7 @@ def test_kinetic_energy_and_momenta_are_those_of_the_points_of_the_sections(seed
     """
     case = cosserat.case("vibration_c4_20").vary("offset", rod={"centreline": 0.3, "vertices": 5})
     problem = case.problem
-    rod, geometry = problem.rod, problem.rod.geometry()
+    rod, geometry = problem.rod, problem.geometry
     rng = np.random.default_rng(seed)
     x, d, v, w = rng.uniform(-1, 1, (4, rod.vertices, 2))
     nodes, weights = np.polynomial.legendre.leggauss(3)
@@ -105,7 +105,7 @@ def test_the_consistent_mass_is_that_of_straight_edges_and_of_their_ends_in_the_
         "x", rod={"centreline": centreline, "vertices": 6, "stations": stations}
     )
     problem = case.problem
-    rod, geometry = problem.rod, problem.rod.geometry()
+    rod, geometry = problem.rod, problem.geometry
     rng = np.random.default_rng(4)
     v, w = rng.uniform(-1, 1, (2, rod.vertices, 2))
     nodes, weights = np.polynomial.legendre.leggauss(6)
@@ -186,7 +186,7 @@ def test_bending_of_a_curved_rod_costs_as_eulers_elastica():
     geometry = rod.geometry()
     potential = rod.strain_energy.potential(rod, geometry)
     edge = geometry.edge_length[0]
-    bent = Geometry.arc(9, rod.length, geometry.director_length, 0.25)
+    bent = Geometry.arc(np.linspace(0.0, rod.length, 9), geometry.director_length, 0.25)
 
     def curvature(arc):
         return 2 / edge * np.tan(np.arcsin(arc * edge / 2))

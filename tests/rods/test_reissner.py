@@ -26,7 +26,7 @@ CLAMP = [{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}]
 
 
 def small_rod(section="free", barrier=False, poisson=0.3, offset=0.0, displacements=False):
-    geometry = Geometry.arc(6, 1.0, np.full(6, 0.05), 0.7)
+    geometry = Geometry.arc(np.linspace(0.0, 1.0, 6), np.full(6, 0.05), 0.7)
 
     stiffness = stiffnesses(
         (),
@@ -345,7 +345,7 @@ def test_a_path_does_not_depend_on_its_arcs_and_never_jumps(at):
 
 def test_a_branch_that_comes_back_to_its_beginning_says_so():
     """A symmetric arch: the tilting path between its two branching points is closed."""
-    axis = cosserat.case("arch_path").problem.rod.geometry().D[20]
+    axis = cosserat.case("arch_path").problem.geometry.D[20]
     push = 46.875 * axis / np.hypot(*axis)
     forces = [
         {"at": 20, "along": along, "force": force}

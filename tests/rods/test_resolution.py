@@ -60,7 +60,7 @@ def test_a_thin_rod_turns_freely_in_a_few_steps(like, radius, steps):
 def test_forces_of_a_step_have_no_resultant_and_work_as_the_energy_changes(like):
     """Also where the body turns far in the step; the work misses the change of energy to third order in the step."""
     problem = cosserat.case(like).vary("x", supports=[], rod={"vertices": 6, "poisson": 0.3}).problem
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     potential = problem.rod.strain_energy.potential(problem.rod, geometry)
     rng = np.random.default_rng(3)
     start, change = geometry.q, rng.uniform(-1, 1, 24) * 0.02
@@ -118,7 +118,7 @@ def test_what_drag_takes_and_supports_give_closes_the_balance(method):
 
 def test_the_filter_agrees_with_the_modes():
     problem = cosserat.case("vibration_c4_20").problem
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     system, q = problem.system(geometry), geometry.q
     found = modes(system, q, 80, "x", supported=True)
     rng = np.random.default_rng(0)
@@ -241,7 +241,7 @@ def test_surfaces_of_a_bent_rod_stretch_by_half_its_height_times_the_curvature()
     """On a circle of curvature K, chords of the surfaces at +-H/2 are 1 -+ K H / 2 times that of the centreline."""
     K, H = 0.8, 0.5
     straight = Geometry.straight(41, 5.0, H / 2)
-    bent = Geometry.arc(41, 5.0, np.full(41, H / 2), K)
+    bent = Geometry.arc(np.linspace(0.0, 5.0, 41), np.full(41, H / 2), K)
     stretch = surface_stretch(straight, bent.X, bent.D, np.ones(41))[:, 1:-1]
     np.testing.assert_allclose(stretch[0], 1 - K * H / 2, rtol=2e-3)
     np.testing.assert_allclose(stretch[1], 1 + K * H / 2, rtol=2e-3)

@@ -94,7 +94,7 @@ def test_a_pulled_bar_of_two_materials_narrows_as_each_of_them():
 def test_shear_modulus_and_poissons_ratio_are_averaged_each_by_itself():
     """Table 3.1: the mean of G is not G of the mean of E and nu."""
     problem = cosserat.case("necking").vary("two", rod={"stations": TWO, "vertices": 6}).problem
-    rod, geometry = problem.rod, problem.rod.geometry()
+    rod, geometry = problem.rod, problem.geometry
     stiff = rod.strain_energy.stiffness(
         rod, geometry
     )  # the part round vertex 2 is half of either material
@@ -115,7 +115,7 @@ def test_averages_of_a_tapered_section_are_its_integrals():
     """Eqs. (3.4.8)-(3.4.9) for A and I, against quadrature; the mass is that of the tapered body."""
     stations = [{"at": 0.5, "height": 1.0, "width": 1.0}, {"at": 3.0, "height": 0.5, "width": 2.0}]
     problem = BEAM.vary("taper", rod={"stations": stations, "vertices": 7}).problem
-    rod, geometry = problem.rod, problem.rod.geometry()
+    rod, geometry = problem.rod, problem.geometry
     body = rod.strain_energy.stiffness(rod, geometry)
 
     def height(xi):
@@ -299,7 +299,7 @@ def test_a_line_load_over_a_stretch_has_its_resultant_there():
         "loaded", gravity=None, line_loads=[{"along": "E2", "density": 7.0, "start": 1.3, "end": 3.1}]
     )
     force = cosserat.run(case).applied_force.sel(dof="x2").to_numpy()
-    arc = case.problem.rod.geometry().arc_length
+    arc = case.problem.geometry.arc_length
     assert force.sum() == pytest.approx(7.0 * 1.8)
     assert (force[(arc < 1.1) | (arc > 3.3)] == 0).all()
 
@@ -319,7 +319,7 @@ ARC = {"curvature": 0.3, "vertices": 41}
 
 def test_a_curved_reference_is_at_rest_and_unsheared():
     problem = BEAM.vary("arc", rod=ARC).problem
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     measured = strains(geometry, geometry.X, geometry.D)
     np.testing.assert_allclose(measured.theta, 0, atol=1e-14)  # D along B, section 3.3
     np.testing.assert_allclose(measured.mu_edge, 1, rtol=1e-14)
@@ -337,7 +337,7 @@ def test_E3_24_printed_bending_energy_does_not_let_a_curved_rod_rest():
         "arc", gravity=None, rod={**ARC, "intrinsic_curvature": "printed", "curvature": 0.05}
     )
     problem = case.problem
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     _, gradient, _ = assembled(problem.rod.strain_energy.potential(problem.rod, geometry), geometry.q)
     assert np.abs(gradient).max() > 1e3
     straightened = cosserat.run(case)
@@ -376,7 +376,7 @@ def test_a_curved_bar_bends_as_castigliano_says():
 
 def test_mass_couples_position_and_director_where_the_page_says():
     problem = cosserat.case("vibration_c4_20").vary("offset", rod={"centreline": 0.3}).problem
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     mass = problem.system(geometry).mass
     rng = np.random.default_rng(1)
     v = rng.standard_normal((20, 4))

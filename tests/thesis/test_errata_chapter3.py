@@ -427,7 +427,7 @@ def test_E3_22_the_drag_settles_every_mode_at_the_rate_of_the_lowest():
     """Roots of s^2 + 2 w1 s + w^2 for every mode of the beam; the force that was assumed has 2 zeta w1 for its rate."""
     problem = cosserat.case("relaxing_clamped_free").problem
     frequencies = problem.modes(8).angular_frequency
-    damping_rate = problem.system(problem.rod.geometry()).damping_rate
+    damping_rate = problem.system(problem.geometry).damping_rate
     assert damping_rate == pytest.approx(2 * frequencies[0], rel=1e-9)
     for frequency in frequencies:
         slowest = np.roots([1, damping_rate, frequency**2]).real.max()
@@ -522,7 +522,7 @@ def test_E3_27_normals_half_a_voronoi_length_away_meet_at_the_printed_radius(ang
 def test_E3_28_no_part_keeps_its_energy_and_all_together_do():
     """In the first mode: kinetic energy of each part when the rod is straight, its elastic energy when it is bent."""
     problem = cosserat.case("vibration_c4_2").problem
-    rod, geometry = problem.rod, problem.rod.geometry()
+    rod, geometry = problem.rod, problem.geometry
     found = problem.modes(1)
     size = 1e-4 / np.abs(found.shape[0]).max()
     shape = size * found.shape[0].reshape(-1, 4)
@@ -579,7 +579,7 @@ def test_E3_31_sections_of_a_rod_that_is_only_bent_cross_with_a_finite_energy():
     rod = make_rod(vertices=41, poisson=0.0)
     straight = rod.geometry()
     for radius, crosses in ((0.5, False), (0.2, True)):
-        bent = Geometry.arc(41, rod.length, straight.director_length, 1 / radius)
+        bent = Geometry.arc(np.linspace(0.0, rod.length, 41), straight.director_length, 1 / radius)
         found = strains(straight, bent.X, bent.D)
         assert np.abs(found.theta).max() < 1e-12
         np.testing.assert_allclose(found.mu_edge, bent.edge_length / straight.edge_length)

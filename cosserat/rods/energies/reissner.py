@@ -55,7 +55,7 @@ class Reissner(Energy):
             offset=(0.5 - rod.centreline) * rod.height,
             curvature=rod.curvature,
         )
-        heights = rod.height_fractions()
+        heights = rod.height_fractions(geometry.arc_length)
         return potential(
             geometry,
             stiffness,
@@ -70,7 +70,7 @@ class Reissner(Energy):
 
         Y02 and Y22 are those of the sections along an edge, in units of the directors of the vertices.
         """
-        heights = rod.height_fractions()
+        heights = rod.height_fractions(geometry.arc_length)
         edges = edge_masses(rod.stations, rod.line_density, geometry.arc_length)
         own = np.zeros((3, heights.size))
         own[:, :-1] += edges.before

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from cosserat.parameters import Quantity
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.loads.load import Load, LoadedRod
-from cosserat.rods.naming import Vertex
+from cosserat.rods.places import Place
 from cosserat.rods.reference import unwrapped_angles
 from cosserat.solvers.banded import Band, Vector
 from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, Potential
@@ -37,16 +37,19 @@ _VERTEX = np.dtype(
 
 
 class Couple(Load):
-    """A moment on one section, positive from E3 towards E2, that rotates with it and does the work of a couple."""
+    """A moment on one section, positive from E3 towards E2, that rotates with it and does the work of a couple.
 
-    at: Vertex
-    """The vertex of the loaded section."""
+    Between two vertices, the sections of both carry it.
+    """
+
+    at: Place
+    """The place of the loaded section."""
     moment: Annotated[float, Quantity("N*m", r"\mathbf{M}", "3.3.41")]
     """Moment, positive from E3 towards E2."""
 
     @property
-    def vertices(self) -> tuple[str | int, ...]:
-        """The vertex where it acts."""
+    def places(self) -> tuple[str | int, ...]:
+        """The place where it acts."""
         return (self.at,)
 
     @classmethod
@@ -54,7 +57,8 @@ class Couple(Load):
         """Minus the work of the couples; its internal variable is the winding angle of the first director [rad]."""
         moments = np.zeros(body.rod.vertices)
         for load in loads:
-            moments[body.rod.index(load.at)] += load.moment
+            for vertex, weight in body.shared(load.at):
+                moments[vertex] += weight * load.moment
         angles = unwrapped_angles(body.geometry.D)
         return couples(moments, angles, body.rod.kinematics.per_vertex, body.origin)
 

@@ -13,7 +13,8 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Quantity
 from cosserat.rods.loads.load import Load, LoadedRod
-from cosserat.rods.naming import Direction, Vertex, unit_vector
+from cosserat.rods.naming import Direction, unit_vector
+from cosserat.rods.places import Place
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.solvers.banded import Band, Vector, band_product
@@ -55,24 +56,25 @@ class Gravity(DeadLoad):
 
 
 class PointForce(DeadLoad):
-    """A dead force on the centreline at one vertex."""
+    """A dead force on the centreline at one place; between two vertices, both carry it."""
 
-    at: Vertex
-    """The vertex where it acts."""
+    at: Place
+    """The place where it acts."""
     along: Direction
     """Direction of the force."""
     force: Annotated[float, Quantity("N", "n", "section 3.5")]
     """Size of the force; a negative one acts the other way."""
 
     @property
-    def vertices(self) -> tuple[str | int, ...]:
-        """The vertex where it acts."""
+    def places(self) -> tuple[str | int, ...]:
+        """The place where it acts."""
         return (self.at,)
 
     def on_dofs(self, body: LoadedRod) -> Array:
-        """Force on the position of its vertex."""
+        """Force on the positions of the vertices beside it."""
         forces = body.no_force
-        forces[body.rod.index(self.at), :2] = self.force * unit_vector(self.along)
+        for vertex, weight in body.shared(self.at):
+            forces[vertex, :2] = weight * self.force * unit_vector(self.along)
         return forces
 
 

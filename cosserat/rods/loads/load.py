@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.parameters import Parameters
+from cosserat.rods.places import located
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.solvers.potential import Potential
@@ -40,6 +41,10 @@ class LoadedRod:
         """Zero for the DOFs of each vertex, shape (N, DOFs of a vertex)."""
         return np.zeros((self.rod.vertices, self.rod.kinematics.per_vertex))
 
+    def shared(self, at: str | int) -> tuple[tuple[int, float], ...]:
+        """The vertices beside a place, with their weights in linear interpolation."""
+        return located(at, self.geometry.arc_length).weights
+
     @property
     def unmoved(self) -> Array:
         """The DOFs (n,) of the reference."""
@@ -51,8 +56,8 @@ class Load(Parameters):
     """A load of one kind: its parameters, and the potential of all loads of that kind."""
 
     @property
-    def vertices(self) -> tuple[str | int, ...]:
-        """The vertices that it names."""
+    def places(self) -> tuple[str | int, ...]:
+        """The places that it names."""
         return ()
 
     def check(self, rod: Rod) -> None:

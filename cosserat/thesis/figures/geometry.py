@@ -89,7 +89,7 @@ def fig_3_2(data: Data) -> Figure:
     figure, (ax,) = canvas(7.2, 2.7)
     rod = problem_of(data["clamped_free"], RodProblem).rod
     count, cut = 81, 48
-    geometry = Geometry.arc(count, rod.length, np.full(count, rod.height / 2), 0.12)
+    geometry = Geometry.arc(np.linspace(0.0, rod.length, count), np.full(count, rod.height / 2), 0.12)
     fraction = np.linspace(0, 1, count)[:, None]
     up = geometry.D * (
         0.9 + 0.1 * np.sin(2 * np.pi * fraction)
@@ -252,7 +252,7 @@ def fig_3_5(data: Data) -> Figure:
     for ax, n, title in ((left, 241, "(a) many vertices"), (right, 13, "(b) few vertices")):
         edge = rod.length / (n - 1)
         curvature = 2 * np.sin(np.pi / (n - 1)) / edge  # closed polygon
-        ring = Geometry.arc(n, rod.length, np.full(n, rod.height / 2), curvature)
+        ring = Geometry.arc(np.linspace(0.0, rod.length, n), np.full(n, rod.height / 2), curvature)
         flat = Geometry.straight(n, rod.length, rod.height / 2)
         for stretch, colour in ((1.0, COMPUTED), (1.4, VARIANT)):
             x = stretch * (ring.X - ring.X.mean(axis=0))

@@ -69,7 +69,7 @@ def fig_modes(data: Data) -> Figure:
     figure, axes = canvas(7.2, 3.6, 2, 2)
     problem = problem_of(data["vibration_c4_20"], RodMotion)
     found = problem.modes(len(axes))
-    geometry = problem.rod.geometry()
+    geometry = problem.geometry
     for ax, frequency, shape, letter in zip(
         axes, found.angular_frequency, found.shape, "abcd", strict=True
     ):

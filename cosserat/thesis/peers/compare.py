@@ -271,7 +271,7 @@ def _solve(case: RodProblem, problem: Problem) -> dict[str, Any]:
 
 @_solve.register
 def _solve_statics(case: RodStatics, problem: Problem) -> dict[str, Any]:
-    system = case.system(case.rod.geometry())
+    system = case.system(case.geometry)
     start = time.perf_counter()
     found = solve_full_load(EquilibriumSolver(system, case.newton, problem.name))
     taken = time.perf_counter() - start
@@ -282,7 +282,7 @@ def _solve_statics(case: RodStatics, problem: Problem) -> dict[str, Any]:
 @_solve.register
 def _solve_motion(case: RodMotion, problem: Problem) -> dict[str, Any]:
     small = case.replace(start=case.start.replace(amplitude=problem.load))
-    system, state = small.system(small.rod.geometry()), small.begin()
+    system, state = small.system(small.geometry), small.begin()
     settings = IntegratorSettings(step=problem.duration / problem.steps)
     start = time.perf_counter()
     integrate(system, state, problem.duration, settings, problem.name)
