@@ -28,6 +28,11 @@ def make_rod(**changes):
     return cosserat.case("necking").problem.rod.replace(**changes)
 
 
+def sine(frequency):
+    """A function of time that oscillates."""
+    return {"kind": "sine", "frequency": frequency}
+
+
 def random_state(rod: Rod, seed: int, size: float = 0.3, turn: float | None = None):
     """A strained and rotated configuration, shape (4 N,): relative strains up to about `size`."""
     rng = np.random.default_rng(seed)

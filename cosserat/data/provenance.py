@@ -14,6 +14,7 @@ _COMPUTING = (
     "solution.py",
     "units.py",
     "parameters.py",
+    "tables.py",
     "problem.py",
     "kinds.py",
     "publications.py",

@@ -97,15 +97,22 @@ VARIABLES: dict[str, Variable] = {
     "strain_energy": Variable(
         ("time",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9
     ),
-    "load_potential": Variable(
-        ("time",), "J", "potential of the dead loads and couples", "-W", "3.3.40", 1e-9
-    ),
+    "load_potential": Variable(("time",), "J", "potential of the constant loads", "-W", "3.3.40", 1e-9),
     "dissipated_energy": Variable(
         ("time",), "J", "energy that the damping has taken since the start", "", "section 3.5", 1e-9
     ),
     "support_work": Variable(
         ("time",), "J", "work that moved supports have done since the start", "", "3.3.40", 1e-9
     ),
+    "load_work": Variable(
+        ("time",),
+        "J",
+        "work since the start of the loads that depend on time or have no potential",
+        "",
+        "3.3.40",
+        1e-9,
+    ),
+    "attached_energy": Variable(("time",), "J", "energy of springs and foundations", "", "", 1e-9),
     "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-7),
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7

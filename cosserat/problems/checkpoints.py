@@ -159,7 +159,8 @@ class CheckpointedRun:
 
     def _unbalanced(self, whole: Solution) -> Iterator[str]:
         energy = whole["kinetic_energy"] + whole["strain_energy"]
-        given = whole["support_work"] - whole["dissipated_energy"] - whole["load_potential"]
+        given = whole["support_work"] + whole["load_work"] - whole["dissipated_energy"]
+        given = given - whole["load_potential"] - whole["attached_energy"]
         missing = np.abs(energy - given - (energy - given)[0])
         size = max(float(np.abs(energy).max()), float(np.abs(given - given[0]).max()))
         if missing.max() > UNBALANCED * size:
@@ -187,13 +188,15 @@ class CheckpointedRun:
             )
 
     def _driven_too_fast(self) -> Iterator[str]:
-        moves, turns = self.problem.prescribed_displacements, self.problem.prescribed_rotations
-        frequency = max([0.0, *(move.frequency for move in moves), *(turn.frequency for turn in turns)])
-        if 2 * np.pi * frequency * self.step > FAST:
-            yield (
-                f"fast support: a support oscillates at {frequency:.4g} Hz, which steps of {self.step:.3g} s do not "
-                "resolve (omega h > 1); take a shorter 'integrator.step'"
+        for key in dict.fromkeys(key for key, _ in self.problem.time_functions):
+            fastest = max(
+                function.fastest for own, function in self.problem.time_functions if own == key
             )
+            if fastest * self.step > FAST:
+                yield (
+                    f"fast drive: a time function of '{key}' changes at up to {fastest / (2 * np.pi):.4g} Hz, which "
+                    f"steps of {self.step:.3g} s do not resolve (omega h > 1); take a shorter 'integrator.step'"
+                )
 
     def _damped_beyond(self) -> Iterator[str]:
         c, h = self.system.damping_rate, self.step
@@ -225,6 +228,7 @@ def resumed(part: Solution, system: MechanicalSystem) -> State:
         float(part["time"][-1]),
         float(part["dissipated_energy"][-1]),
         float(part["support_work"][-1]),
+        float(part["load_work"][-1]),
     )
 
 
@@ -283,6 +287,8 @@ def _fields(
         "load_potential": np.array(loads),
         "dissipated_energy": np.array([state.dissipated for state in states]),
         "support_work": np.array([state.driven for state in states]),
+        "load_work": np.array([state.load_work for state in states]),
+        "attached_energy": np.array([system.attached_energy(s.q, s.history) for s in states]),
         "angular_momentum": momenta[:, 2],
     }
     fields: dict[str, Field] = {name: (("time",), values) for name, values in at_times.items()}

@@ -45,7 +45,7 @@ class RodMotion(RodProblem):
     """Motion of a rod from a start, perhaps damped, under dead loads."""
 
     kind: Literal["rod motion"] = "rod motion"
-    in_increments: ClassVar[bool] = False
+    in_time: ClassVar[bool] = True
     always: ClassVar[tuple[str, ...]] = ("couples",)
     thinned: ClassVar[Mapping[str, int]] = {"time": 40}
     start: Start = Start()

@@ -57,12 +57,6 @@ class RodPath(RodProblem):
             raise PydanticCustomError(
                 "energy", "needs rod.energy = 'consistent'; the published rod has no paths"
             )
-        if self.oscillates:
-            raise PydanticCustomError(
-                "static",
-                "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but a path "
-                "has no time; leave it out",
-            )
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:

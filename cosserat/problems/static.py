@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Literal, Self
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import model_validator
-from pydantic_core import PydanticCustomError
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.problem import ALONE, Run
@@ -32,16 +30,6 @@ class RodStatics(RodProblem):
 
     kind: Literal["rod statics"] = "rod statics"
     newton: NewtonSettings = NewtonSettings()
-
-    @model_validator(mode="after")
-    def _nothing_oscillates(self) -> Self:
-        if self.oscillates:
-            raise PydanticCustomError(
-                "static",
-                "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but a "
-                "static problem has no time; leave it out",
-            )
-        return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Find the equilibrium; `name` : name of the case in errors.

@@ -1,4 +1,4 @@
-"""Constrained degrees of freedom (DOFs): fixed, moved with the load, or moved sinusoidally in time."""
+"""Constrained degrees of freedom (DOFs): fixed, moved with the load, or moved by a function of time."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from cosserat.rods.naming import DofName
 from cosserat.rods.places import Place, vertex_at
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
+from cosserat.rods.time_functions import AnyTimeFunction, TimeFunction
 from cosserat.solvers.banded import Mask
 
 Array = NDArray[np.float64]
@@ -29,8 +30,8 @@ class PrescribedPart(Protocol):
         """First of its DOFs."""
 
     @property
-    def frequency(self) -> float:
-        """Frequency of sinusoidal motion [Hz]; zero for a single move."""
+    def time_function(self) -> TimeFunction | None:
+        """The fraction of the full motion over time; None for a single move."""
 
     @property
     def rotation(self) -> float:
@@ -42,11 +43,11 @@ class PrescribedPart(Protocol):
 
 @dataclass(frozen=True)
 class DisplacedDof:
-    """One DOF, moved by an amount [m], sinusoidally if it has a frequency [Hz]."""
+    """One DOF, moved by an amount [m]."""
 
     index: int
     by: float
-    frequency: float
+    time_function: TimeFunction | None = None
     rotation: float = 0.0
 
     def place(self, fraction: float) -> tuple[Array, Array, Array]:
@@ -61,7 +62,7 @@ class RotatedDirector:
     index: int
     D: Array
     by: float
-    frequency: float
+    time_function: TimeFunction | None = None
 
     @property
     def rotation(self) -> float:
@@ -96,16 +97,17 @@ class RodConstraints:
     def at_time(self, time: float) -> tuple[Array, Array, Array]:
         """Displacement, velocity and acceleration at a time [s], each (n,).
 
-        The full motion times sin(2 pi f t); without a frequency the full motion from the start.
+        The full motion times the function of time; without one, the full motion from the start.
         """
         motion = np.zeros((3, self.mask.size))
         for part in self.parts:
-            omega = 2 * np.pi * part.frequency
-            fraction = np.sin(omega * time) if omega else 1.0
-            rate = omega * np.cos(omega * time)
+            fraction, rate, second = 1.0, 0.0, 0.0
+            if part.time_function is not None:
+                given = part.time_function.derivatives(np.array([time]))
+                fraction, rate, second = (float(values[0]) for values in given)
             at, slope, bend = part.place(fraction)
             where = slice(part.index, part.index + at.size)
-            motion[:, where] = at, slope * rate, bend * rate**2 - slope * omega**2 * fraction
+            motion[:, where] = at, slope * rate, bend * rate**2 + slope * second
         return motion[0], motion[1], motion[2]
 
     def at_load(self, factor: float) -> tuple[Array, Array]:
@@ -163,17 +165,14 @@ class Support(Constraint):
 
 
 class PrescribedDisplacement(Constraint):
-    """Prescribed displacement of a fixed DOF.  Static: applied with the load.  Dynamic: a step, or sinusoidal.
-
-    With a frequency f its displacement is by sin(2 pi f t).
-    """
+    """Prescribed displacement of a fixed DOF.  Static: applied with the load.  Dynamic: at once, or over time."""
 
     dof: DofName
     """The fixed degree of freedom that is moved."""
     by: Annotated[float, Quantity("m")]
-    """Displacement from its reference value; with a frequency, the amplitude."""
-    frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
-    """Frequency of sinusoidal motion; zero moves it once."""
+    """Displacement from its reference value."""
+    time_function: AnyTimeFunction | None = None
+    """Fraction of the displacement over time, of a motion only; without one, the DOF moves at the start."""
 
     @property
     def moves(self) -> tuple[DofName, ...]:
@@ -187,19 +186,19 @@ class PrescribedDisplacement(Constraint):
 
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
         """The proportional motion of its DOF."""
-        return DisplacedDof(rod.dof(self.at, self.dof, geometry.arc_length), self.by, self.frequency)
+        return DisplacedDof(rod.dof(self.at, self.dof, geometry.arc_length), self.by, self.time_function)
 
 
 class PrescribedRotation(Constraint):
     """Prescribed rotation of a fixed section, positive from E3 towards E2.
 
-    Static: applied with the load.  Dynamic: a step, or sinusoidal: with a frequency f, sin(2 pi f t) times the angle.
+    Static: applied with the load.  Dynamic: at once, or over time.
     """
 
     by: Annotated[float, Quantity("rad")]
-    """Angle from E3 towards E2; with a frequency, the amplitude."""
-    frequency: Annotated[float, Quantity("Hz", at_least=0)] = 0.0
-    """Frequency of sinusoidal rotation; zero rotates it once."""
+    """Angle from E3 towards E2."""
+    time_function: AnyTimeFunction | None = None
+    """Fraction of the angle over time, of a motion only; without one, the section rotates at the start."""
 
     @property
     def moves(self) -> tuple[DofName, ...]:
@@ -213,7 +212,7 @@ class PrescribedRotation(Constraint):
 
     def check(self, *, large_rotations: bool) -> None:
         """Sections rotate by more than a quarter turn only in increments."""
-        if not large_rotations and not self.frequency and abs(self.by) > np.pi / 2:
+        if not large_rotations and not self.time_function and abs(self.by) > np.pi / 2:
             raise PydanticCustomError(
                 "range",
                 f"'prescribed_rotations' rotates the section of vertex {self.at} by {self.by:.4g} rad at once; only "
@@ -224,4 +223,6 @@ class PrescribedRotation(Constraint):
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart:
         """The motion of its director along a circle."""
         D = geometry.D[vertex_at(self.at, geometry.arc_length)]
-        return RotatedDirector(rod.dof(self.at, "d3", geometry.arc_length), D, self.by, self.frequency)
+        return RotatedDirector(
+            rod.dof(self.at, "d3", geometry.arc_length), D, self.by, self.time_function
+        )

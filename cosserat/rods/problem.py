@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import ClassVar, Self
 
 import numpy as np
@@ -25,6 +26,8 @@ from cosserat.rods.places import check_place, mesh
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.rods.space import RodSpace
+from cosserat.rods.time_functions import TimeFunction
+from cosserat.solvers.potential import Potential
 from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
@@ -47,8 +50,8 @@ CONSTRAINTS: dict[str, type[Constraint]] = {
 class RodProblem(Problem):
     """A rod with its constraints and loads."""
 
-    in_increments: ClassVar[bool] = True
-    """Whether prescribed DOFs move with the load, in increments, and not at once."""
+    in_time: ClassVar[bool] = False
+    """Whether it is a motion; if not, loads and prescribed DOFs grow together, in increments."""
     always: ClassVar[tuple[str, ...]] = ()
     """Keys of loads whose potential is always present, for its internal variables."""
     rod: Rod
@@ -98,6 +101,15 @@ class RodProblem(Problem):
         return self
 
     @model_validator(mode="after")
+    def _only_a_motion_has_time(self) -> Self:
+        for key, _ in self.time_functions if not self.in_time else ():
+            raise PydanticCustomError(
+                "static",
+                f"has a 'time_function' in '{key}', but only kind = 'rod motion' has a time; leave it out",
+            )
+        return self
+
+    @model_validator(mode="after")
     def _what_moves_is_constrained(self) -> Self:
         constrained, arc, met = self.constrained(), self.arc_length, dict[int, str]()
         for key, item in self.constraints():
@@ -116,13 +128,17 @@ class RodProblem(Problem):
                         f"add {dof} to 'fixed' of a support there",
                     )
         for _, item in self.constraints():
-            item.check(large_rotations=self.rod.strain_energy.large_rotations and self.in_increments)
+            item.check(large_rotations=self.rod.strain_energy.large_rotations and not self.in_time)
         return self
 
     @property
-    def oscillates(self) -> bool:
-        """Whether a prescribed DOF oscillates, which needs a motion."""
-        return any(getattr(item, "frequency", 0.0) for _, item in self.constraints())
+    def time_functions(self) -> list[tuple[str, TimeFunction]]:
+        """The functions of time of its loads and constraints, with their keys."""
+        items = [(key, load) for key in LOADS for load in self.loads_of(key)]
+        given = [
+            (key, getattr(item, "time_function", None)) for key, item in [*items, *self.constraints()]
+        ]
+        return [(key, function) for key, function in given if function is not None]
 
     def system(self, geometry: Geometry, *, displacements: bool = True) -> MechanicalSystem:
         """The rod with its loads, constraints and mass.
@@ -135,15 +151,22 @@ class RodProblem(Problem):
         rounded = np.zeros_like(at_rest) if energy.origin is None else energy.origin
         return MechanicalSystem(
             energy,
-            tuple(
-                kind.potential(self.loads_of(key), body)
-                for key, kind in LOADS.items()
-                if self.loads_of(key) or key in self.always
-            ),
+            tuple(self._potentials(body)),
             self._constraints(geometry),
             RodSpace(self.rod.kinematics, at_rest, displacements, rounded),
             body.mass,
         )
+
+    def _potentials(self, body: LoadedRod) -> Iterator[Potential]:
+        """The potential of each kind of loads, and of each of its functions of time."""
+        for key, kind in LOADS.items():
+            loads = self.loads_of(key)
+            constant = [load for load in loads if load.time_function is None]
+            if constant or key in self.always:
+                yield kind.potential(constant, body)
+            for level in dict.fromkeys(load.time_function for load in loads if load.time_function):
+                alike = [load for load in loads if load.time_function == level]
+                yield replace(kind.potential(alike, body), level=level)
 
     def _constraints(self, geometry: Geometry) -> RodConstraints:
         parts = [item.part(self.rod, geometry) for _, item in self.constraints()]

@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Band, Mask, Vector
 from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, STRAINS
-from cosserat.solvers.step import CORRECTED, UNCORRECTED, Bodies, Room, Run
+from cosserat.solvers.step import CORRECTED, FORCED, Bodies, Room, Run
 
 Fields = NDArray[np.float64]
 F = TypeVar("F", bound=Callable[..., Any])
@@ -43,6 +43,7 @@ _MAX_SCALED_FRACTION = 0.1  # largest fraction by which stresses are scaled to b
 _DIVERGENCE_RATIO = 0.5  # ratio of two corrections above which an older matrix is discarded
 _CORRECTION_START = 1e-3  # relative correction below which the change of energy is imposed
 _MAX_CORRECTED_ITERATIONS = 25  # iterations with sigma, which is not in the matrix; later ones omit it
+_DAMPED, _DRIVEN, _WORKED = range(3)  # indices of `exchanged`
 _TINY = float(np.finfo(float).tiny)
 STALL = 1e4  # corrections that stop shrinking below this multiple of round-off are round-off
 _EPS = float(np.finfo(float).eps)
@@ -210,8 +211,8 @@ def _decay(
     now = 0.0
     for i in range(n):
         now += v[i] * work[i] / 2
-    exchanged[0] += before - now + given
-    exchanged[1] += given
+    exchanged[_DAMPED] += before - now + given
+    exchanged[_DRIVEN] += given
 
 
 _FRESH, _JUDGED, _TURNING, _STIFFEST = range(
@@ -238,13 +239,13 @@ def _body(bodies: Bodies, q: Vector, after: Vector, task: int, gradient: Vector,
 
 
 @_uncounted
-def _loads(
-    bodies: Bodies, role: int, q: Vector, after: Vector, task: int, gradient: Vector, band: Band
+def _corrected(
+    bodies: Bodies, q: Vector, after: Vector, task: int, gradient: Vector, band: Band
 ) -> float:
-    """The energy of the loads of one role; adds their gradient and Hessian."""
+    """The energy of what has a potential beside the body; adds its gradient and Hessian."""
     energy = 0.0
     for k in range(1, len(bodies.kernels)):
-        if bodies.role[k] == role:
+        if bodies.role[k] == CORRECTED:
             energy += bodies.kernels[k](
                 q,
                 after,
@@ -258,6 +259,39 @@ def _loads(
                 bodies.terms[k],
             )
     return energy
+
+
+@_uncounted
+def _forced(
+    bodies: Bodies, run: Run, room: Room, task: int, gradient: Vector, band: Band, done: int
+) -> None:
+    """Add gradient and Hessian of the forced loads at the midpoint, times their factors; `pushed` is their gradient."""
+    room.pushed[:] = 0.0
+    for k in range(1, len(bodies.kernels)):
+        if bodies.role[k] != FORCED:
+            continue
+        own, level = room.force, run.levels[done, k]
+        own[:] = 0.0
+        if task == HESSIAN:
+            room.pushing[:, :] = 0.0
+        bodies.kernels[k](
+            room.middle,
+            room.end,
+            bodies.constants[k],
+            bodies.history[k],
+            bodies.strains[k],
+            task,
+            own,
+            room.pushing,
+            band[:0],
+            bodies.terms[k],
+        )
+        _add(room.pushed, level, own)
+        if task == HESSIAN:
+            for j in range(band.shape[0]):
+                for i in range(band.shape[1]):
+                    band[j, i] += level * room.pushing[j, i]
+    _add(gradient, 1.0, room.pushed)
 
 
 @_uncounted
@@ -283,15 +317,14 @@ def _started(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> float:
     """The energy at the start of a step; stores the strains there."""
     energy = _body(bodies, q, q[:0], STRAINS, gradient, band)
     if bodies.loaded:
-        _loads(bodies, UNCORRECTED, q, q[:0], STRAINS, gradient, band)
-        energy += _loads(bodies, CORRECTED, q, q[:0], STRAINS, gradient, band)
+        energy += _corrected(bodies, q, q[:0], STRAINS, gradient, band)
     return energy
 
 
 @_uncounted
 def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
     """The first guess of a step: an extrapolation of the last two changes, or the velocity."""
-    h, load, constrained, moved = run.h, run.load, run.constrained, run.moved
+    h, load, constrained, moved = run.h, room.load, run.constrained, run.moved
     change, first, earlier, earliest, pull = (
         room.change,
         room.first,
@@ -299,6 +332,9 @@ def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
         room.earliest,
         room.pull,
     )
+    _copy(run.load, load)
+    for k in range(run.varied.shape[0]):
+        _add(load, run.factors[done, k], run.varied[k])
     _multiply(run.mass, v, pull)
     for i in range(v.size):
         pull[i] = load[i] + 2 / h * pull[i]
@@ -310,15 +346,16 @@ def _predict(run: Run, room: Room, v: Vector, done: int, turning: bool) -> None:
 
 
 @_uncounted
-def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector) -> bool:
+def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector, done: int) -> bool:
     """Assemble and factor Newton's matrix at the midpoint; False if that fails."""
     middle, end, gradient, factor = room.middle, room.end, room.gradient, room.factor
     factor[:, :] = 0.0
     if not np.isfinite(_body(bodies, middle, end, HESSIAN, gradient, factor)):
         return False
     if bodies.loaded:
-        _loads(bodies, CORRECTED, middle, end, HESSIAN, gradient, factor)
-        _loads(bodies, UNCORRECTED, middle, end, HESSIAN, gradient, factor)
+        _corrected(bodies, middle, end, HESSIAN, gradient, factor)
+    if bodies.forced:
+        _forced(bodies, run, room, HESSIAN, gradient, factor, done)
     memory[_STIFFEST] = _step_matrix(factor, run.mass, 2 / run.h**2, run.constrained)
     memory[_FRESH], memory[_JUDGED] = 1.0, 0.0
     return _cholesky(factor)
@@ -435,13 +472,13 @@ def _solve_step(
             _copy(room.first, change)
         _ends(q, change, middle, end)
         if memory[_FRESH] == 0.0:
-            if not _factorise(bodies, run, room, memory):
+            if not _factorise(bodies, run, room, memory, done):
                 return False
             stale = False
         gradient[:] = 0.0
         after = kernel(middle, end, constants, history, strains, GRADIENT, gradient, none, none, terms)
         if bodies.loaded:
-            after += _loads(bodies, CORRECTED, middle, end, GRADIENT, gradient, none)
+            after += _corrected(bodies, middle, end, GRADIENT, gradient, none)
         if stale and not np.isfinite(after):
             size = np.inf
             continue
@@ -450,8 +487,8 @@ def _solve_step(
         if near and iteration <= _MAX_CORRECTED_ITERATIONS:
             blur = _EPS * largest * np.sqrt(2 * memory[_STIFFEST])
             _meet_energy(change, middle, translations, rotations, z, gradient, before, after, blur)
-        if bodies.loaded:
-            _loads(bodies, UNCORRECTED, middle, end, GRADIENT, gradient, none)
+        if bodies.forced:
+            _forced(bodies, run, room, GRADIENT, gradient, none, done)
         _accelerate(change, moved, rates, done, run.h, gained)
         _multiply(mass, gained, product)
         _unbalance(constrained, pull, inertia, product, gradient, force)
@@ -476,13 +513,15 @@ def _solve_step(
 def _accept(
     run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, turned: Vector, done: int
 ) -> None:
-    """Accept the step: DOFs, velocities, and the energy that moved supports have given."""
-    h, load, moved = run.h, run.load, run.moved
+    """Accept the step: DOFs, velocities, and the energy that moved supports and forced loads have given."""
+    h, load, moved = run.h, room.load, run.moved
     change, earlier, earliest, gradient = room.change, room.earlier, room.earliest, room.gradient
     for i in range(moved.size):
         k = moved[i]
         pushed = 2 / h**2 * room.product[k] - (room.pull[k] - load[k])
-        exchanged[1] += pushed * room.gained[k] + (gradient[k] - load[k]) * change[k]
+        exchanged[_DRIVEN] += pushed * room.gained[k] + (gradient[k] - load[k]) * change[k]
+    for i in range(change.size):
+        exchanged[_WORKED] += (load[i] - run.load[i] - room.pushed[i]) * change[i]
     for i in range(0, q.size, run.dimension):
         square = 0.0
         for k in range(i, i + run.dimension):
@@ -501,7 +540,8 @@ def integrate_steps(
 ) -> int:
     """Take steps, overwriting q, v and the internal variables; returns how many, fewer if one does not converge.
 
-    exchanged : energy that the damping has taken, and that moved supports have given; added to [J].
+    exchanged : energy that the damping has taken, that moved supports have given, and work of the loads that depend on
+    time or have no potential; added to [J].
     turned : (1,) largest change of a vector that rotates, in one step, as a fraction of its length; raised.
     """
     memory = np.zeros(4)

@@ -16,7 +16,7 @@ from cosserat.solvers.banded import Vector
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
 from cosserat.solvers.potential import KERNEL, NOTHING, Potential
-from cosserat.solvers.step import CORRECTED, COUNTED, UNCORRECTED, Bodies, Room, Run
+from cosserat.solvers.step import CORRECTED, COUNTED, FORCED, Bodies, Room, Run
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
@@ -31,11 +31,11 @@ def _compiled_steps(count: int) -> Callable[..., int]:
     whole = types.int64[::1]
     each = (types.FunctionType(KERNEL), types.uint8[::1], vector, matrix, vector)
     several = [types.UniTuple(one, count) for one in each]
-    bodies = types.NamedTuple((*several, whole, types.boolean, whole), Bodies)
+    bodies = types.NamedTuple((*several, whole, types.boolean, types.boolean, whole), Bodies)
     number = types.float64
-    given = (matrix, vector, mask, matrix, number, number, types.int64, vector, whole, matrix, matrix)
+    given = (matrix, vector, mask, matrix, number, number, types.int64, vector, whole, *(matrix,) * 5)
     run = types.NamedTuple(given, Run)
-    room = types.NamedTuple((*(vector,) * 12, matrix, matrix, matrix), Room)
+    room = types.NamedTuple((*(vector,) * 14, matrix, matrix, matrix, matrix), Room)
     signature = types.int64(bodies, run, room, vector, vector, vector, vector)
     (compiled,) = njit(signature, cache=True)(integrate_steps).overloads.values()
     # called directly: the types are known, and to find them anew takes half a millisecond a call
@@ -77,11 +77,14 @@ def integrate_implicitly(
         system.space.dimension,
         system.space.rotation_weights(state.q),
         *_prescribed(system, state.time, h, count),
+        *_varied(system, potentials, np.asarray(state.time + h * np.arange(count + 1))),
     )
-    vectors = [np.zeros(n) for _ in range(12)]
-    bands = [rotations, np.empty((n, max(width, system.half_bandwidth + 1))), mass.copy()]
-    room = Room._make([*vectors, *bands])
-    q, v, exchanged = state.q.copy(), state.v.copy(), np.array([state.dissipated, state.driven])
+    vectors = [np.zeros(n) for _ in range(14)]
+    factor = np.empty((n, max(width, system.half_bandwidth + 1)))
+    pushing = np.empty_like(factor if bodies.forced else factor[:0])
+    room = Room._make([*vectors, rotations, factor, mass.copy(), pushing])
+    q, v = state.q.copy(), state.v.copy()
+    exchanged = np.array([state.dissipated, state.driven, state.load_work])
     turned = np.zeros(1)
     done = _compiled_steps(len(bodies.kernels))(bodies, run, room, q, v, exchanged, turned)
     if done < count:
@@ -90,9 +93,10 @@ def integrate_implicitly(
             iterations=MAX_ITERATIONS,
             tolerance=TOLERANCE,
         )
-    dissipated, driven = exchanged.tolist()
     time = state.time + count * h
-    return State(q, v, tuple(history), time, dissipated, driven, float(turned[0])), count
+    dissipated, driven, load_work = exchanged.tolist()
+    after = State(q, v, tuple(history), time, dissipated, driven, load_work, float(turned[0]))
+    return after, count
 
 
 def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
@@ -109,7 +113,8 @@ def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
         tuple(np.zeros(p.strains) for p in given),
         tuple(np.empty(len(p.terms)) for p in given),
         np.array([_role(p) for p in potentials] + [COUNTED] * empty),
-        any(_role(p) != COUNTED for p in potentials[1:]),
+        any(_role(p) == CORRECTED for p in potentials[1:]),
+        any(_role(p) == FORCED for p in potentials),
         np.flatnonzero([p.history.size > 0 for p in potentials]),
     )
 
@@ -118,7 +123,21 @@ def _role(potential: Potential) -> int:
     """Role of a potential in a step."""
     if potential.linear:
         return COUNTED
-    return CORRECTED if potential.symmetric else UNCORRECTED
+    return CORRECTED if potential.symmetric and potential.level is None else FORCED
+
+
+def _varied(
+    system: MechanicalSystem, potentials: list[Potential], times: Vector
+) -> tuple[Fields, Fields, Fields]:
+    """Dead loads that depend on time, their factors, and the factors of the forced potentials, means over the steps."""
+    loads, n, steps = system.varied_loads, system.constrained.size, times.size - 1
+    varied = np.array([force for _, force in loads]).reshape(len(loads), n)
+    factors = np.column_stack([np.empty((steps, 0)), *(level.means(times) for level, _ in loads)])
+    levels = np.ones((steps, len(potentials)))
+    for k, potential in enumerate(potentials):
+        if potential.level is not None and not potential.linear:
+            levels[:, k] = potential.level.means(times)
+    return varied, np.ascontiguousarray(factors), levels
 
 
 def _prescribed(
@@ -136,8 +155,8 @@ def _prescribed(
 
 
 def _free_translations(system: MechanicalSystem, state: State) -> Fields:
-    """The translations (d, n) of a free body; (0, n) where a DOF is constrained."""
-    if system.constrained.any():
+    """The translations (d, n) of a free body; (0, n) where it is supported or attached."""
+    if system.constrained.any() or system.attached:
         return np.empty((0, state.q.size))
     return np.ascontiguousarray(system.space.rigid_motions(state.q)[: system.space.dimension])
 

@@ -45,6 +45,7 @@ class State:
     history : the internal variables of every potential of the system.
     largest_change : of a vector that rotates, in one of the steps that led here, as a fraction of its length.
     dissipated, driven : energy that the damping has taken and that moved supports have given since the start [J].
+    load_work : work since the start of the loads that depend on time or have no potential [J].
     """
 
     q: Vector
@@ -53,6 +54,7 @@ class State:
     time: float = 0.0
     dissipated: float = 0.0
     driven: float = 0.0
+    load_work: float = 0.0
     largest_change: float = 0.0
 
 

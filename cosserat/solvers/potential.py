@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numba import types
@@ -55,6 +56,16 @@ NOTHING = np.empty(0)
 _NO_STRAINS = np.empty((0, 0))
 
 
+class Level(Protocol):
+    """How a load depends on time: a factor."""
+
+    def value(self, t: Vector) -> Vector:
+        """The factor at times (n,) [s]."""
+
+    def means(self, times: Vector) -> Vector:
+        """Means of the factor between neighbouring times, (n,) [s] -> (n - 1,)."""
+
+
 @dataclass(frozen=True)
 class Potential:
     """A potential of n DOFs.
@@ -67,6 +78,7 @@ class Potential:
     strains : shape of the strains that a time step replaces by their means.
     symmetric : whether there is an energy; if not, the kernel returns zero, and its gradient is minus a force.
     origin : (n,) added to q; None for zero.
+    level : the factor of a load that depends on time; None for a constant load.
     """
 
     evaluate: Callable[..., float]
@@ -77,6 +89,7 @@ class Potential:
     strains: tuple[int, int] = (0, 0)
     symmetric: bool = True
     origin: Vector | None = None
+    level: Level | None = None
 
     @property
     def linear(self) -> bool:

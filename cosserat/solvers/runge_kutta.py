@@ -45,8 +45,8 @@ def adaptive(
     from scipy.integrate import RK45
 
     size = np.concatenate([np.abs(state.q), np.full(state.v.size, float(np.abs(state.v).max()))])
-    allowed = np.full(size.size + 2, settings.tolerance * max(float(size.max()), 1e-300))
-    allowed[-2:] = np.inf  # integrals of energy follow the motion
+    allowed = np.full(size.size + 3, settings.tolerance * max(float(size.max()), 1e-300))
+    allowed[-3:] = np.inf  # integrals of energy follow the motion
     rate = _Rates(system)
     rate.history = state.history
     method = RK45(
@@ -68,17 +68,25 @@ def adaptive(
 
 
 def _packed(state: State) -> Vector:
-    """DOFs, velocities, and the energies that damping has taken and supports have given, (2 n + 2,)."""
-    return np.concatenate([state.q, state.v, [state.dissipated, state.driven]])
+    """DOFs, velocities, and what damping has taken and supports and loads have given, (2 n + 3,)."""
+    return np.concatenate([state.q, state.v, [state.dissipated, state.driven, state.load_work]])
 
 
 def _accepted(system: MechanicalSystem, before: State, time: float, y: Vector) -> State:
     """The state in the array of `_packed`, with its internal variables."""
-    n = y.size // 2 - 1
+    n = before.q.size
     q, v = y[:n], y[n : 2 * n]
     history = system.committed(q, before.history)
+    dissipated, driven, load_work = y[2 * n :].tolist()
     return replace(
-        before, q=q, v=v, history=history, time=time, dissipated=float(y[-2]), driven=float(y[-1])
+        before,
+        q=q,
+        v=v,
+        history=history,
+        time=time,
+        dissipated=dissipated,
+        driven=driven,
+        load_work=load_work,
     )
 
 
@@ -99,6 +107,8 @@ class _Rates:
         q, v = y[:n], y[n : 2 * n]
         gradient = np.zeros(n)
         system.add_gradient(q, self.history, gradient)
+        pushed = system.forces_at(q, self.history, time)
+        gradient -= pushed
         force, gaining = -gradient, np.zeros_like(v)
         if system.constraints.moving:
             _, given, gaining = system.constraints.at_time(time)
@@ -108,9 +118,11 @@ class _Rates:
         acceleration = solve_positive(self.mass, force)
         assert acceleration is not None  # a mass is positive
         slowing = np.where(system.constrained, 0.0, acceleration - system.damping_rate * v)
+        working = float(pushed @ v)
         if not system.constraints.moving and not system.damping_rate:
-            return np.concatenate([v, slowing, np.zeros(2)])
+            return np.concatenate([v, slowing, [0.0, 0.0, working]])
         momentum = band_product(system.inertia, v)
         taken = system.damping_rate * float((v * momentum)[~system.constrained].sum())
-        pushed = band_product(system.inertia, slowing + gaining) + gradient
-        return np.concatenate([v, slowing, [taken, float((v * pushed)[system.constrained].sum())]])
+        reaction = band_product(system.inertia, slowing + gaining) + gradient
+        driving = float((v * reaction)[system.constrained].sum())
+        return np.concatenate([v, slowing, [taken, driving, working]])

@@ -12,16 +12,16 @@ from cosserat.solvers.banded import Band, Mask, Vector
 Fields = NDArray[np.float64]
 
 
-CORRECTED, UNCORRECTED, COUNTED = range(3)
-"""Roles of a potential: the work of its forces must equal its change of energy; it has no energy; or it is linear, a
-part of the dead load, and only its internal variables count."""
+CORRECTED, FORCED, COUNTED = range(3)
+"""Roles of a potential: the work of its forces must equal its change of energy; it is a force that depends on time or
+has no potential; or it is linear, a part of the dead load, and only its internal variables count."""
 
 
 class Bodies(NamedTuple):
     """The potentials of a step for compiled code, one entry of each tuple per potential.
 
     kernels, constants, history, strains, terms : arguments of `solvers.potential.KERNEL`.
-    role : (k,) one of the roles above.  loaded : whether some load is not linear.
+    role : (k,) one of the roles above.  loaded, forced : whether some are corrected beside the body, or forced.
     counted : which of them have internal variables.
     """
 
@@ -32,17 +32,20 @@ class Bodies(NamedTuple):
     terms: Any
     role: NDArray[np.int64]
     loaded: bool
+    forced: bool
     counted: NDArray[np.int64]
 
 
 class Run(NamedTuple):
     """Constants of all steps.
 
-    mass : band (n, w).  load : (n,) dead load.  constrained : (n,).  translations : (d, n), or (0, n) where a DOF is
-    constrained.  h : the time step.  damping_rate : c.
+    mass : band (n, w).  load : (n,) constant dead load.  constrained : (n,).  translations : (d, n), or (0, n) where a
+    DOF is constrained.  h : the time step.  damping_rate : c.
     dimension : number of components of a vector.
     weights : (n,) one over the lengths of vectors whose change is a rotation, zero for other DOFs.
     moved : (m,) constrained DOFs that move; places, rates : (steps + 1, m) their displacements and rates.
+    varied : (l, n) dead loads that depend on time; factors : (steps, l) theirs, means over the steps.
+    levels : (steps, k) factors of the potentials that are forced.
     """
 
     mass: Band
@@ -56,15 +59,19 @@ class Run(NamedTuple):
     moved: NDArray[np.int64]
     places: Fields
     rates: Fields
+    varied: Fields
+    factors: Fields
+    levels: Fields
 
 
 class Room(NamedTuple):
-    """Work space; all (n,) except `factor` and `mass_factor`, which are bands, and `rotations`.
+    """Work space; all (n,) except `factor`, `mass_factor` and `pushing`, which are bands, and `rotations`.
 
     change, first : of the DOFs in the step, and its first guess.  earlier, earliest : changes of the last two steps.
     middle, end : DOFs.  gradient : of energy and loads.  pull : force of the momentum at the start and the dead load.
     gained : change of the DOFs at the prescribed velocity.  product : M gained.
     force : unbalanced force.  z : direction of the force that corrects the energy.
+    load : the dead load of the step.  pushed, pushing : gradient and Hessian of the forced loads.
     """
 
     change: Vector
@@ -79,6 +86,9 @@ class Room(NamedTuple):
     product: Vector
     force: Vector
     z: Vector
+    load: Vector
+    pushed: Vector
     rotations: Fields
     factor: Band
     mass_factor: Band
+    pushing: Band

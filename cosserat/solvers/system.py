@@ -5,7 +5,7 @@ The solvers do not depend on the meaning of the degrees of freedom (DOFs), excep
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
@@ -25,7 +25,7 @@ from cosserat.solvers.banded import (
     uncouple,
 )
 from cosserat.solvers.indefinite import solve_any
-from cosserat.solvers.potential import Potential
+from cosserat.solvers.potential import Level, Potential
 
 Fields = NDArray[np.float64]
 History = tuple[Vector, ...]
@@ -154,6 +154,7 @@ class MechanicalSystem:
     internal : the energy of the body.  external : its loads; a load factor multiplies all of them.
     mass : symmetric band (n, w + 1); None for statics.
     damping_rate : c of the damping force -c M v [1/s].
+    attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
     """
 
     internal: Potential
@@ -162,11 +163,17 @@ class MechanicalSystem:
     space: ConfigurationSpace
     mass: Band | None = None
     damping_rate: float = 0.0
+    attached: tuple[Potential, ...] = ()
+
+    @property
+    def own(self) -> tuple[Potential, ...]:
+        """The energies that no load factor multiplies."""
+        return (self.internal, *self.attached)
 
     @property
     def potentials(self) -> tuple[Potential, ...]:
-        """The energy of the body and its loads."""
-        return (self.internal, *self.external)
+        """The energy of the body, of what it is attached to, and of its loads."""
+        return (*self.own, *self.external)
 
     @property
     def constrained(self) -> Mask:
@@ -199,17 +206,46 @@ class MechanicalSystem:
         """At the reference: the force of the linear loads, and the sizes of all loads, each (n,) [N]."""
         dead, size = np.zeros(self.constrained.size), np.zeros(self.constrained.size)
         for load in self.external:
-            gradient = np.zeros_like(size)
-            load.add_gradient(self.space.reference, load.history, gradient)
-            size += np.abs(gradient)
-            if load.linear:
-                dead -= gradient
+            force = self._force_at_reference(load)
+            size += np.abs(force)
+            if load.linear and load.level is None:
+                dead += force
         return dead, size
+
+    def _force_at_reference(self, load: Potential) -> Vector:
+        gradient = np.zeros(self.constrained.size)
+        load.add_gradient(self.space.reference, load.history, gradient)
+        return -gradient
 
     @property
     def dead_load(self) -> Vector:
-        """The force of the linear loads, which is the same everywhere, (n,) [N]."""
+        """The force of the linear loads that do not depend on time, the same everywhere and always, (n,) [N]."""
         return self._reference_loads[0]
+
+    @cached_property
+    def varied_loads(self) -> tuple[tuple[Level, Vector], ...]:
+        """Linear loads that depend on time: their factors and forces (n,) [N]."""
+        return tuple(
+            (load.level, self._force_at_reference(load))
+            for load in self.external
+            if load.linear and load.level is not None
+        )
+
+    def forces_at(self, q: Vector, history: History, time: float) -> Vector:
+        """The force (n,) [N] of the loads that depend on time or have no potential."""
+        force, when = np.zeros(self.constrained.size), np.array([time])
+        for level, given in self.varied_loads:
+            force += float(level.value(when)[0]) * given
+        for load, own in self._loads(history):
+            if not load.linear and (load.level is not None or not load.symmetric):
+                gradient = np.zeros_like(force)
+                load.add_gradient(q, own, gradient)
+                force -= gradient if load.level is None else float(load.level.value(when)[0]) * gradient
+        return force
+
+    def _loads(self, history: History) -> Iterator[tuple[Potential, Vector]]:
+        """The loads with their internal variables."""
+        return zip(self.external, history[len(self.own) :], strict=True)
 
     @cached_property
     def load_sizes(self) -> tuple[float, float]:
@@ -218,28 +254,38 @@ class MechanicalSystem:
         return float(size.max()), float(size.sum())
 
     def unloaded(self) -> MechanicalSystem:
-        """The same body without loads."""
+        """The same body without loads, as it is attached."""
         return replace(self, external=())
 
     def nonlinear_load_energy(self, q: Vector, history: History) -> float:
-        """The energy of the loads that are not linear [J]."""
-        loads = zip(self.external, history[1:], strict=True)
-        return float(sum(load.energy(q, own) for load, own in loads if not load.linear))
+        """The energy of the loads that are neither linear nor depend on time [J]."""
+        constant = [(load, own) for load, own in self._loads(history) if load.level is None]
+        return float(sum(load.energy(q, own) for load, own in constant if not load.linear))
+
+    def attached_energy(self, q: Vector, history: History) -> float:
+        """The energy of what the body is attached to [J]."""
+        attached = zip(self.attached, history[1 : 1 + len(self.attached)], strict=True)
+        return float(sum(potential.energy(q, own) for potential, own in attached))
 
     def add_gradient(self, q: Vector, history: History, gradient: Vector) -> None:
-        """Add the gradient (n,) [N] of body and loads."""
+        """Add the gradient (n,) [N] of all that has a potential which does not depend on time."""
         gradient -= self.dead_load
         for potential, own in zip(self.potentials, history, strict=True):
-            if not potential.linear:
+            if not potential.linear and potential.level is None and potential.symmetric:
                 potential.add_gradient(q, own, gradient)
 
     def assemble(self, q: Vector, history: History, factor: float, tangent: Tangent) -> bool:
-        """Overwrite the tangent at q and a load factor; False if a potential is not defined there."""
+        """Overwrite the tangent at q and a load factor, without loads that depend on time.
+
+        False if a potential is not defined there.
+        """
         tangent.clear()
         energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
+        for number, potential in enumerate(self.attached, start=1):
+            energy += potential.add(q, history[number], tangent.gradient, tangent.band, tangent.skew)
         np.negative(self.dead_load, out=tangent.load_gradient)
-        for load, own in zip(self.external, history[1:], strict=True):
-            if not load.linear:
+        for load, own in self._loads(history):
+            if not load.linear and load.level is None:
                 energy += load.add(q, own, tangent.load_gradient, tangent.load_band, tangent.load_skew)
         tangent.add_load(factor)
         return bool(np.isfinite(energy))

@@ -376,7 +376,14 @@ def shaken():
         period = 1 / frequency
         data = run(
             "shaken",
-            prescribed_displacements=[{"at": "first", "dof": "x2", "by": 1e-4, "frequency": frequency}],
+            prescribed_displacements=[
+                {
+                    "at": "first",
+                    "dof": "x2",
+                    "by": 1e-4,
+                    "time_function": {"kind": "sine", "frequency": frequency},
+                }
+            ],
             duration=60 * period,
             every=period / 16,
             integrator={"step": period / 160},

@@ -409,7 +409,7 @@ def test_the_version_stands_in_one_place():
     assert f"version: {version}" in (ROOT / "CITATION.cff").read_text()
 
 
-LONGER = {"energy_momentum.py": 540}
+LONGER = {"energy_momentum.py": 640}
 """Compiled functions that call each other stand in one file."""
 
 

@@ -193,10 +193,22 @@ def said(table):
     return ""
 
 
-MATERIALS = {
+CHOICES = {
     "compressible": {"kind": "compressible", "young": "10 kPa", "poisson": 0.3},
     "incompressible": {"kind": "incompressible", "young": "2 kPa"},
+    "ramp": {"kind": "ramp", "duration": "1 s"},
+    "sine": {"kind": "sine", "frequency": "1 Hz"},
+    "pulse": {"kind": "pulse", "duration": "1 s"},
+    "half-sine": {"kind": "half-sine", "duration": "1 s"},
+    "chirp": {
+        "kind": "chirp",
+        "duration": "1 s",
+        "first_frequency": "1 Hz",
+        "last_frequency": "2 Hz",
+    },
+    "table": {"kind": "table", "rows": [["0 s", 0], ["1 s", 1]]},
 }
+"""Tables with a choice, by their `kind`."""
 # Just inside of its range, a key may break a rule that joins several keys, which has a sentence of its own.
 JOINED = {
     "rod.calibration": "is missing",  # of a path, whose rod has none
@@ -208,6 +220,14 @@ JOINED = {
     "meshes": "must be odd",
     "gait.eta": "gamma and eta cross",
     "step": "more than 100000 instants",
+    **{
+        f"{load}.time_function": "only kind = 'rod motion' has a time"
+        for load in ("gravity", *(f"{key}[]" for key in ("line_loads", "forces", "couples")))
+    },
+    **{
+        f"prescribed_{key}[].time_function": "only kind = 'rod motion' has a time"
+        for key in ("displacements", "rotations")
+    },
 }
 
 
@@ -216,16 +236,15 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
     case = base(kind)
     assert said(case) == ""
     for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
-        if key.when:
-            case = put(case, "crawler.material", MATERIALS[key.when])
+        there = put(case, path.rpartition(".")[0], CHOICES[key.when]) if key.when else case
         for mark in marks(whole(field))[:1]:
             unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit
             plain = re.escape(path).replace(r"\[\]", r"\.0")
             refused = rf"'{plain}(\.0)*' is .*; it must be (above|below|at least|at most) "
             for inside, outside in ends(mark):
                 within, beyond = (f"{x!r} {unit}" if unit else x for x in (inside, outside))
-                assert re.search(refused, said(put(case, path, beyond))), (path, beyond)
-                answer = said(put(case, path, within))
+                assert re.search(refused, said(put(there, path, beyond))), (path, beyond)
+                answer = said(put(there, path, within))
                 joined = JOINED.get(path) or JOINED.get(path.rpartition(".")[0])
                 assert not answer or (joined and joined in answer), (path, within, answer)
 

@@ -519,7 +519,12 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
 
 def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
     """Parts end between two frames where one alone takes longer than a part may; cut there, nothing changes."""
-    shaken = {"at": "first", "dof": "x2", "by": "1 mm", "frequency": 37.0}
+    shaken = {
+        "at": "first",
+        "dof": "x2",
+        "by": "1 mm",
+        "time_function": {"kind": "sine", "frequency": 37.0},
+    }
     case = BEAM.vary(
         "beam", duration=0.03, every=0.0101, prescribed_displacements=[shaken], start={"amplitude": 0.0}
     )

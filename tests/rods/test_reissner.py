@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import assembled, differentiated, jacobian
+from conftest import assembled, differentiated, jacobian, sine
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
@@ -703,7 +703,14 @@ def test_moved_supports_pull_by_the_mass_they_share(method):
         "shaken",
         rod={"vertices": 3},
         start={"amplitude": 0.0},
-        prescribed_displacements=[{"at": "first", "dof": "x3", "by": 1e-4, "frequency": 1400}],
+        prescribed_displacements=[
+            {
+                "at": "first",
+                "dof": "x3",
+                "by": 1e-4,
+                "time_function": sine(1400),
+            }
+        ],
         duration=5e-4,
         every=5e-4,
     )

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import make_rod
+from conftest import make_rod, sine
 
 import cosserat
 from cosserat.data.dataset import statistics_of, warnings_of
@@ -98,8 +98,8 @@ def test_what_drag_takes_and_supports_give_closes_the_balance(method):
         start={"amplitude": 0.01},
         gravity={"g": 9.81, "along": "-E2"},
         damping=0.05,
-        prescribed_displacements=[{"at": "first", "dof": "x2", "by": 2e-3, "frequency": 20}],
-        prescribed_rotations=[{"at": "first", "by": 0.02, "frequency": 30}],
+        prescribed_displacements=[{"at": "first", "dof": "x2", "by": 2e-3, "time_function": sine(20)}],
+        prescribed_rotations=[{"at": "first", "by": 0.02, "time_function": sine(30)}],
         duration=0.02,
         every=1e-3,
         integrator={"method": method, "step": 2e-6 if method == "rk4" else 2e-5},
@@ -170,20 +170,27 @@ def test_a_drive_too_fast_for_the_step_is_named(hertz):
     shaken = BEAM.vary(
         "shaken",
         start={"shape": "reference", "amplitude": 0.0},
-        prescribed_displacements=[{"at": "first", "dof": "x2", "by": 1e-3, "frequency": hertz}],
+        prescribed_displacements=[
+            {
+                "at": "first",
+                "dof": "x2",
+                "by": 1e-3,
+                "time_function": sine(hertz),
+            }
+        ],
         duration=0.01,
         every=1e-3,
         integrator={"step": 1e-3},
     )
-    assert "fast support" in named(cosserat.run(shaken))
+    assert "fast drive" in named(cosserat.run(shaken))
     step = 0.9 / (2 * np.pi * hertz)
-    assert "fast support" not in named(cosserat.run(shaken.vary("x", integrator={"step": step})))
+    assert "fast drive" not in named(cosserat.run(shaken.vary("x", integrator={"step": step})))
     rocked = shaken.vary(
         "rocked",
         prescribed_displacements=[],
-        prescribed_rotations=[{"at": "first", "by": 1e-3, "frequency": hertz}],
+        prescribed_rotations=[{"at": "first", "by": 1e-3, "time_function": sine(hertz)}],
     )
-    assert "fast support" in named(cosserat.run(rocked))
+    assert "fast drive" in named(cosserat.run(rocked))
 
 
 def test_a_drag_beyond_what_the_method_follows_is_named():

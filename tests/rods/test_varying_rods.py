@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from conftest import assembled, differentiated, make_rod, random_state
+from conftest import assembled, differentiated, make_rod, random_state, sine
 from scipy.integrate import quad
 
 import cosserat
@@ -411,7 +411,14 @@ def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
     shaken = cosserat.case("vibration_c4_20").vary(
         "shaken",
         start={"shape": "reference", "amplitude": 0.0},
-        prescribed_displacements=[{"at": "first", "dof": "x2", "by": "0.1 mm", "frequency": f1 / 20}],
+        prescribed_displacements=[
+            {
+                "at": "first",
+                "dof": "x2",
+                "by": "0.1 mm",
+                "time_function": sine(f1 / 20),
+            }
+        ],
         duration=(5 if method == "implicit" else 1) / f1,
         every=0.05 / f1,
         integrator={"method": method, "step": 0.01 / f1},
@@ -423,12 +430,20 @@ def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
     assert np.abs(lag).max() < 0.1 * 1e-4  # 1.57 (f / f1)^2 and the start's transient, 1.57 (f / f1)
 
 
-def test_moves_need_a_support_and_statics_no_frequency():
+def test_prescribed_motion_needs_a_support_and_statics_have_no_time():
     with pytest.raises(cosserat.InputError, match="moves x2 of vertex last, which no support fixes"):
         BEAM.vary("bad", prescribed_displacements=[{"at": "last", "dof": "x2", "by": 0.1}])
-    with pytest.raises(cosserat.InputError, match="a static problem has no time"):
+    with pytest.raises(cosserat.InputError, match="only kind = 'rod motion' has a time"):
         BEAM.vary(
-            "bad", prescribed_displacements=[{"at": "first", "dof": "x2", "by": 0.1, "frequency": 2}]
+            "bad",
+            prescribed_displacements=[
+                {
+                    "at": "first",
+                    "dof": "x2",
+                    "by": 0.1,
+                    "time_function": sine(2),
+                }
+            ],
         )
 
 
@@ -452,7 +467,7 @@ def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
     rocked = cosserat.case("vibration_consistent").vary(
         "rocked",
         start={"amplitude": 0.0},
-        prescribed_rotations=[{"at": "first", "by": "0.5 rad", "frequency": "2 Hz"}],
+        prescribed_rotations=[{"at": "first", "by": "0.5 rad", "time_function": sine("2 Hz")}],
         duration="0.5 s",
         every="5 ms",
         integrator={"step": "1 ms"},
@@ -484,8 +499,8 @@ def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
             "move d3 of vertex 0 twice",
         ),
         (
-            {"prescribed_rotations": [{"at": 0, "by": 1.0, "frequency": 2}]},
-            "has a 'frequency', but a static problem",
+            {"prescribed_rotations": [{"at": 0, "by": 1.0, "time_function": sine(2)}]},
+            "has a 'time_function' in 'prescribed_rotations', but only kind",
         ),
         ({"prescribed_rotations": [{"at": 99, "by": 1.0}]}, "'at' is 99"),
         (

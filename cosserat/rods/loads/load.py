@@ -15,6 +15,7 @@ from cosserat.parameters import Parameters
 from cosserat.rods.places import located
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
+from cosserat.rods.time_functions import AnyTimeFunction
 from cosserat.solvers.potential import Potential
 
 Array = NDArray[np.float64]
@@ -55,6 +56,9 @@ class LoadedRod:
 class Load(Parameters):
     """A load of one kind: its parameters, and the potential of all loads of that kind."""
 
+    time_function: AnyTimeFunction | None = None
+    """Factor that depends on time, of a motion only; a load without one acts from the start."""
+
     @property
     def places(self) -> tuple[str | int, ...]:
         """The places that it names."""
@@ -66,4 +70,4 @@ class Load(Parameters):
     @classmethod
     @abstractmethod
     def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
-        """The potential of all loads of this kind together; zero in the reference configuration."""
+        """The potential of some loads of this kind together; zero in the reference configuration."""
