@@ -175,7 +175,8 @@ page.figure(
 lines = []
 for side in (1e-1, 1e-2, 1e-3, 1e-4):
     slender = cosserat.case("elastica").problem
-    problem = slender.replace(rod=slender.rod.replace(height=side, width=side, vertices=21))
+    section = slender.rod.section.replace(height=side, width=side)
+    problem = slender.replace(rod=slender.rod.replace(section=section, vertices=21))
     beam = beam_of(problem)
     unit = beam.bending_stiffness / beam.length**2
     problem = problem.replace(forces=({"at": "last", "along": "E2", "force": unit},))
@@ -188,7 +189,8 @@ lines = []
 for gap in (0.4, 0.02, 2e-4):
     poisson = (1 - gap) / 2
     necked = cosserat.case("necking_plane_strain").problem
-    necked = necked.replace(rod=necked.rod.replace(poisson=poisson, vertices=21))
+    material = necked.rod.material.replace(poisson=poisson)
+    necked = necked.replace(rod=necked.rod.replace(material=material, vertices=21))
     beam, fields = beam_of(necked), necked.solve("necked")
     middle = necked.rod.vertices // 2
     far = -poisson * (1 + poisson) * necked.forces[-1].force / beam.axial_stiffness

@@ -15,7 +15,7 @@ import math
 import numbers
 import re
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, Self, get_args, get_origin
@@ -197,7 +197,19 @@ class Parameters(BaseModel):
 
 
 Choice = list[type[BaseModel]]
-"""Parameter classes for one place: one, or several that differ in their `kind`."""
+"""Parameter classes for one place: one, or several that differ in one key, such as `kind` or `shape`."""
+
+
+def chooser(choice: Sequence[type[BaseModel]]) -> str:
+    """The key by which several classes for one place differ: each has its own word for it; empty if there is none."""
+    if len(choice) < 2:
+        return ""
+    for name in choice[0].model_fields:
+        fields = [c.model_fields.get(name) for c in choice]
+        words = [f.default for f in fields if f is not None and get_origin(f.annotation) is Literal]
+        if len(set(words)) == len(choice):
+            return name
+    return ""
 
 
 def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
@@ -218,6 +230,14 @@ def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
             return f"'{path}' is not a key{nearest(str(loc[-1]), keys)}"
         case "literal_error":
             return f"'{path}' is {fault['input']!r}; it must be {fault['ctx']['expected']}"
+        case "union_tag_invalid":
+            key = chooser(_choice_at(owner, loc))
+            return (
+                f"'{path}.{key}' is {fault['ctx']['tag']!r}; it must be {fault['ctx']['expected_tags']}"
+            )
+        case "union_tag_not_found":
+            choice = _choice_at(owner, loc)
+            return f"'{path}.{chooser(choice)}' is missing: write {_words(choice, chooser(choice))}"
         case "model_type" | "model_attributes_type" | "dict_type":
             return f"'{path}' is {fault['input']!r}; it must be a table of keys"
         case "string_type":
@@ -228,6 +248,11 @@ def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
             return f"'{path}' {fault['msg']}" if path else fault["msg"]
 
 
+def _words(choice: Choice, key: str) -> str:
+    """The words of several classes for the key by which they differ."""
+    return " or ".join(repr(c.model_fields[key].default) for c in choice)
+
+
 def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
     """The clause after a missing key: its meaning, its symbol and source, and how to write it."""
     key = str(path[-1])
@@ -235,7 +260,8 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
     if place is None:
         return ""
     field = place.model_fields[key]
-    meaning = [_first_sentence(docstrings(place).get(key))]
+    own = docstrings(place).get(key)
+    meaning = [_first_sentence(own)]
     remedy = "see the cases in cosserat/thesis/cases for examples"
     tables = _classes_in(field.annotation)
     for about in field.metadata:
@@ -248,8 +274,10 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
             remedy = f"write {about.said}"
     if tables:
         needed = [name for name, inner in tables[0].model_fields.items() if inner.is_required()]
-        meaning.append(_first_sentence(tables[0].__doc__))
+        meaning += [] if own else [_first_sentence(tables[0].__doc__)]
         tables_of = "list of tables" if get_origin(field.annotation) is tuple else "table"
+        if choosing := chooser(tables):
+            needed = [f"{choosing} = {_words(tables, choosing)}", "its keys"]
         remedy = f"write a {tables_of} with {', '.join(needed) or 'its keys'}"
     elif get_origin(field.annotation) is Literal:
         remedy = f"write {' or '.join(map(repr, get_args(field.annotation)))}"
@@ -295,8 +323,8 @@ def _classes_in(annotation: object) -> Choice:
 
 def _chosen(kind: int | str, choice: Choice) -> Choice:
     """The classes of one kind among several; validation puts the kind into the path like a key."""
-    fields = [(c, c.model_fields.get("kind")) for c in choice if len(choice) > 1]
-    return [c for c, field in fields if field is not None and field.default == kind]
+    name = chooser(choice)
+    return [c for c in choice if c.model_fields[name].default == kind] if name else []
 
 
 def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
@@ -306,6 +334,20 @@ def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
         fields = [c.model_fields[str(part)] for c in choice if str(part) in c.model_fields]
         choice = _chosen(part, choice) or (_classes_in(fields[0].annotation) if fields else choice)
     return choice or [owner]
+
+
+def tables_with_a_choice(
+    owner: type[BaseModel], before: tuple[str, ...] = ()
+) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Path of each table inside a class for which there are several classes, and the key that chooses one."""
+    for name, field in owner.model_fields.items():
+        if get_origin(field.annotation) is tuple:
+            continue  # a list is replaced as a whole
+        tables = _classes_in(field.annotation)
+        if key := chooser(tables):
+            yield (*before, name), key
+        for table in tables:
+            yield from tables_with_a_choice(table, (*before, name))
 
 
 def nearest(word: str, known: list[str]) -> str:

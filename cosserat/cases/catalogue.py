@@ -15,7 +15,7 @@ from pydantic import AfterValidator, SerializeAsAny
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError, path_of
-from cosserat.parameters import Parameters, nearest
+from cosserat.parameters import Parameters, nearest, tables_with_a_choice
 from cosserat.problem import Problem
 from cosserat.publications import kinds, published_tables, titles
 
@@ -223,9 +223,31 @@ def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict
     return _merge(table, own)
 
 
-def _merge(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
+def _merge(
+    base: Mapping[str, Any], own: Mapping[str, Any], path: tuple[str, ...] = ()
+) -> dict[str, Any]:
+    """Both tables, key by key; a table of another shape or kind replaces the one of the base as a whole."""
     merged = dict(base)
     for key, value in own.items():
-        both = isinstance(value, dict) and isinstance(merged.get(key), dict)
-        merged[key] = _merge(merged[key], value) if both else value
+        inner, both = (*path, key), isinstance(value, dict) and isinstance(merged.get(key), dict)
+        alike = both and not _is_another(merged[key], value, inner)
+        merged[key] = _merge(merged[key], value, inner) if alike else value
     return merged
+
+
+def _is_another(base: Mapping[str, Any], own: Mapping[str, Any], path: tuple[str, ...]) -> bool:
+    """Whether a table makes another choice than the one of the base, where there is a choice of classes."""
+    differing = [
+        key for key, value in own.items() if isinstance(value, str) and base.get(key, value) != value
+    ]
+    return bool(differing) and _choosers().get(path) in differing
+
+
+@functools.cache
+def _choosers() -> Mapping[tuple[str, ...], str]:
+    """Key that chooses the class of a table, by the path of the table in problems of any kind."""
+    return {
+        path: key
+        for kind in kinds().values()
+        for path, key in tables_with_a_choice(kind.problem_class())
+    }

@@ -16,7 +16,16 @@ from pydantic.fields import FieldInfo
 
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
-from cosserat.parameters import NONE_BY_WORD, Count, OneOf, Quantity, Reader, docstrings, nearest
+from cosserat.parameters import (
+    NONE_BY_WORD,
+    Count,
+    OneOf,
+    Quantity,
+    Reader,
+    chooser,
+    docstrings,
+    nearest,
+)
 from cosserat.problem import Problem
 from cosserat.publications import kinds
 
@@ -29,7 +38,7 @@ class Value:
 
     about : unit and range of a quantity or a count.
     words : the allowed words.
-    tables : the possible classes of a table; several differ in their `kind`.
+    tables : the possible classes of a table; several differ in one key, such as `kind`.
     items : types of the items of a list, of the places of a row, or of the alternatives of "either".
     none : whether the word "none" removes the value.
     said : the type in words, if its parts do not say it.
@@ -59,7 +68,8 @@ class Key:
     """One key.
 
     path : as in a case file, dotted; "forces[].at" is a key of each table of a list.
-    when : the `kind` of its table, if there is a choice.
+    when, by : the word of its table, such as "circle", and the key with this word, such as "shape", if there is a
+        choice.
     default : as in a case file; None if the key is required or has no default.
     """
 
@@ -69,6 +79,7 @@ class Key:
     default: str | None
     meaning: str
     when: str = ""
+    by: str = ""
 
     @property
     def name(self) -> str:
@@ -113,7 +124,7 @@ def keys(kind: str) -> tuple[Key, ...]:
     """
     if kind not in kinds():
         raise InputError(f"there is no kind '{kind}'{nearest(kind, list(kinds()))}")
-    found = list(_keys(kinds()[kind].problem_class(), "", ""))
+    found = list(_keys(kinds()[kind].problem_class(), "", "", "kind"))
     return tuple(sorted(found, key=lambda key: key.path != "kind"))
 
 
@@ -131,27 +142,29 @@ def _kind_of(owner: type[BaseModel]) -> str:
     return _names()[owner] if issubclass(owner, Problem) else ""
 
 
-def _keys(owner: type[BaseModel], before: str, when: str) -> Iterator[Key]:
+def _keys(owner: type[BaseModel], before: str, when: str, by: str) -> Iterator[Key]:
     for name, field in owner.model_fields.items():
         value = _value(_whole(field))
         assert value is not None, f"{owner.__name__}.{name} can only be nothing"
         key = Key(
             f"{before}{name}",
             value,
-            required=field.is_required() or (name == "kind" and bool(when or not before)),
+            required=field.is_required() or (name == by and bool(when or not before)),
             default=None
             if field.is_required() or field.default is None
             else _written(field.default, value),
             meaning=_meaning(owner, name, value),
             when=when,
+            by=by,
         )
         yield key
         if value.problem:
             continue
         tables = value.innermost.tables
+        choosing = chooser(tables)
         for table in tables:
-            chosen = str(table.model_fields["kind"].default) if len(tables) > 1 else when
-            yield from _keys(table, key.inside, chosen)
+            word = str(table.model_fields[choosing].default) if choosing else when
+            yield from _keys(table, key.inside, word, choosing or by)
 
 
 def _whole(field: FieldInfo) -> Any:
@@ -163,7 +176,7 @@ def _meaning(owner: type[BaseModel], name: str, value: Value) -> str:
     """The docstring of a field; for a `kind`, a table or a list of tables without one, that of the class."""
     if name in docstrings(owner):
         return docstrings(owner)[name]
-    tables = (owner,) if name == "kind" else value.innermost.tables
+    tables = (owner,) if name in ("kind", "shape") else value.innermost.tables
     return _paragraph(tables[0]) if len(tables) == 1 else ""
 
 

@@ -42,7 +42,7 @@ def list_of_keys(kind: str) -> str:
 
 def paragraph(key: Key) -> str:
     """Description of a key, in a few lines."""
-    where = f'   (where kind = "{key.when}")' if key.when and key.name != "kind" else ""
+    where = f'   (where {key.by} = "{key.when}")' if key.when and key.name != key.by else ""
     lines = [f"{type_of(key)}; {need(key)}", key.meaning, thesis(key)]
     wrapped = [
         textwrap.fill(" ".join(line.split()), WIDTH, initial_indent="    ", subsequent_indent="    ")

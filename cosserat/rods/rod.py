@@ -20,16 +20,18 @@ from cosserat.rods.energies.hemingway_stiffness import (
     PoissonCoupling,
 )
 from cosserat.rods.kinematics import Kinematics
+from cosserat.rods.material import Material
 from cosserat.rods.naming import DofName
 from cosserat.rods.places import vertex_at
 from cosserat.rods.reference import Geometry
+from cosserat.rods.sections import AnySection
 from cosserat.rods.variation import Station, mass_scale, mean, scale_at, vertex_cuts
 
 Array = NDArray[np.float64]
 
 
 class Rod(Parameters):
-    """A rod of rectangular sections, section 3.5: straight and homogeneous by default."""
+    """A rod of one section and material, section 3.5: straight and uniform by default."""
 
     energy: Annotated[str, OneOf(ENERGIES)] = "published"
     """The thesis's energy (3.4.11) with its calibration, or the convergent one of `rods.energies.reissner`."""
@@ -37,18 +39,10 @@ class Rod(Parameters):
     """Number of vertices of the discrete rod, both ends included."""
     length: Annotated[float, Quantity("m", r"\ell_0", "3.3.1", above=0)]
     """Length of the centreline in the reference configuration."""
-    height: Annotated[float, Quantity("m", "H", "section 3.5", above=0)]
-    """Height of the section, in the plane of motion."""
-    width: Annotated[float, Quantity("m", "W", "section 3.5", above=0)]
-    """Width of the section, across the plane of motion."""
-    young: Annotated[float, Quantity("Pa", "E", "section 3.5", above=0)]
-    """Young's modulus."""
-    poisson: Annotated[float, Quantity("1", r"\nu", "section 3.5", above=-1, below=0.5)]
-    """Poisson's ratio."""
-    line_density: Annotated[float, Quantity("kg/m", r"\rho_0", "section 3.5", above=0)]
-    """Mass per length of the reference configuration."""
-    shear_correction: Annotated[float, Quantity("1", "k", "3.4.13", above=0)]
-    """Factor of the shear stiffness k mu A; 5/6 for a rectangle."""
+    section: AnySection
+    """Cross-section of the rod."""
+    material: Material
+    """Material of the rod."""
     stations: tuple[Station, ...] = ()
     """Variation of width, height, modulus, Poisson's ratio and density along the rod."""
     centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
@@ -122,14 +116,49 @@ class Rod(Parameters):
         return [self.poisson * station.poisson for station in self.stations] or [self.poisson]
 
     @property
+    def height(self) -> float:
+        """Nominal height of the section, in the plane of motion [m]."""
+        return self.section.height
+
+    @property
+    def width(self) -> float:
+        """Nominal width of the section, across the plane of motion [m]."""
+        return self.section.width
+
+    @property
+    def young(self) -> float:
+        """Nominal Young's modulus [Pa]."""
+        return self.material.moduli[0]
+
+    @property
+    def poisson(self) -> float:
+        """Nominal Poisson's ratio [1]."""
+        return self.material.moduli[1]
+
+    @property
+    def line_density(self) -> float:
+        """Nominal mass per length of the reference configuration [kg/m]."""
+        return self.material.mass_per_length(self.section.area)
+
+    @property
+    def shear_correction(self) -> float:
+        """Factor k of the shear stiffness k mu A [1]."""
+        return self.section.shear_factor
+
+    @property
     def area(self) -> float:
         """Nominal area of the section A [m^2]."""
-        return self.width * self.height
+        return self.section.area
 
     @property
     def second_moment(self) -> float:
         """Nominal second moment of area about E1 through the centreline, I [m^4]."""
-        return self.area * self.height**2 * (1 / 12 + (0.5 - self.centreline) ** 2)
+        return self.area * self.height**2 * (1 / self.section.thinness + (0.5 - self.centreline) ** 2)
+
+    @property
+    def central_second_moment(self) -> float:
+        """Nominal second moment of area about E1 through the area centre [m^4]."""
+        return self.area * self.height**2 / self.section.thinness
 
     @property
     def Y02(self) -> float:
@@ -144,7 +173,7 @@ class Rod(Parameters):
     @property
     def Y22(self) -> float:
         """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
-        return (1 / 12 + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
+        return (1 / self.section.thinness + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
 
     def geometry(self, arc: Array | None = None) -> Geometry:
         """Its reference configuration; the directors reach the upper surface.

@@ -74,7 +74,8 @@ def rectangle(name, curvature=0.0):
 
 def piece(name, **changes):
     """The beam of a case for `timoshenko`."""
-    rod = inputs()[name].problem.rod.replace(**changes)
+    rod = inputs()[name].problem.rod
+    rod = rod.replace(material=rod.material.replace(**changes))
     return Piece.rectangle(
         rod.length, rod.height, rod.width, rod.young, rod.line_density, rod.poisson, rod.shear_correction
     )
@@ -150,7 +151,7 @@ def couple_at_middle():
 @check(quick=True)
 def circle():
     for correction in (12, 120, 1200):
-        data = run("circle", rod={"shear_correction": 1 / correction})
+        data = run("circle", rod={"section": {"shear_factor": 1 / correction}})
         gap = float(np.hypot(last(data, "E3"), last(data)))
         GA = 6e4 / correction
         yield Row(f"gap of the ring at GA = {GA:.0f} N [m]", 0.0, gap, 1e-9, "pure bending")

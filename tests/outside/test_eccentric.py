@@ -27,12 +27,10 @@ def pieces(height, at, centreline, poisson, thin=0.5):
 
 def stepped(height, at, centreline, poisson, vertices, thin=0.5, **case):
     rod = {
-        "height": height,
-        "width": height,
+        "section": {"height": height, "width": height},
         "centreline": centreline,
-        "poisson": poisson,
+        "material": {"poisson": poisson, "line_density": DENSITY * height**2},
         "vertices": vertices,
-        "line_density": DENSITY * height**2,
         "stations": [{"at": at}, {"at": at, "height": thin}],
     }
     return inputs()["joint"].vary("stepped", rod=rod, **case)

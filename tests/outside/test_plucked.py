@@ -34,7 +34,8 @@ by 4e-7 and 8e-5.
 
 def package_rod(beam):
     case = cosserat.case("vibration_c4_20")
-    return case.problem.rod.replace(poisson=beam.poisson)
+    rod = case.problem.rod
+    return rod.replace(material=rod.material.replace(poisson=beam.poisson))
 
 
 @functools.cache

@@ -46,7 +46,7 @@ def test_a_ribbon_of_any_stiffness_sags_however_far_it_is_pushed_together(young,
     prescribed_displacements = [{"at": "last", "dof": "x3", "by": -push}]
     data = cosserat.run(
         inputs()["ribbon"].vary(
-            "x", rod={"young": young}, prescribed_displacements=prescribed_displacements
+            "x", rod={"material": {"young": young}}, prescribed_displacements=prescribed_displacements
         )
     )
     assert middle(data) == pytest.approx(RIBBONS[young, push], abs=1e-3)

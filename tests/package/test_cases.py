@@ -27,7 +27,7 @@ def load_mine(tmp_path):
 
 def test_units_are_converted_to_si(load_mine):
     rod = load_mine(
-        'rod.young = "2 N/mm^2"\nrod.length = "30 cm"\nrod.shear_correction = "5/6"'
+        'rod.material.young = "2 N/mm^2"\nrod.length = "30 cm"\nrod.section.shear_factor = "5/6"'
     ).problem.rod
     assert rod.young == pytest.approx(2e6)
     assert rod.length == pytest.approx(0.3)
@@ -115,18 +115,18 @@ def test_vary_changes_nothing_else():
         ('rod.length = "five m"', r"'rod\.length' is \"five m\""),
         ("rod.length = true", r"'rod\.length' is True, not a number"),
         ('rod.length = "nan m"', r"'rod\.length' is 'nan m'; it must be a finite number"),
-        ("rod.poisson = nan", r"'rod\.poisson' is nan; it must be a finite number"),
-        ("rod.poisson = inf", r"'rod\.poisson' is inf; it must be a finite number"),
+        ("rod.material.poisson = nan", r"'rod\.material\.poisson' is nan; it must be a finite number"),
+        ("rod.material.poisson = inf", r"'rod\.material\.poisson' is inf; it must be a finite number"),
         (
-            'rod.poisson = "0.3 m"',
-            r"'rod\.poisson' is \"0\.3 m\", in m, a length and not a ratio; write a number",
+            'rod.material.poisson = "0.3 m"',
+            r"'rod\.material\.poisson' is \"0\.3 m\", in m, a length and not a ratio; write a number",
         ),
-        ("rod.poisson = 0.5", r"'rod\.poisson' is 0\.5; it must be below 0\.5"),
-        ("rod.poisson = -1", r"'rod\.poisson' is -1; it must be above -1"),
+        ("rod.material.poisson = 0.5", r"'rod\.material\.poisson' is 0\.5; it must be below 0\.5"),
+        ("rod.material.poisson = -1", r"'rod\.material\.poisson' is -1; it must be above -1"),
         ('rod.length = "0 m"', r"'rod\.length' is 0 m; it must be above 0"),
         ('rod.length = "-5 m"', r"'rod\.length' is -5 m; it must be above 0"),
-        ('rod.young = "-1 GPa"', r"'rod\.young' is -1e\+09 Pa; it must be above 0"),
-        ('rod.height = "0 m"', r"'rod\.height' is 0 m"),
+        ('rod.material.young = "-1 GPa"', r"'rod\.material\.young' is -1e\+09 Pa; it must be above 0"),
+        ('rod.section.height = "0 m"', r"'rod\.section\.height' is 0 m"),
         ("rod.vertices = 2", r"'rod\.vertices' is 2; it must be at least 3"),
         ("rod.vertices = 20.0", r"'rod\.vertices' is 20\.0; it must be a whole number"),
         ('rod.vertices = "20"', r"'rod\.vertices' is '20'; it must be a whole number"),
@@ -161,21 +161,21 @@ def test_bad_values_are_refused_with_name_value_and_remedy(load_mine, line, sent
 
 def test_every_fault_of_a_case_is_named_at_once(load_mine):
     with pytest.raises(InputError, match="'rod.lenght' is not a key") as caught:
-        load_mine('rod.lenght = "5 m"\nrod.poisson = 0.7')
-    assert "'rod.poisson' is 0.7" in str(caught.value)
+        load_mine('rod.lenght = "5 m"\nrod.material.poisson = 0.7')
+    assert "'rod.material.poisson' is 0.7" in str(caught.value)
 
 
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
         (
-            'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
-            "'rod.height' is missing, height of the section, in the plane of motion, H of section 3.5: write it "
-            'with its unit, such as "2.5 m"; ',
+            'kind = "rod statics"\nsupports = []\nrod.section = { shape = "rectangle" }',
+            "'rod.section.height' is missing, height of the section, in the plane of motion, H of section 3.5: write "
+            'it with its unit, such as "2.5 m"; ',
         ),
         (
-            'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
-            "'rod.shear_correction' is missing, factor of the shear stiffness k mu A, k of eq. (3.4.13): "
+            'kind = "rod statics"\nsupports = []\nrod.section = { shape = "rectangle" }',
+            "'rod.section.shear_factor' is missing, factor of the shear stiffness k mu A, k of eq. (3.4.13): "
             "write a number, such as 0.3",
         ),
         (
@@ -185,7 +185,19 @@ def test_every_fault_of_a_case_is_named_at_once(load_mine):
         ),
         (
             'kind = "rod statics"\nsupports = []',
-            "'rod' is missing, a rod of rectangular sections, section 3.5: write a table with vertices, length, ",
+            "'rod' is missing, a rod of one section and material, section 3.5: write a table with vertices, length, ",
+        ),
+        (
+            'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',
+            "'rod.section' is missing, cross-section of the rod: write a table with shape = 'rectangle' or ",
+        ),
+        (
+            'kind = "rod statics"\nsupports = []\nrod.section = { height = "1 m" }',
+            "'rod.section.shape' is missing: write 'rectangle' or ",
+        ),
+        (
+            'kind = "rod statics"\nsupports = []\nrod.section = { shape = "cirle" }',
+            "'rod.section.shape' is 'cirle'; it must be 'rectangle', ",
         ),
         (
             'like = "clamped_free"\nsupports = [{ fixed = ["x3"] }]',
@@ -229,13 +241,13 @@ def test_unknown_cases_and_unreadable_files_are_refused(tmp_path):
 @pytest.mark.parametrize(
     ("line", "remedy"),
     [
-        ("rod.poisson = 0,3", "for a decimal comma write a decimal point"),
+        ("rod.material.poisson = 0,3", "for a decimal comma write a decimal point"),
         ('forces = [{ at = "last", along = "E2", force = -1,5 N }]', "for a decimal comma write"),
         (
             "rod.length = 1.5 m",
             'write a number that has a unit between quotation marks, such as "2.5 mm"',
         ),
-        ("rod.young = 1e9Pa", "between quotation marks"),
+        ("rod.material.young = 1e9Pa", "between quotation marks"),
         ("rod.vertices = [1, 2", "in cosserat/thesis/cases"),
     ],
 )
@@ -278,7 +290,7 @@ def test_lumped_properties_may_vary_along_the_rod():
     stations = [{"at": "2.5 m"}, {"at": "2.5 m", "young": 2.0}]
     pulled = cosserat.case("clamped_free").vary(
         "two_halves",
-        rod={"vertices": 11, "poisson": 0, "stations": stations},
+        rod={"vertices": 11, "material": {"poisson": 0}, "stations": stations},
         gravity=None,
         forces=[{"at": "last", "along": "E3", "force": 100.0}],
     )

@@ -37,7 +37,7 @@ def test_run_says_where_the_result_went(capsys, tmp_path, monkeypatch):
     assert out.strip().endswith("wrote clamped_free.nc")
     code, out, _ = call(capsys, "show", "clamped_free.nc")
     assert code == 0
-    assert "rod.young = 1000000000.0" in out
+    assert "rod.material.young = 1000000000.0" in out
     assert "centreline displacement" in out
 
 
@@ -89,9 +89,9 @@ MY = '[mine]\nlike = "clamped_free"\n'
         ("mine", MY + "rod.length = [5]", "not a number"),
         ("mine", MY + "rod.vertices = 2", "it must be at least 3"),
         ("mine", MY + 'rod.length = "-5 m"', "it must be above 0"),
-        ("mine", MY + 'rod.young = "0 Pa"', "it must be above 0"),
-        ("mine", MY + "rod.poisson = 0.5", "it must be below 0.5"),
-        ("mine", MY + "rod.poisson = nan", "it must be a finite number"),
+        ("mine", MY + 'rod.material.young = "0 Pa"', "it must be above 0"),
+        ("mine", MY + "rod.material.poisson = 0.5", "it must be below 0.5"),
+        ("mine", MY + "rod.material.poisson = nan", "it must be a finite number"),
         ("mine", MY + "supports = []", "free to move"),
         ("mine", MY + 'gravity.g = "500 m/s^2"\nnewton.max_iterations = 1', "no equilibrium found"),
     ],

@@ -59,7 +59,7 @@ def test_units_are_units():
 
 def test_attributes_hold_parameters_statistics_and_origin(solved):
     data = solved["necking"]
-    assert json.loads(data.attrs["parameters"])["problem"]["rod"]["poisson"] == 0.3
+    assert json.loads(data.attrs["parameters"])["problem"]["rod"]["material"]["poisson"] == 0.3
     assert files.case_of(data) == cosserat.case("necking")
     assert files.statistics_of(data)["iterations"] >= 1
     assert "sha256:" in data.attrs["source"]

@@ -96,11 +96,11 @@ def test_published_cases_pass_when_merged(whole):
         'rod.length = "3 kg/m^3"',
         'rod.length = "3"',
         "rod.length = 3",
-        'rod.young = "1 Gpa"',
-        'rod.young = "1,0 GPa"',
-        'rod.poisson = "0.3 m"',
-        "rod.poisson = 0.5",
-        "rod.poisson = true",
+        'rod.material.young = "1 Gpa"',
+        'rod.material.young = "1,0 GPa"',
+        'rod.material.poisson = "0.3 m"',
+        "rod.material.poisson = 0.5",
+        "rod.material.poisson = true",
         'rod.vertices = "20"',
         "rod.vertices = 2",
         "rod.vertices = 20.5",
@@ -155,8 +155,8 @@ def test_what_a_schema_cannot_see_is_left_to_the_reader(written, text, tmp_path)
         'rod.calibration = "none"\nrod.energy = "consistent"',
         'crawler.mass = "none"\ncrawler.density = "1 g/cm³"',
         'crawler.material = { kind = "compressible", poisson = "30 %" }',
-        'rod.shear_correction = "5/6"',
-        "rod.poisson = 0.3",
+        'rod.section.shear_factor = "5/6"',
+        "rod.material.poisson = 0.3",
         "gravity = { g = '9.81 m s-2', along = '-E2' }",
     ],
 )
@@ -188,7 +188,7 @@ def test_a_merged_case_without_a_required_key_is_refused(whole, name):
 
 @pytest.mark.parametrize(
     ("name", "path"),
-    [("clamped_free", "rod.young"), ("worm", "crawler.material.kind"), ("worm", "gait.anchor")],
+    [("clamped_free", "rod.section.shape"), ("worm", "crawler.material.kind"), ("worm", "gait.anchor")],
 )
 def test_a_merged_case_without_a_key_of_a_table_is_refused(whole, name, path):
     table = copy.deepcopy(table_of(name))

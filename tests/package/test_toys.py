@@ -128,7 +128,13 @@ class Truss(Energy):
 @pytest.fixture
 def trussed(monkeypatch):
     monkeypatch.setitem(ENERGIES, "truss", "test_toys:Truss")
-    return {"energy": "truss", "calibration": "none", "vertices": 9, "height": 0.2, "length": 2.0}
+    return {
+        "energy": "truss",
+        "calibration": "none",
+        "vertices": 9,
+        "section": {"height": 0.2},
+        "length": 2.0,
+    }
 
 
 def truss_stiffness(rod):
@@ -166,7 +172,7 @@ def test_an_energy_of_its_own_unknowns_rests_moves_and_vibrates(trussed):
     moved = cosserat.case("vibration_consistent")
     free = moved.vary(
         "thrown",
-        rod={**trussed, "young": 1e6},
+        rod={**trussed, "material": {"young": 1e6}},
         supports=[],
         start={"shape": "reference", "amplitude": 0.0, "speed": 1.0, "spin": 3.0},
         duration=0.2,
@@ -184,7 +190,7 @@ def test_a_damped_motion_of_its_own_unknowns_knows_its_fastest_mode(trussed):
     """The one of the dense matrices, which the warning of a damping that steps do not follow names."""
     case = cosserat.case("vibration_consistent").vary(
         "damped",
-        rod={**trussed, "young": 1e6},
+        rod={**trussed, "material": {"young": 1e6}},
         supports=[CLAMP],
         start={"shape": "reference"},
         damping=1.0,
@@ -281,9 +287,9 @@ def follower_angle(load):
 
 def test_a_load_that_follows_the_rod_meets_the_elastica(pushes):
     problem = cosserat.case("elastica").problem
-    base = problem.replace(
-        rod=problem.rod.replace(height=problem.rod.height / 8, width=problem.rod.width / 8)
-    )
+    section = problem.rod.section
+    section = section.replace(height=section.height / 8, width=section.width / 8)
+    base = problem.replace(rod=problem.rod.replace(section=section))
     bending = base.rod.young * base.rod.second_moment / base.rod.length**2
     table = base.model_dump() | {"kind": "pushed statics", "forces": []}
     found = []
@@ -302,7 +308,7 @@ def test_a_load_that_follows_the_rod_meets_the_elastica(pushes):
 
 def test_its_work_is_the_change_of_energy_and_not_corrected_away(pushes):
     table = cosserat.case("vibration_consistent").problem.model_dump()
-    force = 1e-3 * table["rod"]["young"] * table["rod"]["height"] ** 4
+    force = 1e-3 * table["rod"]["material"]["young"] * table["rod"]["section"]["height"] ** 4
     table |= {"kind": "pushed motion", "start": {}, "duration": 0.05, "every": 0.005, "damping": 0.0}
     table["pushes"] = [{"force": force}]
     missing = []

@@ -593,7 +593,9 @@ def test_parts_of_another_run_are_refused(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         cosserat.run(first, result=tmp_path / "a.nc", progress=stop)
     with pytest.raises(InputError, match="parts of a run with other parameters; .* remove that folder"):
-        cosserat.run(BEAM.vary("beam", **short, rod={"young": 2e9}), result=tmp_path / "a.nc")
+        cosserat.run(
+            BEAM.vary("beam", **short, rod={"material": {"young": 2e9}}), result=tmp_path / "a.nc"
+        )
 
 
 def test_memory_of_a_step_grows_no_faster_than_the_rod():

@@ -114,7 +114,7 @@ def test_director_length_changes_no_displacement(name):
 
 def test_shear_correction_of_one_fits_the_clamped_free_beam_worse():
     """E3.17: with k = 1 in place of 5/6, in model and formula alike, the tip is 0.985 of Timoshenko's, not 0.9955."""
-    case = cosserat.case("clamped_free").vary("beam", rod={"shear_correction": 1})
+    case = cosserat.case("clamped_free").vary("beam", rod={"section": {"shear_factor": 1}})
     curves = readouts.clamped_free_curve(cosserat.run(case), beam_of(case.problem))
     assert ratio(readouts.at_tip(curves)) == pytest.approx(0.985, abs=1e-3)
 

@@ -24,7 +24,7 @@ TAPERED = [
 SECTIONS = {
     "free": {},
     "barrier": {"barrier": True},
-    "incompressible": {"lateral_constraint": "incompressible", "poisson": 0.4999},
+    "incompressible": {"lateral_constraint": "incompressible", "material": {"poisson": 0.4999}},
     "curved": {"curvature": 0.1},
 }
 everywhere = pytest.mark.parametrize("centreline", [0.2, 0.7])
@@ -32,7 +32,13 @@ sections = pytest.mark.parametrize("section", SECTIONS.values(), ids=SECTIONS)
 
 
 def tapered(centreline, section, **changes):
-    rod = {"vertices": 6, "length": 5.0, "height": 0.5, "stations": TAPERED, "centreline": centreline}
+    rod = {
+        "vertices": 6,
+        "length": 5.0,
+        "section": {"height": 0.5},
+        "stations": TAPERED,
+        "centreline": centreline,
+    }
     case = cosserat.case("clamped_free_consistent").vary("tapered", rod=rod | section | changes)
     return case.problem.rod
 
@@ -154,7 +160,7 @@ def test_sections_that_narrow_cost_what_the_material_of_all_pieces_costs(centrel
         for height, ratio, ends in zip(heights, ratios, pairwise(places), strict=True)
         for place in ends
     ]
-    rod = tapered(centreline, {}, stations=stations, curvature=curvature, width=0.5, poisson=0.3)
+    rod = tapered(centreline, {}, stations=stations, curvature=curvature, material={"poisson": 0.3})
     geometry, w = rod.geometry(), 1e-2
     body, q = body_of(rod), np.hstack([geometry.X, (1 + w) * geometry.D]).ravel()
     free = np.arange(q.size).reshape(-1, 4)[1:, :2].ravel()

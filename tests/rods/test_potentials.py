@@ -19,13 +19,14 @@ from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, STRAINS
 
 EXAMPLES = {"published": "clamped_free", "consistent": "elastica"}
 """A case with a rod of each energy; an energy without one fails here."""
+MATERIAL = {"young": 1e3, "poisson": 0.3, "line_density": 0.1}
 OPTIONS = {
     "published": ({}, {"end_sections": "halved"}, {"intrinsic_curvature": "printed"}),
     "consistent": (
         {},
         {"barrier": True},
         {"lateral_constraint": "plane strain"},
-        {"lateral_constraint": "incompressible", "poisson": 0.495},
+        {"lateral_constraint": "incompressible", "material": MATERIAL | {"poisson": 0.495}},
     ),
 }
 RODS = [(name, number) for name in ENERGIES for number in range(len(OPTIONS[name]))]
@@ -44,10 +45,8 @@ def rod(name, number):
     changes = {
         "vertices": 6,
         "length": 1.0,
-        "height": 0.2,
-        "width": 0.1,
-        "young": 1e3,
-        "poisson": 0.3,
+        "section": given_rod.section.replace(height=0.2, width=0.1),
+        "material": MATERIAL | {"line_density": given_rod.line_density},
         "curvature": 0.6,
         "centreline": 0.4,
         "stations": [{"at": 0.2}, {"at": 0.8, "height": 0.7, "young": 1.5}],

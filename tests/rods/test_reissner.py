@@ -22,6 +22,7 @@ from cosserat.studies.convergence import MEASURES
 from cosserat.thesis.table.readouts import period
 
 SECTIONS = ("free", "plane strain", "incompressible")
+MATERIAL = {"young": 1e9, "poisson": 0.0, "line_density": 0.1}
 CLAMP = [{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}]
 
 
@@ -59,9 +60,11 @@ def strained(geometry, seed, size=0.02):
 def slender(elements, radius=0.005, **rod):
     """A clamped rod of length 1 whose section bends as a circle of that radius."""
     side = np.sqrt(3) * radius
-    changes = {"vertices": elements + 1, "height": side, "width": side, **rod}
     problem = cosserat.case("elastica").problem
-    bare = problem.replace(rod=problem.rod.replace(**changes), forces=())
+    section = problem.rod.section.replace(height=side, width=side)
+    bare = problem.replace(
+        rod=problem.rod.replace(vertices=elements + 1, section=section, **rod), forces=()
+    )
     return bare, bare.rod.young * bare.rod.second_moment
 
 
@@ -172,7 +175,7 @@ def test_necking_follows_theory_up_to_near_incompressibility(case, theory, poiss
     errors = []
     for vertices in (81, 161, 321):
         bar = cosserat.case(case).vary(
-            "x", rod={"vertices": vertices, "poisson": poisson, "length": "1 m"}
+            "x", rod={"vertices": vertices, "material": {"poisson": poisson}, "length": "1 m"}
         )
         data = cosserat.run(bar)
         beam = beam_of(bar.problem)
@@ -187,7 +190,7 @@ def test_necking_follows_theory_up_to_near_incompressibility(case, theory, poiss
 
 @pytest.mark.parametrize("thickness", [1e-1, 1e-2, 1e-3, 1e-4])
 def test_no_shear_locking(thickness):
-    problem, bending = slender(20, radius=thickness, poisson=0.3)
+    problem, bending = slender(20, radius=thickness, material=MATERIAL | {"poisson": 0.3})
     pulled = problem.replace(forces=({"at": "last", "along": "E2", "force": 0.1 * bending},))
     tip = pulled.solve("x")["u"][-1, 1]
     shear = bending / (5 / 6 * problem.rod.young / 2.6 * problem.rod.area)
@@ -197,7 +200,9 @@ def test_no_shear_locking(thickness):
 @pytest.mark.parametrize("fraction", [0.1, 0.2, 0.3])
 def test_an_incompressible_section_keeps_its_area(fraction):
     """Stretch along times stretch across is one; the force is that of the energy with lambda = 1 / a."""
-    problem, _ = slender(20, radius=0.05, lateral_constraint="incompressible", poisson=0.4999)
+    problem, _ = slender(
+        20, radius=0.05, lateral_constraint="incompressible", material=MATERIAL | {"poisson": 0.4999}
+    )
     stiff = 2 * problem.rod.young / 3 * problem.rod.area
     pulled = problem.replace(
         supports=({"at": "first", "fixed": ["x3", "x2", "d3"]},),
@@ -368,7 +373,7 @@ def test_columns_however_thin_leave_the_straight_path(slenderness):
     euler = np.pi**2 / 4 * 1e9 * slenderness**4 / 12
     thin = cosserat.case("column_path").vary(
         "thin",
-        rod={"height": slenderness, "width": slenderness},
+        rod={"section": {"height": slenderness, "width": slenderness}},
         forces=[{"at": "last", "along": "-E3", "force": 2 * euler}],
     )
     path = cosserat.run(thin)
@@ -450,7 +455,9 @@ def test_the_period_of_the_exact_timoshenko_beam(solved):
 def test_sections_that_hardly_change_their_volume_vibrate(section, poisson, amplitude):
     """With the pressure at the midpoint of a step these found no solution at any sensible step."""
     case = cosserat.case("vibration_consistent").vary(
-        "x", rod={"lateral_constraint": section, "poisson": poisson}, start={"amplitude": amplitude}
+        "x",
+        rod={"lateral_constraint": section, "material": {"poisson": poisson}},
+        start={"amplitude": amplitude},
     )
     data = cosserat.run(case)
     energy = (data.kinetic_energy + data.strain_energy).to_numpy()
@@ -464,7 +471,7 @@ def test_sections_that_hardly_change_their_volume_vibrate(section, poisson, ampl
 def test_an_incompressible_rod_spins_freely(section):
     case = cosserat.case("vibration_consistent").vary(
         "x",
-        rod={"lateral_constraint": section, "poisson": 0.4999},
+        rod={"lateral_constraint": section, "material": {"poisson": 0.4999}},
         supports=[],
         start={"shape": "reference", "amplitude": 0.0, "spin": 20.0},
     )
@@ -514,7 +521,7 @@ def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
         ({"energy": "published"}, "needs a calibration"),
         ({"lateral_constraint": "incompressible"}, "'poisson' = 0; it must be 0.49 or more"),
         ({"lateral_constraint": "thick"}, "must be 'free', 'plane strain' or 'incompressible'"),
-        ({"poisson": 0.5}, "'rod.poisson' is 0.5; it must be below 0.5"),
+        ({"material": {"poisson": 0.5}}, "'rod.material.poisson' is 0.5; it must be below 0.5"),
     ],
 )
 def test_bad_input(changes, sentence):
@@ -749,7 +756,7 @@ def test_a_rod_that_hardly_deforms_spins_on(spin, step, allowed):
 def test_no_turn_is_missed_between_two_frames(method):
     motor = cosserat.case("vibration_consistent").vary(
         "motor",
-        rod={"vertices": 3, "young": 1e7},
+        rod={"vertices": 3, "material": {"young": 1e7}},
         supports=[{"at": "first", "fixed": ["x3", "x2"]}],
         start={"shape": "reference", "amplitude": 0.0, "spin": 100.0},
         couples=[{"at": "first", "moment": 80.0}],

@@ -29,7 +29,7 @@ def spinning(radius, steps, like="vibration_consistent", turns=1.0):
     side, turn = np.sqrt(3) * radius, 2 * np.pi / 10
     return cosserat.case(like).vary(
         "spinning",
-        rod={"height": side, "width": side, "line_density": 0.1},
+        rod={"section": {"height": side, "width": side}, "material": {"line_density": 0.1}},
         supports=[],
         start={"shape": "reference", "amplitude": 0.0, "spin": 10.0},
         duration=turns * turn,
@@ -59,7 +59,11 @@ def test_a_thin_rod_turns_freely_in_a_few_steps(like, radius, steps):
 @pytest.mark.parametrize("like", ["vibration_consistent", "vibration_c4_20"])
 def test_forces_of_a_step_have_no_resultant_and_work_as_the_energy_changes(like):
     """Also where the body turns far in the step; the work misses the change of energy to third order in the step."""
-    problem = cosserat.case(like).vary("x", supports=[], rod={"vertices": 6, "poisson": 0.3}).problem
+    problem = (
+        cosserat.case(like)
+        .vary("x", supports=[], rod={"vertices": 6, "material": {"poisson": 0.3}})
+        .problem
+    )
     geometry = problem.geometry
     potential = problem.rod.strain_energy.potential(problem.rod, geometry)
     rng = np.random.default_rng(3)
@@ -262,7 +266,7 @@ def test_sections_that_cross_are_refused_by_name(like):
     tight = cosserat.case(like).vary(
         "tight",
         gravity=None,
-        rod={"height": 1.0, "vertices": 41},
+        rod={"section": {"height": 1.0}, "vertices": 41},
         couples=[{"at": "last", "moment": moment}],
     )
     with pytest.raises(
@@ -310,7 +314,7 @@ def test_a_path_and_a_motion_stop_before_sections_cross(tmp_path):
     moment = rod.young * rod.width * 1.0**3 / 12 / 0.4
     couples = [{"at": "last", "moment": moment}]
     bent = cosserat.case("clamped_free_consistent").vary(
-        "tight", gravity=None, rod={"height": 1.0, "vertices": 41}, couples=couples
+        "tight", gravity=None, rod={"section": {"height": 1.0}, "vertices": 41}, couples=couples
     )
     table = bent.problem.model_dump()
     path = cosserat.case("arch_path").vary(
@@ -322,7 +326,7 @@ def test_a_path_and_a_motion_stop_before_sections_cross(tmp_path):
     wound = cosserat.case("relaxing_clamped_free").vary(
         "wound",
         gravity=None,
-        rod={"height": 1.0, "energy": "consistent", "calibration": "none"},
+        rod={"section": {"height": 1.0}, "energy": "consistent", "calibration": "none"},
         couples=couples,
         duration=0.3,
         every=2e-3,

@@ -81,7 +81,7 @@ def test_a_hanging_bar_of_two_materials_has_the_tip_and_the_mass_of_two_bars(nam
 def test_a_pulled_bar_of_two_materials_narrows_as_each_of_them():
     """Far from the joint and the ends each part narrows by its own nu n / E A."""
     pulled = cosserat.case("necking_consistent").vary(
-        "two", rod={"stations": TWO, "vertices": 101, "height": 0.1, "width": 0.1}
+        "two", rod={"stations": TWO, "vertices": 101, "section": {"height": 0.1, "width": 0.1}}
     )
     rod = pulled.problem.rod
     data = cosserat.run(pulled)
@@ -359,7 +359,8 @@ def test_a_curved_bar_bends_as_castigliano_says():
             "c4": 200.0,
             "c5": 100.0,
         }  # so stiff in shear that the clamp does not give
-        ring = {"curvature": 1 / radius, "vertices": n, "height": 0.1, "width": 0.1, "poisson": 0}
+        ring = {"curvature": 1 / radius, "vertices": n, "section": {"height": 0.1, "width": 0.1}}
+        ring["material"] = {"poisson": 0}
         case = BEAM.vary(
             "ring",
             gravity=None,

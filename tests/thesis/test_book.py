@@ -239,7 +239,7 @@ def test_the_page_of_the_api_has_every_public_name_with_its_docstring(reference_
 
 def test_the_page_of_the_api_shows_signatures_as_they_are_written(reference_page):
     assert "cosserat.run( case: Case | str, *, result: str | Path | None = None," in reference_page
-    assert "class cosserat.rods.rod.Rod( *, energy=..., vertices, length, height," in reference_page
+    assert "class cosserat.rods.rod.Rod( *, energy=..., vertices, length, section," in reference_page
     assert "displacements: bool = True, ) → MechanicalSystem" in reference_page
     assert "solve( name: str, run: Run = ALONE, ) → Solution" in reference_page
     assert not re.search(

@@ -19,6 +19,8 @@ from cosserat.rods.reference import Geometry, signed_angle, strains, unwrapped_a
 from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table import printed, readouts
 
+MATERIAL = {"young": 1e9, "line_density": 250.0}
+
 
 def gradient_by_differences(energy, q, h=1e-6):
     return np.array([(energy(q + h * e) - energy(q - h * e)) / (2 * h) for e in np.eye(q.size)])
@@ -73,7 +75,7 @@ def test_E3_2_half_the_coupling_and_half_the_coefficient_are_the_same_rod(solved
 @pytest.mark.parametrize(("poisson", "definite"), [(0.37, True), (0.38, False)])
 def test_E3_2_printed_coupling_is_indefinite_beyond_a_poissons_ratio_of_0_376(poisson, definite):
     for coupling, stable in (("printed", definite), ("halved", True)):
-        rod = make_rod(vertices=200, poisson=poisson, poisson_coupling=coupling)
+        rod = make_rod(vertices=200, material=MATERIAL | {"poisson": poisson}, poisson_coupling=coupling)
         geometry = rod.geometry()
         _, _, hessian = assembled(rod.strain_energy.potential(rod, geometry), geometry.q)
         assert (np.linalg.eigvalsh(hessian)[0] > -1e-9 * np.abs(hessian).max()) == stable
@@ -83,7 +85,9 @@ def test_full_coupling_of_one_contracts_as_plane_strain_does():
     """With c7 = 1 and no factor halved the far field is -nu (1 + nu) n / EA; the page's is a free section's."""
     full = {"poisson_coupling": "printed", "calibration": {"c7": 1.0}}
     for poisson in (0.2, 0.3):
-        case = cosserat.case("necking").vary("plane_strain", rod={**full, "poisson": poisson})
+        case = cosserat.case("necking").vary(
+            "plane_strain", rod={**full, "material": {"poisson": poisson}}
+        )
         curves = readouts.necking_curve(cosserat.run(case), beam=beam_of(case.problem))
         reading = readouts.at_midspan(curves)
         assert reading.measured / reading.expected == pytest.approx(1 + poisson, abs=1e-4)
@@ -481,7 +485,7 @@ def test_E3_25_the_same_beam_is_nearer_in_every_reading_of_areas_and_shear_corre
             low, high = (half_period(c4, k, fraction) for c4 in (2, 20))
             assert abs(low - by_formula) < abs(high - by_formula)
             for c4, exact in ((2, low), (20, high)):
-                rod = {"end_sections": ends, "shear_correction": k}
+                rod = {"end_sections": ends, "section": {"shear_factor": k}}
                 problem = cosserat.case(f"vibration_c4_{c4}").vary("x", rod=rod).problem
                 found = np.pi / problem.modes(1).angular_frequency[0]
                 assert found == pytest.approx(exact, rel=1e-8)
@@ -503,7 +507,9 @@ def test_E3_26_the_necked_bar_grows_by_another_length_than_its_modulus_says(solv
         assert far == pytest.approx(middle, abs=1e-3)
         stretched = solved[name].mu_edge.to_numpy()[8:11].mean() - 1
         assert stretched / (grown.expected / 5) == pytest.approx(far, rel=1e-3)
-    straight = cosserat.run(cosserat.case("necking").vary("no_poisson", rod={"poisson": 0}))
+    straight = cosserat.run(
+        cosserat.case("necking").vary("no_poisson", rod={"material": {"poisson": 0}})
+    )
     assert readouts.READOUTS["necking_elongation"](straight).measured == pytest.approx(2e-5, rel=1e-5)
 
 
@@ -576,7 +582,7 @@ def test_E3_30_the_printed_share_of_a_director_is_a_length(unit):
 
 def test_E3_31_sections_of_a_rod_that_is_only_bent_cross_with_a_finite_energy():
     """On circles of half a metre and of a fifth of a metre, the rod half a metre high, without shear."""
-    rod = make_rod(vertices=41, poisson=0.0)
+    rod = make_rod(vertices=41, material=MATERIAL | {"poisson": 0.0})
     straight = rod.geometry()
     for radius, crosses in ((0.5, False), (0.2, True)):
         bent = Geometry.arc(np.linspace(0.0, rod.length, 41), straight.director_length, 1 / radius)

@@ -53,8 +53,8 @@ def test_every_row_that_reads_a_case_is_asked_by_some_change():
 
 
 def test_a_change_that_is_no_case_is_refused_and_not_noticed():
-    with pytest.raises(InputError, match="'rod.young' is -1 Pa"):
-        notices(Change("E", ("hanging_bar",), ("rod.young",), lambda _: -1.0), ROWS)
+    with pytest.raises(InputError, match="'rod.material.young' is -1 Pa"):
+        notices(Change("E", ("hanging_bar",), ("rod.material.young",), lambda _: -1.0), ROWS)
 
 
 def test_a_change_is_of_the_named_inputs_alone():
@@ -79,7 +79,9 @@ def test_a_wrong_physics_is_gone_when_it_has_been_tried():
     [
         (Change("nothing", ("hanging_bar",)), ()),
         (
-            Change("E", ("hanging_bar",), ("rod.young",), lambda E: 2 * E, unseen="nobody looks"),
+            Change(
+                "E", ("hanging_bar",), ("rod.material.young",), lambda E: 2 * E, unseen="nobody looks"
+            ),
             ("F3.9-profile",),
         ),
     ],

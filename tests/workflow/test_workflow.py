@@ -131,7 +131,7 @@ def test_nothing_is_left_to_do(checkout):
 
 def test_one_case_edited_reruns_its_batch_and_their_descendants_only(checkout, edited):
     key = 'rod.poisson_coupling = "printed"'
-    edited("cosserat/thesis/cases/chapter3.toml", key, f"{key}\nrod.poisson = 0.31")
+    edited("cosserat/thesis/cases/chapter3.toml", key, f"{key}\nrod.material.poisson = 0.31")
     rules, outputs = planned(checkout)
     assert rules == {"simulate", "measure", "check", "figure"}
     drawn = {"figures/fig_3_8.svg", "figures/fig_3_12.svg"}  # together, in one process

@@ -47,7 +47,7 @@ class Reissner(Energy):
             rod.stations,
             geometry.arc_length,
             area=rod.area,
-            second_moment=rod.area * rod.height**2 / 12,
+            second_moment=rod.central_second_moment,
             young=rod.young,
             poisson=rod.poisson,
             shear_correction=rod.shear_correction,

@@ -140,7 +140,7 @@ def _definitions(kind: str, found: Sequence[Key], before: str = "") -> HTML:
     entries = []
     for key in found:
         address = anchor(kind, key)
-        where = f' where <code>kind = "{key.when}"</code>' if key.when and key.name != "kind" else ""
+        where = f' where <code>{key.by} = "{key.when}"</code>' if key.when and key.name != key.by else ""
         about = key.value.innermost.about
         marks = (
             [] if about is None else [f"${about.symbol}$" if about.symbol else "", cited(about.source)]

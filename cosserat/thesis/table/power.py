@@ -28,7 +28,7 @@ class Change:
     """One change of some cases.
 
     what : in a few words.  cases : whose rows are judged.
-    places, edit : the changed inputs of the cases, such as "rod.young", and the change.
+    places, edit : the changed inputs of the cases, such as "rod.material.young", and the change.
     physics : a context with different mechanics.
     unseen : why no printed number can see the change.
     """

@@ -26,12 +26,13 @@ _ROD: Inputs = {
     "rod.energy": Input("published", "eq. (3.4.11)"),
     "rod.vertices": Input("20", _FOUR, "1"),
     "rod.length": Input("5 m", _FOUR, "m"),
-    "rod.height": Input("0.5 m", _FOUR, "m"),
-    "rod.width": Input("0.5 m", _FOUR, "m"),
-    "rod.young": Input("1 GPa", _FOUR, "Pa"),
-    "rod.poisson": Input("0", "section 3.5, 'zero Poisson's ratio everywhere'", "1"),
-    "rod.line_density": Input("250 kg/m", _FOUR, "kg/m"),
-    "rod.shear_correction": Input("5/6", "section 3.5, A necking problem", "1", "E3.17"),
+    "rod.section.shape": Input("rectangle", _FOUR),
+    "rod.section.height": Input("0.5 m", _FOUR, "m"),
+    "rod.section.width": Input("0.5 m", _FOUR, "m"),
+    "rod.material.young": Input("1 GPa", _FOUR, "Pa"),
+    "rod.material.poisson": Input("0", "section 3.5, 'zero Poisson's ratio everywhere'", "1"),
+    "rod.material.line_density": Input("250 kg/m", _FOUR, "kg/m"),
+    "rod.section.shear_factor": Input("5/6", "section 3.5, A necking problem", "1", "E3.17"),
     "rod.calibration.c1": Input("1/2", "Fig. 3.9", "1"),
     "rod.calibration.c2": Input("1/2", "Fig. 3.12", "1"),
     "rod.calibration.c3": Input("0.99", "Fig. 3.10", "1"),
@@ -66,8 +67,8 @@ _CLAMPED_CLAMPED: Inputs = {
 }
 _NECKING: Inputs = {
     **_ROD,
-    "rod.poisson": Input("0.3", "section 3.5, before eq. (3.5.8)", "1"),
-    "rod.shear_correction": Input("5/6", "section 3.5, A necking problem", "1"),
+    "rod.material.poisson": Input("0.3", "section 3.5, before eq. (3.5.8)", "1"),
+    "rod.section.shear_factor": Input("5/6", "section 3.5, A necking problem", "1"),
     "gravity": Input(None, _FOUR, assumed="E3.16"),
     "forces.0": Input({"at": "first", "along": "-E3"}, "section 3.5, (iv)", assumed="E3.16"),
     "forces.0.force": Input("1 kN", "section 3.5, before eq. (3.5.8)", "N"),
@@ -82,10 +83,10 @@ _NECKING: Inputs = {
 _VIBRATING: Inputs = {
     **_ROD,
     "rod.length": Input("1 m", _VIBRATION, "m"),
-    "rod.width": Input("0.1 m", _VIBRATION, "m"),
-    "rod.height": Input("0.1 m", _VIBRATION, "m", "E3.19"),
-    "rod.shear_correction": Input("5/6", _VIBRATION, "1"),
-    "rod.line_density": Input("10 kg/m", f"{_VIBRATION}: 10^3 times the area", "kg/m", "E3.19"),
+    "rod.section.width": Input("0.1 m", _VIBRATION, "m"),
+    "rod.section.height": Input("0.1 m", _VIBRATION, "m", "E3.19"),
+    "rod.section.shear_factor": Input("5/6", _VIBRATION, "1"),
+    "rod.material.line_density": Input("10 kg/m", f"{_VIBRATION}: 10^3 times the area", "kg/m", "E3.19"),
     "supports": Input(_LEFT, "section 3.5, 'clamped-free'"),
     "gravity": Input(None, _VIBRATION, assumed="E3.19"),
     "start.shape": Input("first beam mode", "section 3.5, 'in its first mode shape'"),
@@ -93,7 +94,7 @@ _VIBRATING: Inputs = {
 }
 _DAMPED: Inputs = {"damping": Input("1", "section 3.5, 'towards critical damping'", "1", "E3.22")}
 _K_1: Inputs = {
-    "rod.shear_correction": Input("1", "given for no beam of the four problems", "1", "E3.17")
+    "rod.section.shear_factor": Input("1", "given for no beam of the four problems", "1", "E3.17")
 }
 _HALVED: Inputs = {"rod.end_sections": Input("halved", "eq. (3.4.10)")}
 
@@ -146,15 +147,15 @@ def number(case: str, place: str) -> float:
 @functools.cache
 def beam(case: str) -> Beam:
     """The beam of a case of Chapter 3 for the closed forms; I = W H^3 / 12 of the printed rectangle."""
-    wide, high = number(case, "rod.width"), number(case, "rod.height")
+    wide, high = number(case, "rod.section.width"), number(case, "rod.section.height")
     return Beam(
         length=number(case, "rod.length"),
         area=wide * high,
         second_moment=wide * high**3 / 12,
-        young=number(case, "rod.young"),
-        poisson=number(case, "rod.poisson"),
-        line_density=number(case, "rod.line_density"),
-        shear_correction=number(case, "rod.shear_correction"),
+        young=number(case, "rod.material.young"),
+        poisson=number(case, "rod.material.poisson"),
+        line_density=number(case, "rod.material.line_density"),
+        shear_correction=number(case, "rod.section.shear_factor"),
     )
 
 
