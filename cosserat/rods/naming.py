@@ -29,10 +29,7 @@ class DirectionName(Reader):
     @property
     def said(self) -> str:
         """In words."""
-        return (
-            '"E3", "-E3", "E2" or "-E2", an angle from E3 towards E2, such as "30 deg", or components [E3, E2] of '
-            "any length, such as [3, 4]"
-        )
+        return '"E3", "-E3", "E2", "-E2", an angle from E3 towards E2 such as "30 deg", or components such as [3, 4]'
 
     def check(self, value: object, info: core_schema.ValidationInfo) -> Any:
         """Read one direction."""

@@ -19,7 +19,7 @@ _NEAR = 1e-9  # distance to a vertex, as a fraction of the length, below which a
 
 
 class PlaceName(Reader):
-    """Annotation: "first", "last", the index of a vertex, "0.35 m" or "25 %"; a text keeps its unit."""
+    """Annotation: a vertex, a distance from the first one along the reference centreline, or a part of its length."""
 
     @property
     def alternatives(self) -> Any:
@@ -30,10 +30,7 @@ class PlaceName(Reader):
     @property
     def said(self) -> str:
         """In words."""
-        return (
-            '"first", "last", the index of a vertex, counted from 0, a distance from the first vertex along the '
-            'reference centreline, such as "0.35 m", or a percentage of the length, such as "25 %"'
-        )
+        return '"first", "last", the index of a vertex, a distance such as "0.35 m", or a percentage such as "25 %"'
 
     def check(self, value: object, info: core_schema.ValidationInfo) -> str | int:
         """Read one place."""
