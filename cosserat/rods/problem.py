@@ -19,9 +19,11 @@ from cosserat.rods.constraints import (
     RodConstraints,
     Support,
 )
-from cosserat.rods.loads.couples import Couple
+from cosserat.rods.loads.couples import Couple, LineCouple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
+from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
 from cosserat.rods.loads.load import Load, LoadedRod
+from cosserat.rods.loads.pressure import Pressure
 from cosserat.rods.places import check_place, mesh
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
@@ -37,6 +39,10 @@ LOADS: dict[str, type[Load]] = {
     "line_loads": LineLoad,
     "forces": PointForce,
     "couples": Couple,
+    "line_couples": LineCouple,
+    "follower_forces": FollowerForce,
+    "follower_line_loads": FollowerLineLoad,
+    "pressures": Pressure,
 }
 """Kinds of loads by their key in a case."""
 CONSTRAINTS: dict[str, type[Constraint]] = {
@@ -63,7 +69,15 @@ class RodProblem(Problem):
     line_loads: tuple[LineLoad, ...] = ()
     """Dead forces per length, each over a stretch of the rod."""
     couples: tuple[Couple, ...] = ()
-    """Moments, each on one section."""
+    """Moments, each on one section; in the plane a moment is the same whether it turns with the section or not."""
+    line_couples: tuple[LineCouple, ...] = ()
+    """Moments per length, each over a stretch of the rod."""
+    follower_forces: tuple[FollowerForce, ...] = ()
+    """Forces that turn with the section, each at one place."""
+    follower_line_loads: tuple[FollowerLineLoad, ...] = ()
+    """Forces per length that turn with the sections, each over a stretch of the rod."""
+    pressures: tuple[Pressure, ...] = ()
+    """Pressures on the upper or the lower surface, each over a stretch of the rod."""
     prescribed_displacements: tuple[PrescribedDisplacement, ...] = ()
     """Prescribed displacements of fixed degrees of freedom."""
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()
@@ -92,12 +106,12 @@ class RodProblem(Problem):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        loads = [load for key in LOADS for load in self.loads_of(key)]
-        named = [at for load in loads for at in load.places]
+        loads = [(key, load) for key in LOADS for load in self.loads_of(key)]
+        named = [at for _, load in loads for at in load.places]
         for at in [*(item.at for _, item in self.constraints()), *named]:
             check_place(at, self.rod.vertices, self.rod.length)
-        for load in loads:
-            load.check(self.rod)
+        for key, load in loads:
+            load.check(self.rod, key)
         return self
 
     @model_validator(mode="after")
@@ -147,7 +161,10 @@ class RodProblem(Problem):
         """
         energy = self.rod.strain_energy.potential(self.rod, geometry, displacements=displacements)
         at_rest = self.rod.strain_energy.reference(geometry)
-        body = LoadedRod(self.rod, geometry, at_rest if displacements else None)
+        held = self.constrained()
+        for _, item in self.constraints():
+            held[[self.rod.dof(item.at, dof, geometry.arc_length) for dof in item.moves]] = False
+        body = LoadedRod(self.rod, geometry, at_rest if displacements else None, held)
         rounded = np.zeros_like(at_rest) if energy.origin is None else energy.origin
         return MechanicalSystem(
             energy,

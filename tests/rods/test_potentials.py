@@ -35,6 +35,16 @@ LOAD_EXAMPLES = {
     "line_loads": [{"along": "E2", "density": 2.0, "start": 0.1}],
     "forces": [{"at": "last", "along": "E3", "force": 0.7}, {"at": 2, "along": "E2", "force": -0.2}],
     "couples": [{"at": "last", "moment": 0.4}, {"at": 1, "moment": -0.3}],
+    "line_couples": [{"density": 0.4, "start": 0.13}],
+    "follower_forces": [
+        {"at": "last", "along": "30 deg", "force": 0.7},
+        {"at": "0.35 m", "along": "-E3", "force": 0.4},
+    ],
+    "follower_line_loads": [{"along": [1, 2], "density": 0.6, "start": 0.17, "end": 0.71}],
+    "pressures": [
+        {"side": "upper", "pressure": 20.0, "start": 0.17, "end": 0.71},
+        {"side": "lower", "pressure": 7.0},
+    ],
 }
 
 

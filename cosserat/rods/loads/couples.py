@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from cosserat.parameters import Quantity
 from cosserat.rods.kinematics import PLANAR
-from cosserat.rods.loads.load import Load, LoadedRod
+from cosserat.rods.loads.load import Load, LoadedRod, Stretch
 from cosserat.rods.places import Place
 from cosserat.rods.reference import unwrapped_angles
 from cosserat.solvers.banded import Band, Vector
@@ -59,6 +59,22 @@ class Couple(Load):
         for load in loads:
             for vertex, weight in body.shared(load.at):
                 moments[vertex] += weight * load.moment
+        angles = unwrapped_angles(body.geometry.D)
+        return couples(moments, angles, body.rod.kinematics.per_vertex, body.origin)
+
+
+class LineCouple(Stretch):
+    """A moment per length of the reference centreline over a stretch of the rod, which rotates with the sections."""
+
+    density: Annotated[float, Quantity("N")]
+    """Moment per length, N m / m, positive from E3 towards E2."""
+
+    @classmethod
+    def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
+        """Minus the work of the couples on the sections of the vertices whose parts they cover."""
+        moments = np.zeros(body.rod.vertices)
+        for load in loads:
+            moments += load.density * load.covered(body)
         angles = unwrapped_angles(body.geometry.D)
         return couples(moments, angles, body.rod.kinematics.per_vertex, body.origin)
 

@@ -9,14 +9,11 @@ from typing import Annotated, Self
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
-from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Quantity
-from cosserat.rods.loads.load import Load, LoadedRod
+from cosserat.rods.loads.load import Load, LoadedRod, Stretch
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.places import Place
-from cosserat.rods.reference import Geometry
-from cosserat.rods.rod import Rod
 from cosserat.solvers.banded import Band, Vector, band_product
 from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, Potential
 
@@ -78,45 +75,19 @@ class PointForce(DeadLoad):
         return forces
 
 
-class LineLoad(DeadLoad):
+class LineLoad(Stretch, DeadLoad):
     """A dead force per length on the centreline, over a stretch of it."""
 
     along: Direction
     """Direction of the load."""
     density: Annotated[float, Quantity("N/m")]
     """Force per length of the reference centreline."""
-    start: Annotated[float, Quantity("m", at_least=0)] = 0.0
-    """Start of the load along the reference centreline."""
-    end: Annotated[float, Quantity("m", above=0)] | None = None
-    """End of the load; the end of the rod by default."""
-
-    def check(self, rod: Rod) -> None:
-        """Require a start before the end, both on the rod."""
-        end = self._end(rod)
-        if not self.start < end <= rod.length * (1 + 1e-12):
-            raise PydanticCustomError(
-                "range",
-                f"'line_loads' has one from {self.start:g} m to {end:g} m, but the rod goes from 0 to "
-                f"{rod.length:g} m; let it begin before it ends, on the rod",
-            )
 
     def on_dofs(self, body: LoadedRod) -> Array:
         """Forces on the covered lengths of the parts round the vertices."""
         forces = body.no_force
-        covered = _overlap(body.geometry, self.start, self._end(body.rod))
-        forces[:, :2] = self.density * covered[:, None] * unit_vector(self.along)
+        forces[:, :2] = self.density * self.covered(body)[:, None] * unit_vector(self.along)
         return forces
-
-    def _end(self, rod: Rod) -> float:
-        return rod.length if self.end is None else self.end
-
-
-def _overlap(geometry: Geometry, start: float, end: float) -> Array:
-    """Length that each vertex's part shares with an interval, shape (N,) [m]."""
-    arc = geometry.arc_length
-    cuts = np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
-    shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
-    return shared
 
 
 def dead(force: Vector, reference: Vector) -> Potential:

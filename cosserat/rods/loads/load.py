@@ -6,16 +6,18 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
+from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Parameters
+from cosserat.parameters import Parameters, Quantity
 from cosserat.rods.places import located
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.rods.time_functions import AnyTimeFunction
+from cosserat.rods.variation import vertex_cuts
 from cosserat.solvers.potential import Potential
 
 Array = NDArray[np.float64]
@@ -26,11 +28,13 @@ class LoadedRod:
     """The body that a load acts on.
 
     origin : (n,) added by the potential to the DOFs to get positions and directors: zero, or the reference.
+    held : (n,) which DOFs are constrained and do not move; None: none of them.
     """
 
     rod: Rod
     geometry: Geometry
     origin: Array | None = None
+    held: NDArray[np.bool_] | None = None
 
     @cached_property
     def mass(self) -> Array:
@@ -41,6 +45,14 @@ class LoadedRod:
     def no_force(self) -> Array:
         """Zero for the DOFs of each vertex, shape (N, DOFs of a vertex)."""
         return np.zeros((self.rod.vertices, self.rod.kinematics.per_vertex))
+
+    @property
+    def held_vertices(self) -> NDArray[np.bool_]:
+        """Vertices whose position and director do not move, shape (N,)."""
+        if self.held is None:
+            return np.zeros(self.rod.vertices, dtype=np.bool_)
+        fixed = self.rod.kinematics.split(self.held)[:, :2].all(axis=(1, 2))
+        return np.asarray(fixed)
 
     def shared(self, at: str | int) -> tuple[tuple[int, float], ...]:
         """The vertices beside a place, with their weights in linear interpolation."""
@@ -64,10 +76,40 @@ class Load(Parameters):
         """The places that it names."""
         return ()
 
-    def check(self, rod: Rod) -> None:
-        """Raise PydanticCustomError if it does not fit the rod."""
+    def check(self, rod: Rod, key: str) -> None:
+        """Raise PydanticCustomError if it does not fit the rod; `key` : its name in a case."""
 
     @classmethod
     @abstractmethod
     def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
         """The potential of some loads of this kind together; zero in the reference configuration."""
+
+
+class Stretch(Load):
+    """A load over a stretch of the rod."""
+
+    start: Annotated[float, Quantity("m", at_least=0)] = 0.0
+    """Start of the load along the reference centreline."""
+    end: Annotated[float, Quantity("m", above=0)] | None = None
+    """End of the load; the end of the rod by default."""
+
+    def check(self, rod: Rod, key: str) -> None:
+        """Require a start before the end, both on the rod."""
+        start, end = self.ends(rod)
+        if not start < end <= rod.length * (1 + 1e-12):
+            raise PydanticCustomError(
+                "range",
+                f"'{key}' has one from {start:g} m to {end:g} m, but the rod goes from 0 to "
+                f"{rod.length:g} m; let it begin before it ends, on the rod",
+            )
+
+    def ends(self, rod: Rod) -> tuple[float, float]:
+        """Its start and its end [m]."""
+        return self.start, rod.length if self.end is None else self.end
+
+    def covered(self, body: LoadedRod) -> Array:
+        """Length that it covers of the part round each vertex, shape (N,) [m]."""
+        start, end = self.ends(body.rod)
+        cuts = vertex_cuts(body.geometry.arc_length)
+        shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
+        return shared
