@@ -100,7 +100,7 @@ def test_four_frequencies_are_those_of_the_package(c4, lowest):
     np.testing.assert_allclose(found, right, rtol=1e-6)
 
 
-def test_a_short_run_starts_as_the_long_one():
+def test_a_short_run_agrees_with_the_start_of_the_long_one():
     """A millisecond at two tolerances agree, start with the energy stored above, and lose what they should."""
     times = np.array([0.0, 0.001])
     (coarse, _), (fine, _) = (
@@ -111,7 +111,7 @@ def test_a_short_run_starts_as_the_long_one():
     assert fine[1] < fine[0]
 
 
-def test_plucked_loses_its_energy_as_it_should():
+def test_the_plucked_rod_loses_its_energy_at_the_exact_rate():
     """To 1 % at every tenth of a second, over five orders of ten."""
     case = cosserat.case("vibration_c4_20").vary(
         "plucked",

@@ -269,7 +269,7 @@ def test_a_kind_is_described_in_a_hundred_columns_of_plain_text(kind, capsys):
     assert "\t" not in text
 
 
-def test_a_key_reads_so():
+def test_a_key_is_printed_as_expected():
     """Written by hand, as a person would say it."""
     said_of = dict(printed("rod motion"))
     assert said_of["rod.length"] == (
@@ -286,7 +286,7 @@ def test_a_key_reads_so():
     assert said_of["rod.vertices"].startswith("a whole number (from 3 to 20000000); required ")
 
 
-def test_an_unknown_kind_is_answered_with_the_nearest(capsys):
+def test_an_unknown_kind_is_refused_with_the_nearest_name(capsys):
     assert main(["describe", "rod", "static"]) == 2
     assert (
         capsys.readouterr().err

@@ -38,7 +38,7 @@ TABLES = [(name, text) for text in blocks("toml") for name in tomllib.loads(text
 LINES = [line.split("  #")[0].strip() for text in blocks("sh") for line in text.splitlines()]
 
 
-def test_every_block_is_of_a_language_that_is_executed():
+def test_every_block_is_in_a_language_that_is_executed():
     assert {language for language, _ in BLOCKS} == {"toml", "sh", "python"}
     assert TEXT.count("```") == 2 * len(BLOCKS)
     prose = re.sub(r"^```.*?^```$", "", TEXT, flags=re.MULTILINE | re.DOTALL)
@@ -95,7 +95,7 @@ def test_commands_within_sentences_have_the_options_that_they_name():
         assert _parser().parse_args(shlex.split(code)[1:]), code
 
 
-def test_files_that_the_readme_names_are_there():
+def test_files_named_in_the_readme_exist():
     patterns = (
         r"\]\(([^)#]+)\)",
         r"`((?:cosserat|chapters|tests)/[\w/]+\.\w+)`",
@@ -127,7 +127,7 @@ def redrawn(solved, tmp_path_factory):
     return path.read_text(encoding="utf-8")
 
 
-def test_the_picture_of_the_readme_is_what_is_drawn_today(redrawn):
+def test_the_picture_of_the_readme_is_up_to_date(redrawn):
     assert f"({PICTURE.relative_to(ROOT)})" in TEXT
     assert same_picture(PICTURE.read_text(encoding="utf-8"), redrawn), (
         "chapters/opening.svg is stale: 'make', then 'cosserat figure fig_opening -o chapters/opening.svg'"

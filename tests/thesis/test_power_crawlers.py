@@ -24,7 +24,7 @@ QUICK = [
 
 
 @pytest.mark.parametrize("what", QUICK)
-def test_a_change_is_noticed_or_says_why_not(what):
+def test_a_change_of_a_crawler_is_noticed_or_has_a_reason(what):
     change = next(change for change in CHANGES if change.what == what)
     assert notices(change, ROWS).sound
 
@@ -44,7 +44,7 @@ def test_every_printed_number_of_a_case_is_changed_once(case):
     assert numbers - changed - {"gait.at_rest"} == set()
 
 
-def test_what_is_changed_is_of_the_thesis_and_has_a_name_of_its_own():
+def test_changed_inputs_are_of_the_thesis_and_have_distinct_names():
     names = [change.what for change in CHANGES]
     assert len(set(names)) == len(names) > 50
     asked = {case for change in CHANGES for case in change.cases}

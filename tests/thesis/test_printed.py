@@ -85,7 +85,7 @@ def test_a_case_has_the_printed_input(name, place):
 
 
 @pytest.mark.parametrize("name", printed.PRINTED)
-def test_nothing_else_in_a_case_of_the_thesis_departs_from_its_default(name):
+def test_all_other_inputs_of_a_case_of_the_thesis_are_defaults(name):
     """What a case says beyond the page would be an input that nobody holds to anything."""
     problem = cosserat.case(name).problem
     table = plain(problem.model_dump())
@@ -98,12 +98,12 @@ def test_nothing_else_in_a_case_of_the_thesis_departs_from_its_default(name):
     assert [p for p in said if not any(h == p or h.startswith(f"{p}.") for h in held)] == []
 
 
-def test_every_case_of_chapter_3_is_held_or_says_why_not():
+def test_every_case_of_chapter_3_has_printed_inputs_or_a_reason():
     assert set(printed.CHAPTER_3) | set(OURS) == set(CHAPTER_3)
     assert not set(printed.CHAPTER_3) & set(OURS)
 
 
-def test_every_case_of_chapter_2_is_held():
+def test_every_case_of_chapter_2_has_printed_inputs():
     assert set(printed.CHAPTER_2) == set(CHAPTER_2)
 
 
@@ -134,7 +134,7 @@ def test_inputs_of_chapter_2_follow_from_the_numbers_behind_them():
 
 
 @pytest.mark.parametrize("grams", [0.01, 1.0, 10.0])
-def test_table_2_1_is_the_pages_at_every_mass(grams):
+def test_table_2_1_is_that_of_the_page_at_every_mass(grams):
     """Its eight numbers, typed once more."""
     mass = 1e-3 * grams
     assert earthworm.stance_time(mass) == pytest.approx(1.6 * grams**0.04)
@@ -150,7 +150,7 @@ def test_the_calibration_is_of_the_four_problems_at_the_published_mesh():
     assert procedure.meshes[0] == printed.number("necking", "rod.vertices")
 
 
-def test_what_is_assumed_is_an_assumption_or_a_question_of_the_errata():
+def test_assumed_inputs_are_assumptions_or_questions_of_the_errata():
     errata = read_errata(ROOT / "results/errata.toml")
     for held in printed.PRINTED.values():
         for place, given in held.items():
