@@ -1,4 +1,4 @@
-"""The codes that judge, held to textbooks: nothing here imports the package."""
+"""The reference codes compared with textbooks.  Nothing here imports the package."""
 
 import ast
 from pathlib import Path

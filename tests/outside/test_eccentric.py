@@ -1,4 +1,4 @@
-"""Rods whose height jumps while the line they are followed by is not in the middle: of second order, by other codes."""
+"""Rods with a step in height and an eccentric centreline converge with second order to independent codes."""
 
 from itertools import pairwise
 
@@ -81,7 +81,7 @@ def test_the_reference_code_agrees_with_beam_theory_for_thin_rods(centreline, po
 @steps
 @pytest.mark.parametrize("poisson", [0.0, 0.3])
 def test_a_slender_stepped_body_pulled_beside_its_axis_bends_as_a_beam(at, centreline, poisson):
-    """What tension bends and what a force across pulls along, both by (0.5 - centreline) of the height."""
+    """The deflection by tension and the axial displacement by a lateral force, with the offset (0.5 - centreline) H."""
     parts = pieces(0.02, at, centreline, poisson)
     for along, across in ((1e-3, 0.0), (0.0, 1e-3)):
         judge = eccentric.linear_tip if poisson else eccentric.beam_tip

@@ -1,4 +1,4 @@
-"""Weight and inertia are one mass, and what jumps inside an edge costs no order: right values of other codes."""
+"""Weight and inertia have one mass, and steps inside an edge keep second order: values of independent codes."""
 
 import numpy as np
 import pytest
@@ -82,7 +82,7 @@ def test_a_mass_inside_the_last_edge_is_of_second_order_in_frequency(times):
 
 @pytest.mark.parametrize("place", [1 / 3, 13 / 30])
 def test_a_density_and_a_modulus_that_jump_inside_an_edge_are_of_second_order(place):
-    """Meshes four times as fine meet the jump at the same share of an edge, so that their errors compare."""
+    """On meshes four times as fine the step is at the same fraction of an edge, so their errors are comparable."""
     at = 0.5 * place
     stations = [{"at": at}, {"at": at, "density": 8.0, "young": 0.2}]
     beam = piece("mass_inside")
@@ -119,7 +119,7 @@ def test_the_reference_value_of_the_joint_agrees_with_a_textbook():
 
 @pytest.mark.parametrize("vertices", [11, 21, 41, 81, 161])
 def test_a_joint_inside_an_edge_has_the_right_displacements(vertices):
-    """The errors of no mesh exceed one and a half times (h / L)^2, twice what a joint on a vertex leaves."""
+    """The error of each mesh is at most 1.5 (h / L)^2, twice that of a joint on a vertex."""
     allowed = 1.5 / (vertices - 1) ** 2 + 1e-8
     bent = closed.cantilever_tip(1e-3, 1.0, lambda s: EI * softer(s), lambda s: GA * softer(s), [0.52])
     assert last(run("joint", rod={"vertices": vertices})) == pytest.approx(bent, rel=allowed)

@@ -1,4 +1,4 @@
-"""The README's `plucked` against a fine explicit run of the thesis's energy written anew in NumPy."""
+"""The README's `plucked` compared with a fine explicit run of the thesis's energy, written independently in NumPy."""
 
 import functools
 from dataclasses import replace
@@ -92,7 +92,7 @@ def test_the_lowest_frequency_is_that_of_the_page():
 
 @pytest.mark.parametrize(("c4", "lowest"), [(2.0, 101.01406), (20.0, 105.44195)])
 def test_four_frequencies_are_those_of_the_package(c4, lowest):
-    """The lowest also as a third code found it."""
+    """The lowest frequency also agrees with a third code."""
     c = (*VIBRATION.c[:3], c4, *VIBRATION.c[4:])
     right = frequencies(replace(VIBRATION, c=c), 4)
     assert right[0] == pytest.approx(lowest, rel=1e-6)
@@ -101,7 +101,7 @@ def test_four_frequencies_are_those_of_the_package(c4, lowest):
 
 
 def test_a_short_run_agrees_with_the_start_of_the_long_one():
-    """A millisecond at two tolerances agree, start with the energy stored above, and lose what they should."""
+    """Two tolerances agree over a millisecond, start with the energy stored above, and lose energy."""
     times = np.array([0.0, 0.001])
     (coarse, _), (fine, _) = (
         plucked(VIBRATION, 0.02, 0.05, times, tolerance) for tolerance in (1e-7, 1e-8)

@@ -1,4 +1,4 @@
-"""Quick problems of every kind against other codes; `python -m tests.outside` has all of them."""
+"""Quick problems of every kind compared with independent codes; `python -m tests.outside` runs all of them."""
 
 import pytest
 

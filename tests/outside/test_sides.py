@@ -1,4 +1,4 @@
-"""Which way a slender body goes: to the side that the growing load leads to, however little decides it.
+"""The side to which a slender body buckles is the one that the growing load leads to, for the smallest imperfection.
 
 Right values: the boundary value problem of `reissner`, the load grown with a strong push to the same side which is then
 taken away, or, of the ribbon, its weight put on first.  `python -m tests.outside.sides` finds them anew, in a minute.
@@ -77,14 +77,14 @@ def between_clamps(curvature, push, aside, **more):
 def test_an_initial_curvature_decides_the_side_when_the_clamp_moves_laterally(
     curvature, push, aside, steps
 ):
-    """The rod that its clamp carries along is not pulled to that side by it."""
+    """The lateral motion of the clamp does not decide the side."""
     data = cosserat.run(between_clamps(curvature, push, aside, newton={"load_increments": steps}))
     assert middle(data) == pytest.approx(SHIFTED[curvature, push, aside], abs=1e-3)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_tiny_load_with_moved_supports_is_not_refused(side):
-    """1e-7 N, five orders below the forces that hold the ribbon, still decide; 1e-9 N drown, which is said or right."""
+    """1e-7 N, 1e-5 of the support forces, decide.  1e-9 N are below round-off: the answer is right or has a warning."""
     push = [{"at": 20, "along": "E2", "force": side * 1e-7}]
     data = cosserat.run(between_clamps(0.0, 0.01, 0.0, forces=push))
     assert side * middle(data) > 0.05
@@ -97,7 +97,7 @@ def test_a_tiny_load_with_moved_supports_is_not_refused(side):
 @pytest.mark.parametrize("steps", [1, 3, 10, 40])
 @pytest.mark.parametrize(("push", "aside"), [(0.056, 0.128), (0.0104, 0.0309), (0.06, -0.07)])
 def test_without_an_initial_curvature_the_open_side_is_warned_of(push, aside, steps):
-    """A turn by half a circle about the middle between the clamps makes of either answer the other."""
+    """A rotation by half a turn about the middle between the clamps exchanges the two answers."""
     data = cosserat.run(between_clamps(0.0, push, aside, newton={"load_increments": steps}))
     assert abs(middle(data) - aside / 2) > 0.05
     assert [warning.split(":")[0] for warning in warnings_of(data)] == ["bifurcation"]
@@ -162,7 +162,7 @@ def test_the_side_force_decides_for_the_published_rod(multiple, aside, steps):
 @pytest.mark.parametrize("fraction", [1e-9, 1e-6, 1e-3])
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_path_does_not_jump_to_the_other_side(fraction, side):
-    """Every point beyond the critical load lies on the side of the force, and the last where the elastica stands."""
+    """Every point beyond the critical load lies on the side of the force, and the last agrees with the elastica."""
     load = 2.3132
     forces = [
         {"at": "last", "along": "-E3", "force": load},

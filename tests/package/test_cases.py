@@ -1,4 +1,4 @@
-"""Cases and parameters: what is right is read with its units, what is wrong is refused with one sentence."""
+"""Cases and parameters: right values are read with their units, bad values are refused with one sentence."""
 
 import pytest
 from conftest import ROOT

@@ -1,4 +1,4 @@
-"""Continuous integration runs what the README says, on the oldest Python that is promised and on a newer one."""
+"""Continuous integration runs the commands of the README, on the oldest supported Python and on a newer one."""
 
 import os
 import re

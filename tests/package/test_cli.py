@@ -1,4 +1,4 @@
-"""The command line as a person uses it: help that suffices, sentences for bad input, nothing half-written."""
+"""The command line: sufficient help, one sentence for bad input, and no incomplete files."""
 
 import io
 import os
@@ -42,7 +42,7 @@ def test_run_prints_the_path_of_the_result(capsys, tmp_path, monkeypatch):
 
 
 def test_a_case_is_read_as_json_from_standard_input(capsys, tmp_path, monkeypatch):
-    """The text that a result carries runs its case again, to the same bytes."""
+    """The attribute `parameters` of a result runs its case again, to the same bytes."""
     first, again = tmp_path / "first.nc", tmp_path / "again.nc"
     assert call(capsys, "run", "necking", "--output", first)[0] == 0
     monkeypatch.setattr("sys.stdin", io.StringIO(cosserat.load(first).attrs["parameters"]))

@@ -1,4 +1,4 @@
-"""What could be listed by hand and forgotten: set equalities, the direction of imports, and a clean repository."""
+"""Lists agree with what they list, imports have one direction, and the repository is clean."""
 
 import ast
 import builtins
@@ -91,7 +91,7 @@ def test_solvers_import_no_model_and_formulas_import_nothing_of_ours():
 
 
 def test_the_library_never_imports_the_thesis():
-    """What a user imports for a rod of their own stands without the part that reproduces one publication."""
+    """The library for users does not import the part that reproduces one publication."""
     for file in PACKAGE.rglob("*.py"):
         if file.relative_to(PACKAGE).parts[0] != "thesis":
             assert "thesis" not in {room_of(m) for m in imports_of(file)}, file
@@ -217,7 +217,7 @@ def test_code_that_fits_every_layout_is_accepted(fair):
 
 
 def test_computing_sources_are_closed_under_import():
-    """What a computing source imports computes too: its edits rerun the simulations and change the digest."""
+    """Every module that a computing source imports is one too: edits rerun simulations and change the digest."""
     computing = set(computing_sources())
     for file in computing:
         for module in imports_of(file):

@@ -1,4 +1,4 @@
-"""Datasets and files: units on all, no clock, the same bytes twice, whole or absent."""
+"""Datasets and files: every variable has units, files have no date, are reproducible and never incomplete."""
 
 import hashlib
 import json
@@ -42,7 +42,7 @@ def test_every_variable_has_a_description(solved):
 
 
 def test_every_described_variable_is_written(solved):
-    """Those of an energy or a load of one's own are written where there is one, which no published case has."""
+    """Variables of a user's energy or load are not in a published case."""
     own = {"internal_variables", "other_dofs", "other_rates"}
     written = {str(name) for data in solved.values() for name in data.variables}
     assert written | own == set(VARIABLES) | set(LABELS)
@@ -157,7 +157,7 @@ def test_temporary_files_of_killed_processes_are_removed(tmp_path, solved):
 
 
 def test_ctrl_c_waits_until_a_file_is_written(tmp_path, solved, monkeypatch):
-    """In the midst of xarray's writing it would leave a lock taken, and the run would hang for ever."""
+    """An interrupt while xarray writes would leave a lock, and the run would hang."""
     write, written = xr.Dataset.to_netcdf, []
     before = signal.signal(
         signal.SIGINT, signal.default_int_handler

@@ -1,4 +1,4 @@
-"""What a case may say: the list of keys agrees with the classes, and what it says is what the reader does."""
+"""The keys of a case: their list agrees with the classes, and its text with the reader."""
 
 import math
 import re
@@ -270,7 +270,7 @@ def test_a_kind_is_described_in_a_hundred_columns_of_plain_text(kind, capsys):
 
 
 def test_a_key_is_printed_as_expected():
-    """Written by hand, as a person would say it."""
+    """The expected text is written by hand."""
     said_of = dict(printed("rod motion"))
     assert said_of["rod.length"] == (
         "a length in m (above 0); required Length of the centreline in the reference configuration. "

@@ -1,4 +1,4 @@
-"""The lock holds all that is installed, so no resolver runs; the environment is made whole, here, or anew."""
+"""The lock has every installed package, so no resolver runs; an incomplete environment is made again."""
 
 import importlib.metadata
 import re
@@ -77,7 +77,7 @@ def test_installed_packages_are_those_of_the_lock():
 
 
 def test_the_lock_is_complete_with_extras():
-    """So `pip install --no-deps` needs nothing else, and nothing that appears tomorrow can come in."""
+    """So `pip install --no-deps` needs nothing else and installs no later version."""
     assert lacking(pinned(PINS), asked_for(), installed) == []
 
 

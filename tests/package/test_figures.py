@@ -1,4 +1,4 @@
-"""Figures: each is drawn from its cases, the same bytes twice, and shows what the table judges."""
+"""Figures: each is drawn from its cases, is reproducible, and shows the numbers of the table."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept when the package, the home or both cannot be written to."""
+"""The folder of compiled kernels if the package, the home or both are read-only."""
 
 import os
 import shutil
@@ -79,7 +79,7 @@ def test_without_a_home_the_cache_is_a_private_temporary_folder(closed, tmp_path
 
 @pytest.mark.parametrize("caches", [{}, {"XDG_CACHE_HOME": "missing/.cache"}])
 def test_a_missing_home_is_not_made(closed, tmp_path, caches):
-    """Whoever may, as the superuser of a container may, would leave a home that nobody has."""
+    """A superuser in a container could create the missing home; the package does not."""
     caches = {name: str(tmp_path / place) for name, place in caches.items()}
     code, out, err = python(
         closed, "use.py", HOME=str(tmp_path / "missing"), TMPDIR=str(tmp_path), **caches
@@ -91,7 +91,7 @@ def test_a_missing_home_is_not_made(closed, tmp_path, caches):
 
 @pytest.mark.parametrize("reason", ["others may write there", "nothing can be written"])
 def test_without_a_safe_folder_nothing_is_cached(closed, tmp_path, reason):
-    """What is read from a cache is run, so a folder that others may write to is none."""
+    """Code in a cache is executed, so a folder that others may write to is not used."""
     folder = tmp_path / f"cosserat-{os.getuid()}"
     if reason == "others may write there":
         folder.mkdir()

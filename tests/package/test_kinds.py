@@ -1,4 +1,4 @@
-"""What every kind of problem promises, whichever part of the package brings it: these tests name none of them."""
+"""The contract of every kind of problem of the registry.  These tests name no kind."""
 
 import ast
 import importlib

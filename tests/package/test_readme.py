@@ -1,4 +1,4 @@
-"""The README is executed: every block of TOML, shell and Python; and its picture is the one that is drawn today."""
+"""Every block of TOML, shell and Python in the README is executed, and its picture is up to date."""
 
 import os
 import re
@@ -68,7 +68,7 @@ def test_python_of_the_readme_is_executed(text, tmp_path, monkeypatch, capsys):
 
 
 def test_shell_lines_of_the_readme_are_executed_in_their_order(tmp_path):
-    """With its cases in my.toml, as it says; what each line is said to write stands there."""
+    """The cases of the README are in my.toml, and each line writes the file that the README names."""
     assert set(ELSEWHERE) <= set(LINES), "an exemption of a line that the README does not have"
     (tmp_path / "my.toml").write_text("\n".join(blocks("toml")), encoding="utf-8")
     path = os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()])

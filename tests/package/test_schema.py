@@ -1,4 +1,4 @@
-"""The JSON Schemas of cases, judged by the package jsonschema: shipped cases pass, and what is amiss is refused."""
+"""The JSON Schemas of cases, with the validator jsonschema: published cases pass, and bad cases are refused."""
 
 import copy
 import json

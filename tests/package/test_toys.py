@@ -1,4 +1,4 @@
-"""What CONTRIBUTING says of adding an energy, a load, a constraint and a kind, followed with a toy of each.
+"""The instructions of CONTRIBUTING for a new energy, load, constraint and kind, followed with a toy of each.
 
 None of them touches the package: each is a class, and one entry in a registry.
 """
@@ -187,7 +187,7 @@ def test_an_energy_with_its_own_unknowns_has_equilibria_motions_and_modes(trusse
 
 
 def test_a_damped_motion_with_its_own_unknowns_finds_its_fastest_mode(trussed):
-    """The one of the dense matrices, which the warning of a damping that steps do not follow names."""
+    """The warning of unresolved damping has the fastest mode of the dense matrices."""
     case = cosserat.case("vibration_consistent").vary(
         "damped",
         rod={**trussed, "material": {"young": 1e6}},

@@ -1,4 +1,4 @@
-"""Numbers with units as people write them: each is read as what it means, or refused with the reason."""
+"""Numbers with units in many spellings: each has its meaning, or is refused with the reason."""
 
 import contextlib
 import math

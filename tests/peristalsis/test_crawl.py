@@ -1,4 +1,4 @@
-"""Gaits, crawling, and what is refused of a gait."""
+"""Gaits and crawling, and the gaits that are refused."""
 
 import numpy as np
 import pytest
@@ -407,7 +407,7 @@ def test_gaits_are_periodic(name, solved):
 
 @pytest.mark.parametrize("name", [name for name in CRAWLS if not name.endswith("_reference")])
 def test_the_stride_does_not_depend_on_the_time_step_once_events_are_on_the_grid(name):
-    """An anchor between the fronts lies on a plateau that moves as one piece: any point of it may hold."""
+    """An anchor between the fronts lies on a plateau without a change of stretch: any point of it may be the anchor."""
     case = cosserat.case(name)
     count = 2 if name == "worm_clipped" else 1  # its first stride begins elsewhere
     lengths = [
@@ -502,7 +502,7 @@ def test_a_crawl_that_will_collapse_is_refused_before_its_first_solve(
 
 
 def test_doubling_the_mesh_changes_no_row_by_a_tenth_of_its_tolerance(solved):
-    """Neither by a tenth of a tolerance nor, where another number is found, by half of the last digit of that."""
+    """The change is below a tenth of the tolerance, and below half of the last digit of another number found."""
     rows = [
         row
         for row in read_table(ROOT / "results/tolerances.csv")

@@ -1,4 +1,4 @@
-"""Chapter 2 with units: moduli of section 2.6, governing equations as printed, the ground that the rod lies on."""
+"""Chapter 2 with units: moduli of section 2.6, governing equations as printed, the shape on the ground."""
 
 import numpy as np
 import pytest

@@ -425,7 +425,7 @@ def test_layers_too_steep_for_the_ground_are_refused():
 
 
 def test_both_solvers_agree_on_instants_of_a_stride():
-    """On some instants of the stride; `cosserat speed` says how much faster the banded one is."""
+    """At some instants of the stride; `cosserat speed` compares their times."""
     problem = WORM.replace(strides=1, step=1.0)
     banded = problem.solve("test")
     reference = problem.replace(solver="collocation").solve("test")

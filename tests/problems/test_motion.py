@@ -1,4 +1,4 @@
-"""Motion of the published rod: what is kept, how fast errors fall, what is refused, and Fig. 3.13."""
+"""Motion of the published rod: conservation, orders of convergence, refused input, and Fig. 3.13."""
 
 from dataclasses import replace
 
@@ -233,7 +233,7 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
 
 
 def test_damping_of_a_free_rod_is_relative_to_its_first_bending_mode():
-    """Its three rigid motions have no frequency to be damped by."""
+    """The three rigid motions have zero frequency and no damping."""
     problem = free_flight(damping=1.0).problem
     elastic = problem.modes(4).angular_frequency[3]
     assert problem.system(problem.geometry).damping_rate == pytest.approx(2 * elastic, rel=1e-9)
@@ -411,7 +411,7 @@ def test_the_stability_limit_with_one_free_dof_is_that_of_an_oscillator():
 
 
 def test_modes_of_a_motion_are_those_of_the_unloaded_rod():
-    """Its reference is at rest without loads alone; so couples neither move them nor the damping they set."""
+    """Couples change neither the modes nor the damping that follows from them: modes are about the reference."""
     hinge = [{"at": "first", "fixed": ["x3", "x2"]}]
     plain = BEAM.vary("plain", supports=hinge, damping=1.0).problem
     motor = BEAM.vary(
@@ -450,7 +450,7 @@ def test_steps_are_never_longer_than_the_one_given():
 
 
 def test_drag_shortens_the_stable_step():
-    """At 700 times the critical damping the drag alone makes steps of 20 microseconds diverge."""
+    """At 700 times the critical damping steps of 20 microseconds diverge because of the drag."""
     damped = {"damping": 700.0, "integrator": {"method": "rk4", "step": 2e-5}}
     with pytest.raises(InputError, match=r"only up to 1\.8\d*e-05 s"):
         vibrating(**damped)
@@ -518,7 +518,7 @@ def test_an_interrupted_run_resumes_to_the_same_bytes(tmp_path):
 
 
 def test_a_long_interval_between_frames_is_stored_in_parts(tmp_path, monkeypatch):
-    """Parts end between two frames where one alone takes longer than a part may; cut there, nothing changes."""
+    """A part may end between two frames if their interval is longer than a part; the result does not change."""
     shaken = {
         "at": "first",
         "dof": "x2",

@@ -1,4 +1,4 @@
-"""The four static problems of section 3.5: what the thesis publishes, and what our readings of it change."""
+"""The four static problems of section 3.5: the published results, and the effect of our readings of the thesis."""
 
 import numpy as np
 import pytest
@@ -68,7 +68,7 @@ def test_published_coefficients_are_valid_at_twenty_vertices_only():
 
 
 def test_added_supports_carry_no_force(solved):
-    """The supports that the page does not list hold rigid motions only."""
+    """The supports that the page does not list prevent rigid motions only."""
     bar = solved["hanging_bar"]
     weight = bar.applied_force.sum().item()
     reaction = bar.support_force.isel(vertex=0)
@@ -98,7 +98,7 @@ def test_symmetric_problems_have_symmetric_answers(solved, name):
 
 @pytest.mark.parametrize("name", ["clamped_free", "necking"])
 def test_displacements_do_not_depend_on_the_director_length(name):
-    """Stretches and angles do not know how long a director was drawn; only its plotted displacement does (E3.11)."""
+    """Stretches and angles do not depend on the length of the director; its plotted displacement does (E3.11)."""
     from cosserat.rods.reference import Geometry
     from cosserat.solvers.equilibrium import EquilibriumSolver
     from cosserat.solvers.incremental import solve_full_load
@@ -129,7 +129,7 @@ def test_small_loads_give_proportional_answers():
 
 
 def test_a_solve_takes_two_iterations_and_few_assemblies(problem, monkeypatch):
-    """One increment: the unloaded rod, its slope, and Newton's steps from what that foretells."""
+    """One increment: the unloaded rod, its tangent, and Newton's steps from the prediction."""
     from cosserat.solvers.potential import Potential
 
     calls = []

@@ -1,4 +1,4 @@
-"""Chapter 3, equation by equation: what no solved case would notice if it were wrong."""
+"""Chapter 3, equation by equation: those in which a fault changes no solved case."""
 
 import itertools
 

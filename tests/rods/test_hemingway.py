@@ -1,4 +1,4 @@
-"""The kernel of the published rod: derivatives, invariance, balance, and what its terms mean."""
+"""The kernel of the published rod: derivatives, invariance, balance, and the meaning of its terms."""
 
 import numpy as np
 import pytest

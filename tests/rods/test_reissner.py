@@ -1,4 +1,4 @@
-"""The rod that converges: gradients, invariance, exact answers and orders, large deflections, locking, speed."""
+"""The consistent rod: gradients, invariance, exact answers, orders of convergence, large deflections, locking."""
 
 import numpy as np
 import pytest
@@ -453,7 +453,7 @@ def test_the_period_of_the_exact_timoshenko_beam(solved):
     [("plane strain", 0.49, 0.1), ("plane strain", 0.4999, 0.1), ("incompressible", 0.4999, 0.01)],
 )
 def test_nearly_incompressible_sections_vibrate(section, poisson, amplitude):
-    """With the pressure at the midpoint of a step these found no solution at any sensible step."""
+    """If the pressure is taken at the midpoint, a step has no solution at any reasonable step size."""
     case = cosserat.case("vibration_consistent").vary(
         "x",
         rod={"lateral_constraint": section, "material": {"poisson": poisson}},
@@ -705,7 +705,7 @@ def test_loads_on_fixed_dofs_and_impossible_sizes_are_refused(changes, sentence)
 
 @pytest.mark.parametrize("method", ["rk45", "rk4"])
 def test_moved_supports_act_through_the_coupled_mass(method):
-    """The consistent mass couples a moved vertex to its neighbour: both kinds of integrator have to know it."""
+    """The consistent mass couples a moved vertex to its neighbour, in explicit and implicit integrators."""
     shaken = cosserat.case("vibration_consistent").vary(
         "shaken",
         rod={"vertices": 3},

@@ -1,4 +1,4 @@
-"""What a motion keeps and says: thin rods that turn, the balance of energy, named warnings; sections that cross."""
+"""Resolution of a motion: rotating thin rods, the balance of energy, warnings, and sections that cross."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def spinning(radius, steps, like="vibration_consistent", turns=1.0):
 @pytest.mark.parametrize("like", ["vibration_consistent", "vibration_c4_20"])
 @pytest.mark.parametrize(("radius", "steps"), [(0.05, 50), (0.005, 30), (0.005, 50), (0.0005, 50)])
 def test_a_thin_rod_rotates_freely_in_large_steps(like, radius, steps):
-    """With stresses at the midpoint the thinner ones found no solution, and the thick one drifted by 1e-3."""
+    """With stresses at the midpoint the thinner rods have no solution, and the thick one's energy drifts by 1e-3."""
     data = cosserat.run(spinning(radius, steps, like))
     energy = (data.kinetic_energy + data.strain_energy).to_numpy()
     assert np.abs(energy / energy[0] - 1).max() < 1e-9
@@ -95,7 +95,7 @@ def test_forces_of_a_step_have_no_resultant_and_work_as_the_energy_changes(like)
 
 @pytest.mark.parametrize("method", ["implicit", "rk4", "rk45"])
 def test_the_work_of_drag_and_supports_closes_the_energy_balance(method):
-    """A clamp shaken to and fro, a weight and a drag: nothing is unaccounted for."""
+    """The balance includes an oscillating clamp, a weight and a drag."""
     shaken = BEAM.vary(
         "shaken",
         rod={"vertices": 4},

@@ -1,4 +1,4 @@
-"""Rods as the theory allows them: varying sections, a centreline anywhere, couples, line loads, curved references."""
+"""Rods beyond the published problems: varying sections, any centreline, couples, line loads, curved references."""
 
 import re
 from itertools import pairwise

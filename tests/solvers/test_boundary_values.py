@@ -1,4 +1,4 @@
-"""Spectral elements and the banded Newton on regions, on problems with known answers."""
+"""Spectral elements and the banded Newton method on regions, for problems with known answers."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Equilibria under a growing load, on springs whose answers are known and on rods; and its failures."""
+"""Equilibria under a growing load, for springs with known answers and for rods; and failures of the solver."""
 
 import numpy as np
 import pytest
@@ -110,7 +110,7 @@ def test_too_few_iterations_raise_with_name_residual_and_remedy():
 
 
 def test_a_load_without_equilibrium_raises():
-    """A spring that pushes back with one newton at most, under two."""
+    """A spring with a largest force of one newton under a load of two."""
 
     @njit
     def weak(q, after, data, history, strains, task, gradient, band, skew, terms):

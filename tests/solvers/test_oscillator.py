@@ -1,4 +1,4 @@
-"""The implicit method on an oscillator, which is no rod: a drag takes energy at its own rate, resolved or not."""
+"""The implicit method for an oscillator: the damping rate does not depend on the resolution of the period."""
 
 import numpy as np
 import pytest

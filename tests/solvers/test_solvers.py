@@ -1,4 +1,4 @@
-"""The solvers know nothing of rods: one number, points in space and sliders, each against a closed form.
+"""The solvers do not depend on rods: one degree of freedom, points in space and sliders have their closed forms.
 
 A rod in space is in test_solvers_in_space.py.
 """
@@ -150,7 +150,7 @@ def test_masses_coupled_by_inertia_alone_move_by_the_matrix_exponential(method):
 
 
 def test_displacements_are_refused_as_positions():
-    """An origin is added by potentials in Python; compiled steps, which do not, say so."""
+    """Potentials in Python add an origin; compiled steps do not and raise an error."""
     well = replace(wells((1.0, -1.0, 0.0)), origin=np.array([-1.0]))
     system, same = body(well, mass=2.0), body(wells((1.0, -1.0, 1.0)), mass=2.0)
     start = State(np.array([0.4]), np.zeros(1), system.history)
@@ -245,7 +245,7 @@ def test_free_points_keep_energy_and_both_momenta():
 
 
 def test_without_rigid_motions_the_momenta_are_not_conserved():
-    """So that the test above sees whether they are asked for: what meets the energy then pulls on the whole body."""
+    """So the test above checks their use: the force that conserves the energy then has a resultant."""
 
     class Mute(PointSpace):
         def rigid_motions(self, q):
@@ -280,7 +280,7 @@ def test_a_force_without_a_potential_has_a_skew_tangent_and_the_equilibrium_of_b
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_force_without_a_potential_does_work_on_a_motion(method):
-    """Its work is not taken for an error of the energy."""
+    """The integrator does not correct the work of this force as an error of the energy."""
     k, p, m = CIRCULATING.values()
     s = np.emath.sqrt((-k + 1j * p) / m)
     right = np.cosh(s * 6.0) * (1 + 0.3j)

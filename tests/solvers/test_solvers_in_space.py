@@ -150,7 +150,7 @@ def limit_of(rod, middle):
 
 
 def test_a_path_passes_the_limit_point_of_an_arch_in_space():
-    """The arch stands askew; what judges it stands upright."""
+    """The arch is rotated in space; the arch of the reference values is not."""
     shape, radii = (7, 0.05), (0.008, 0.02)
     right = limit_of(arch(*shape, np.eye(3), radii=radii), 3)
     rod = arch(*shape, TURNED, radii=radii)
@@ -192,7 +192,7 @@ def test_a_free_rod_has_six_zero_frequencies_and_those_of_a_beam_in_both_planes(
 
 
 def test_a_thin_rod_that_spins_about_a_skew_axis_keeps_energy_and_angular_momentum():
-    """20 turns of 50 steps, looked at after seven steps each time; r / L = 0.005."""
+    """20 turns of 50 steps each, checked every seven steps; r / L = 0.005."""
     rod, rate = straight(12, radii=(0.005, 0.003)), 0.1
     axis = rate * np.array([1.0, 0.3, 1.0]) / np.sqrt(2.09)
     q = rod.at_rest - [[0, 0, 0.5], [0, 0, 0], [0, 0, 0]]

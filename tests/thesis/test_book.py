@@ -1,4 +1,4 @@
-"""The book: pages whose equations can be read, and a folder from which nothing is removed that is not of a book."""
+"""The book: pages with readable equations, and a folder in which only files of a book are replaced."""
 
 import html
 import re

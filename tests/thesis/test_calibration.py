@@ -1,4 +1,4 @@
-"""The calibration of section 3.5 as a procedure: what it recovers, what it leaves open, and where refinement leads."""
+"""The calibration procedure of section 3.5: recovered and undetermined coefficients, and the limit of refinement."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def test_displacements_depend_on_c4_and_c5_through_one_number(fitted):
 
 
 def test_both_beams_together_give_a_third_set(fitted):
-    """Displacements and directors of both: half the misfit of the published set, and none of its numbers."""
+    """A fit to displacements and directors of both has half the misfit of the published set, other coefficients."""
     procedure = cosserat.case("calibration").problem
     found = fitted.beams_coefficients[0].to_numpy()
     np.testing.assert_allclose(found, [1.0588, 0.9264, 1.0741], atol=2e-4)
@@ -73,7 +73,7 @@ def test_both_beams_together_give_a_third_set(fitted):
 
 
 def test_the_second_beam_does_not_confirm_the_first(fitted):
-    """Alone the two ask for products of c4 and c5, all that displacements see of them, of 1.31 and 0.92."""
+    """Displacements depend on the product of c4 and c5 only: it is 1.31 for one beam and 0.92 for the other."""
     for name, expected in (("clamped_free", 1.315), ("clamped_clamped", 0.923)):
         c3, c4, c5 = fitted[f"{name}_coefficients"][0].to_numpy()
         assert c4 * c5 == pytest.approx(expected, abs=5e-3)
@@ -86,7 +86,7 @@ def test_a_calibration_without_the_published_mesh_has_no_row(fitted):
 
 
 def test_stored_directions_say_which_coefficients_move_together(fitted):
-    """Necking does not see c2, c6 and c7 grow together; the beams do not see c4 grow as c5 falls."""
+    """Necking does not change if c2, c6 and c7 grow together, and the beams do not if c4 grows as c5 falls."""
     for name, coefficients in ASSIGNED.items():
         directions = fitted[f"{name}_directions"].to_numpy()
         count = len(coefficients)
@@ -107,7 +107,7 @@ def test_stored_directions_say_which_coefficients_move_together(fitted):
 
 
 def test_a_step_along_a_direction_changes_the_misfit_by_its_sensitivity(fitted):
-    """And along the open one it does not move, of which forward differences would see their rounding."""
+    """Along the undetermined direction it does not change; forward differences would show round-off there."""
     misfit = cosserat.case("calibration").problem.misfit("necking", 20, "trial")
     best = np.log(fitted.necking_coefficients[0].to_numpy())
     sizes, directions = (
@@ -164,7 +164,7 @@ def test_the_clamped_free_tip_tends_to_bending_plus_a_hinge(fitted):
 
 
 def test_necking_needs_a_larger_c6_in_the_limit(fitted):
-    """c6 = 1/2 is that of N = 20; where the layer is resolved the page's curve wants 0.82 of EI / (1 + nu), to 2 %."""
+    """c6 = 1/2 belongs to N = 20; with a resolved layer the page's curve needs c6 = 0.82, to 2 %."""
     found = float(fitted.necking_coefficients.sel(section_coefficient="c6")[-1])
     assert found == pytest.approx(0.82, rel=2e-2)
     problem = cosserat.case("necking").problem

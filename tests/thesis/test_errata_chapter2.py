@@ -1,4 +1,4 @@
-"""Evidence for the errata of Chapter 2: where the page prints a form that fails, the printed one beside ours."""
+"""Evidence for the errata of Chapter 2: the printed form fails, the corrected form passes."""
 
 import numpy as np
 import pytest

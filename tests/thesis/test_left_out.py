@@ -1,4 +1,4 @@
-"""Everything numbered in the thesis is used, or stands on the list of what is left out with a reason."""
+"""Every numbered item of the thesis is used, or is on the list of omissions with a reason."""
 
 import re
 import subprocess

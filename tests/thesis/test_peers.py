@@ -1,4 +1,4 @@
-"""The comparison with other packages, as far as it needs none of them."""
+"""The comparison with other packages: the part that runs without them."""
 
 import csv
 import sys

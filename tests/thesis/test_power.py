@@ -1,4 +1,4 @@
-"""The results table notices what is wrong with the rods; the whole list is `cosserat power`."""
+"""Rows of the results table notice changes of the rods; `cosserat power` runs the whole list."""
 
 import pytest
 from conftest import ROOT
@@ -41,7 +41,7 @@ def test_unchanged_cases_are_noticed_by_no_row():
 
 
 def test_every_printed_number_of_chapter_3_is_among_the_changes():
-    """Each that a case of the thesis holds: changed somewhere, under the same name."""
+    """Each printed input of a case of the thesis is changed somewhere, under the same name."""
     printed = {place for held in CHAPTER_3.values() for place, given in held.items() if given.unit}
     changed = {place for change in power_rods.CHANGES for place in change.places}
     assert printed - changed == {"damping"}  # of the way to rest, not of the rest

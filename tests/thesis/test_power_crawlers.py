@@ -1,4 +1,4 @@
-"""The rows of Chapter 2 notice what is changed: a part of `cosserat power` that is quick."""
+"""The rows of Chapter 2 notice changes: the quick part of `cosserat power`."""
 
 import pytest
 from conftest import ROOT
@@ -33,7 +33,7 @@ def test_a_change_of_a_crawler_is_noticed_or_has_a_reason(what):
     "case", ["soft_robot", "worm", "worm_at_rest", "worm_masses", "worm_calibration"]
 )
 def test_every_printed_number_of_a_case_is_changed_once(case):
-    """Its gait too; of a worm that is a part of a case, in the case of that worm."""
+    """This includes the gait.  The inputs of a worm within another case are changed in the case of that worm."""
     changed = {place for change in CHANGES if case in change.cases for place in change.places}
     numbers = {
         place

@@ -1,4 +1,4 @@
-"""Every case that claims to be the thesis's has the inputs that the thesis prints."""
+"""Every case of the thesis has the inputs that the thesis prints."""
 
 import re
 
@@ -86,7 +86,7 @@ def test_a_case_has_the_printed_input(name, place):
 
 @pytest.mark.parametrize("name", printed.PRINTED)
 def test_all_other_inputs_of_a_case_of_the_thesis_are_defaults(name):
-    """What a case says beyond the page would be an input that nobody holds to anything."""
+    """An input beyond those of the page would have no check."""
     problem = cosserat.case(name).problem
     table = plain(problem.model_dump())
     said = [
@@ -135,7 +135,7 @@ def test_inputs_of_chapter_2_follow_from_the_numbers_behind_them():
 
 @pytest.mark.parametrize("grams", [0.01, 1.0, 10.0])
 def test_table_2_1_is_that_of_the_page_at_every_mass(grams):
-    """Its eight numbers, typed once more."""
+    """The eight numbers of Table 2.1, written a second time."""
     mass = 1e-3 * grams
     assert earthworm.stance_time(mass) == pytest.approx(1.6 * grams**0.04)
     assert earthworm.protrusion_time(mass) == pytest.approx(2.5 * grams**0.1)
@@ -160,7 +160,7 @@ def test_assumed_inputs_are_assumptions_or_questions_of_the_errata():
 
 
 def test_the_closed_forms_take_the_printed_rectangle():
-    """I = W H^3 / 12, typed out once more: neither the rod's own nor that of the case that was solved."""
+    """I = W H^3 / 12, written a second time: neither from the rod nor from the solved case."""
     beam = printed.beam("clamped_free")
     assert beam.second_moment == pytest.approx(0.5 * 0.5**3 / 12)
     assert beam.bending_stiffness == pytest.approx(1e9 * 0.0625 / 12)

@@ -1,4 +1,4 @@
-"""Fresh runs against the stored references, and the comparison itself."""
+"""New runs compared with the stored references, and tests of the comparison."""
 
 import numpy as np
 import pytest

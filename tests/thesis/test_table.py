@@ -1,4 +1,4 @@
-"""The judge can fail, and the rows load: what the results table claims is what the numbers say."""
+"""The results table: every claim agrees with the numbers, a wrong number fails, and bad rows are refused."""
 
 import ast
 import inspect
@@ -84,7 +84,7 @@ def test_values_just_inside_and_just_outside_are_judged_right(row, solved):
 
 @pytest.mark.parametrize("row", ATTEMPTED, ids=lambda row: row.id)
 def test_no_row_accepts_a_distant_number(row, solved):
-    """Nothing that is claimed to miss is met by anything that misses."""
+    """A number that lies outside its tolerance does not lie within the tolerance of the value found."""
     expected = judge(row, solved).expected
     for measured in (0.0, -1.0, 1e6, 2 * (row.found or expected), (row.found or expected) / 2):
         if row.claim == "outside" or measured != expected:
@@ -113,7 +113,7 @@ def test_no_two_rows_of_one_case_measure_the_same_number(solved):
 
 
 def test_arithmetic_rows_solve_nothing_and_are_only_recomputed():
-    """Its functions take no Dataset, its rows name no case, and none stands as 'reproduced'."""
+    """The functions take no Dataset, the rows name no case, and none has the standing 'reproduced'."""
     rows = [row for row in ATTEMPTED if row.kind == "arithmetic"]
     assert {row.readout for row in rows} == set(ARITHMETIC)
     for row in rows:
@@ -158,7 +158,7 @@ def test_only_numbers_of_the_page_are_of_kind_printed():
 
 
 def test_every_row_has_one_source_of_its_expected_number(solved):
-    """A printed number or the read-out's, never both and never neither."""
+    """The expected number is either printed or from the read-out, never both and never neither."""
     for row in ATTEMPTED:
         if row.kind == "arithmetic":
             assert row.expected is not None

@@ -1,4 +1,4 @@
-"""A long run killed at random moments: every file left is whole, and the run goes on to the same bytes."""
+"""A long run killed at random moments: every file is complete, and the run continues to the same bytes."""
 
 import os
 import signal

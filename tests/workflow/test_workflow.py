@@ -1,4 +1,4 @@
-"""Snakemake on a copy of the repository: what reruns after which change, and what a failing claim leaves behind."""
+"""Snakemake on a copy of the repository: the jobs that rerun after a change, and the effect of a failing claim."""
 
 import base64
 import csv
@@ -155,7 +155,7 @@ def test_an_edited_solver_reruns_every_simulation(checkout, edited):
 
 @pytest.mark.parametrize("name", ["beams", "elastica"])
 def test_an_edited_formula_reruns_what_depends_on_it(checkout, edited, name):
-    """Models start from closed forms, rows and figures are judged by them."""
+    """Models start from closed forms, and rows and figures are compared with them."""
     file = f"cosserat/exact/{name}.py"
     edited(file, "import annotations", "import annotations  # edited")
     rules, outputs = planned(checkout)
@@ -182,7 +182,7 @@ def test_a_claim_that_fails_stops_the_workflow_and_leaves_the_report(checkout, e
 
 
 def test_an_edited_reason_appears_in_the_book(checkout, edited):
-    """Only report.csv changes with it, not the summary of the check: a page has to follow what it reads."""
+    """The reason changes report.csv and not the summary of the check: a page reruns when its input changes."""
     page, summaries = "results/notebooks/results_table.ipynb", set()
     for reason in ("lumped weights give", "weights that are lumped give"):
         edited("results/tolerances.csv", "lumped weights give", reason)
@@ -243,7 +243,7 @@ def read_until(process, words):
 
 
 def test_the_same_command_continues_after_a_kill_at_any_moment(checkout):
-    """Of the whole group, or of Snakemake alone, whose job then lives on and is waited for."""
+    """The kill is of the whole process group, or of Snakemake alone; its job then continues and is waited for."""
     code, text = snakemake(checkout, *AGAIN)
     assert code == 0, text
     before = {name: (checkout / name).read_bytes() for name in AGAIN}
@@ -258,7 +258,7 @@ def test_the_same_command_continues_after_a_kill_at_any_moment(checkout):
 
 
 def test_an_incomplete_output_is_made_again(checkout):
-    """Snakemake marks what a job is making; here the job was cut after its file stood and before that was noted."""
+    """The job is killed after its file is complete and before Snakemake has recorded that."""
     code, text = snakemake(checkout, AGAIN[0])
     assert code == 0, text
     marker = checkout / ".snakemake/incomplete" / base64.urlsafe_b64encode(AGAIN[0].encode()).decode()
