@@ -20,7 +20,7 @@ from cosserat.thesis.table.tolerances import Judged, Row
 
 Physics = Callable[[], AbstractContextManager[object]]
 Edit = Callable[[Any], Any]
-_SHOWN = 3  # rows that a line names
+_MAX_SHOWN_ROWS = 3  # rows that a line names
 
 
 @dataclass(frozen=True)
@@ -51,9 +51,9 @@ class Noticed:
     def __str__(self) -> str:
         if not self.rows:
             return f"{self.change.what:<52} none: {self.change.unseen or 'NO REASON GIVEN'}"
-        rest = len(self.rows) - _SHOWN
+        rest = len(self.rows) - _MAX_SHOWN_ROWS
         more = f" and {rest} more" if rest > 0 else ""
-        return f"{self.change.what:<52} {', '.join(self.rows[:_SHOWN])}{more}"
+        return f"{self.change.what:<52} {', '.join(self.rows[:_MAX_SHOWN_ROWS])}{more}"
 
     @property
     def sound(self) -> bool:
@@ -92,15 +92,15 @@ def notices(change: Change, rows: Sequence[Row]) -> Noticed:
     found: list[str] = []
     with change.physics():
         for name in change.cases:
-            asked = [row for row in rows if row.case == name]
+            rows_of_case = [row for row in rows if row.case == name]
             try:
                 data = {name: run(edited(find(name), change))}
             except InputError:
                 raise
             except CosseratError as error:
-                found += [f"{row.id} (no answer: {type(error).__name__})" for row in asked]
+                found += [f"{row.id} (no answer: {type(error).__name__})" for row in rows_of_case]
                 continue
-            found += [_named(item) for row in asked if not (item := judge(row, data)).holds]
+            found += [_named(item) for row in rows_of_case if not (item := judge(row, data)).holds]
     return Noticed(change, tuple(found))
 
 

@@ -23,7 +23,7 @@ from cosserat.thesis.table.reading import Measurement
 
 Array = NDArray[np.float64]
 
-THIN = 0.005
+SLENDERNESS = 0.005
 """Radius over length of our slender rods; their square sections have the bending stiffness of a circle."""
 
 
@@ -239,7 +239,7 @@ def buckling_ratio(data: xr.Dataset) -> Array:
 
 def _elastica_tip(data: xr.Dataset) -> Measurement:
     """Lateral displacement of the tip of a rod of one metre, and that of Reissner's with P L^2 / EI = 10."""
-    axial = 4 / THIN**2  # EA L^2 / EI
+    axial = 4 / SLENDERNESS**2  # EA L^2 / EI
     exact, _ = elastica.shearable_tip(10.0, axial, 5 / 6 / 2 * axial)
     return Measurement(float(data.u.sel(axis="E2")[-1]), exact)
 
