@@ -213,7 +213,7 @@ def test_similar_files_of_other_programs_are_refused(capsys, tmp_path, solved):
         (("show", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
         (("plot", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
         (("show", tmp_path), "is a folder"),
-        (("run", "necking", "-o", tmp_path / "pipe.nc"), "no ordinary file"),
+        (("run", "necking", "-o", tmp_path / "pipe.nc"), "not a regular file"),
         (("run", "necking", "-o", tmp_path / "a.png"), "let its name end in '.nc'"),
         (("run", "necking", "-o", tmp_path / ("a" * 300 + ".nc")), "File name too long"),
         (("measure", "--table", tmp_path / "empty.csv", "-o", tmp_path / "r.csv"), "has no rows"),

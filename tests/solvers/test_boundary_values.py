@@ -138,7 +138,7 @@ def test_newtons_method_is_damped_and_refuses_problems_without_a_solution():
             NotConvergedError, match=r"test: no solution on the regions found: .*allowed 1e-11"
         ):
             solve(mesh, Barrier(force), np.ones((mesh.nodes, 1)), RegionSettings(), "test")
-    with pytest.raises(NotConvergedError, match="the first guess is no admissible state"):
+    with pytest.raises(NotConvergedError, match="the initial guess is not admissible"):
         solve(mesh, Barrier(0.2), -np.ones((mesh.nodes, 1)), RegionSettings(), "test")
-    with pytest.raises(NotConvergedError, match="the iterations were not enough"):
+    with pytest.raises(NotConvergedError, match="the iterations did not converge"):
         solve(mesh, Barrier(0.2), np.ones((mesh.nodes, 1)), RegionSettings(max_iterations=2), "test")

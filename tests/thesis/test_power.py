@@ -91,7 +91,7 @@ def test_a_change_that_is_unseen_without_a_reason_or_seen_in_spite_of_one_fails(
 ):
     monkeypatch.setattr(power, "changes", lambda: (change,))
     lines = []
-    with pytest.raises(OutOfToleranceError, match="changes that no row notices without a reason"):
+    with pytest.raises(OutOfToleranceError, match="changes that no row notices and that have no reason"):
         lines.extend(table(ROWS))
     assert tuple(row.split()[0] for row in notices(change, ROWS).rows) == noticed
 

@@ -6,7 +6,15 @@ from conftest import ROOT
 import cosserat
 from cosserat.thesis.table import printed
 from cosserat.thesis.table.power import notices
-from cosserat.thesis.table.power_crawlers import CHANGES, FIT, READINGS, REST, ROBOT, SIZES, WORM
+from cosserat.thesis.table.power_crawlers import (
+    AT_REST,
+    BODY_MASSES,
+    CALIBRATIONS,
+    CHANGES,
+    READINGS,
+    ROBOT,
+    WORM,
+)
 from cosserat.thesis.table.tolerances import read_table
 
 ROWS = read_table(ROOT / "results/tolerances.csv")
@@ -48,7 +56,7 @@ def test_changed_inputs_are_of_the_thesis_and_have_distinct_names():
     names = [change.what for change in CHANGES]
     assert len(set(names)) == len(names) > 50
     asked = {case for change in CHANGES for case in change.cases}
-    assert asked == {*ROBOT, *WORM, *READINGS, *REST, *SIZES, *FIT}
+    assert asked == {*ROBOT, *WORM, *READINGS, *AT_REST, *BODY_MASSES, *CALIBRATIONS}
     assert asked <= set(cosserat.published())
     for case in asked:
         assert any(row.case == case for row in ROWS)

@@ -224,7 +224,7 @@ def test_published_numbers_are_written_in_the_table_alone():
         ({"kind": "arithmetic", "readout": "first_root"}, "leave 'case' empty"),
         (
             {"kind": "arithmetic", "readout": "first_root", "case": None},
-            "stands as 'reproduced'; rows of kind 'arithmetic', and they alone, stand as 'recomputed'",
+            "stands as 'reproduced'; only rows of kind 'arithmetic', and all of them, have the standing 'recomputed'",
         ),
         ({"standing": "recomputed"}, "is of kind 'printed' and stands as 'recomputed'"),
         ({"tolerence": "1"}, "did you mean 'tolerance'"),
@@ -358,10 +358,10 @@ def test_a_summary_counts_numbers_by_their_best_reading_and_names_what_is_missed
     )
     assert "Missed, in the nearest reading by: c 20 %, d 3 %\n" in text
     assert (
-        "Other readings of the same numbers: 2 rows; without them 2 of 4 numbers that something is solved for are met."
+        "Other readings of the same numbers: 2 rows; the first readings meet 2 of 4 computed numbers."
         in text
     )
-    assert "Measurements of its sources: 1 rows, 0 of them met." in text
+    assert "Measurements of its sources: 1 rows, 0 within their tolerance." in text
 
 
 def test_midspan_of_even_and_odd_rods():

@@ -129,7 +129,7 @@ def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
     """
     remedy = "choose another with --output"
     if output.is_symlink() or (output.exists() and not output.is_dir()):
-        raise InputError(f"{output} is no folder; {remedy}")
+        raise InputError(f"{output} is not a folder; {remedy}")
     if Path.cwd().is_relative_to(output.resolve()):
         raise InputError(f"{output} holds the folder you work in; {remedy}")
     if not output.is_dir():
@@ -144,7 +144,7 @@ def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
     others = [file for file in found if file not in ours]
     if others:
         raise InputError(
-            f"{output} holds {others[0]}, which is not of a book that cosserat wrote; move it away or {remedy}"
+            f"{output} holds {others[0]}, which does not belong to a book of cosserat; move it away or {remedy}"
         )
 
 

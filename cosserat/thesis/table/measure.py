@@ -32,7 +32,7 @@ def measure(rows: list[Row], folder: Path) -> list[Judged]:
 
 
 def judge(row: Row, datasets: Mapping[str, xr.Dataset]) -> Judged:
-    """One row beside its measured number."""
+    """One row with its measured number."""
     if row.standing == "not attempted":
         return Judged(row=row, expected=row.expected)
     if row.kind == "arithmetic":
@@ -88,8 +88,8 @@ def summary(report: Sequence[Mapping[str, str]]) -> str:
     solved = [row for row in of_thesis if row["standing"] not in ("recomputed", "not attempted")]
     first = [row for row in solved if not row["reading_of"]]
     lines.append(
-        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows; without them "
-        f"{_count_within(first)} of {len(first)} numbers that something is solved for are met."
+        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows; the first readings "
+        f"meet {_count_within(first)} of {len(first)} computed numbers."
     )
     lines.append(
         _counted("Measurements of its sources", [r for r in report if r["kind"] == "literature"])
@@ -129,7 +129,7 @@ def _of_thesis(report: Sequence[Mapping[str, str]]) -> list[Mapping[str, str]]:
 
 
 def _missed(report: Sequence[Mapping[str, str]]) -> dict[str, float]:
-    """Numbers that no reading meets, with the error of the nearest reading, worst first."""
+    """Numbers outside their tolerance in every reading, with the error of the nearest reading, largest first."""
     rows = _of_thesis(report)
     errors = {
         number: min(distance(row) for row in rows if number in (row["id"], row["reading_of"]))
@@ -140,7 +140,7 @@ def _missed(report: Sequence[Mapping[str, str]]) -> dict[str, float]:
 
 
 def _counted(what: str, rows: Sequence[Mapping[str, str]]) -> str:
-    return f"{what}: {len(rows)} rows, {_count_within(rows)} of them met."
+    return f"{what}: {len(rows)} rows, {_count_within(rows)} within their tolerance."
 
 
 def _count_within(rows: Sequence[Mapping[str, str]]) -> int:
@@ -148,7 +148,7 @@ def _count_within(rows: Sequence[Mapping[str, str]]) -> int:
 
 
 def check(report: list[dict[str, str]]) -> str:
-    """A summary of a report whose claims all hold.
+    """The summary of a report in which every claim holds.
 
     Raises
     ------

@@ -27,10 +27,10 @@ _MAX_SHOWN_ROWS = 3  # rows that a line names
 class Change:
     """One change of some cases.
 
-    what : in a few words.  cases : whose rows are judged.
+    what : a short description.  cases : the cases whose rows are judged.
     places, edit : the changed inputs of the cases, such as "rod.material.young", and the change.
     physics : a context with different mechanics.
-    unseen : why no printed number can see the change.
+    unseen : the reason why no printed number depends on the change.
     """
 
     what: str
@@ -57,7 +57,7 @@ class Noticed:
 
     @property
     def sound(self) -> bool:
-        """Whether a row notices, or a reason says that none can."""
+        """Whether either a row notices or the change has a reason why no row can."""
         return bool(self.rows) != bool(self.change.unseen)
 
 
@@ -119,7 +119,7 @@ def table(rows: Sequence[Row], words: Sequence[str] = ()) -> Iterator[Noticed]:
 
     Raises
     ------
-    OutOfToleranceError : after the last, if no row notices a change without a reason, or one notices in spite of it.
+    OutOfToleranceError : after the last change, if one has neither a row that notices nor a reason, or both.
     """
     wrong = []
     for change in changes():
@@ -131,5 +131,6 @@ def table(rows: Sequence[Row], words: Sequence[str] = ()) -> Iterator[Noticed]:
         yield noticed
     if wrong:
         raise OutOfToleranceError(
-            f"changes that no row notices without a reason, or that one notices in spite of it: {'; '.join(wrong)}"
+            "changes that no row notices and that have no reason, or that a row notices although they have one: "
+            + "; ".join(wrong)
         )

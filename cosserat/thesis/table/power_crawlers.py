@@ -34,12 +34,12 @@ AT_REST = ("worm_at_rest",)
 BODY_MASSES = ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip")
 CALIBRATIONS = ("worm_calibration_printed", "worm_calibration")
 
-_QUASISTATIC = "every instant is in equilibrium, and what is printed depends on their order alone"
-_HEAD_ANCHORED = "from where eta begins the head holds, whatever its speed is"
-_TIME_OF_HALF_ALONE = "the head goes on until gamma is at 0.5, whatever its speed was"
-_FIT_INDEPENDENT_OF_START = "the fit starts there and ends where it does from any start"
+_QUASISTATIC = "every instant is in equilibrium, and the printed numbers depend on their order alone"
+_HEAD_ANCHORED = "the head is anchored from the start of eta on, and its speed does not matter"
+_TIME_OF_HALF_ALONE = "the head advances until gamma is at 0.5, and the speed of gamma does not matter"
+_FIT_INDEPENDENT_OF_START = "it is the start of the fit, and the fit does not depend on its start"
 _SIZE_FROM_TABLE_2_1 = "each worm has its own mass, and its length by Table 2.1"
-_UNIFORM_PLATEAUS = "both contractions are plateaus, and what is printed is the same along each"
+_UNIFORM_PLATEAUS = "both contractions are plateaus, and the printed numbers are uniform along each"
 
 
 def _times(factor: float) -> Callable[[float], float]:
@@ -109,7 +109,7 @@ def _without_tilt() -> contextlib.AbstractContextManager[object]:
 
 
 def _pressure(of: Callable[[Crawl, Array, Array], Array]) -> Physics:
-    """Another pressure than (2.8.8): of the problem, mu_1 and mu_2, and the reactive force lambda_c [N]."""
+    """A pressure other than (2.8.8), from the problem, mu_1 and mu_2, and the reactive force lambda_c [N]."""
 
     def pressure(self: Crawl, mu: Array, multiplier: Array) -> Array:
         _, k_g = self.crawler.incompressible_stiffnesses
@@ -146,7 +146,7 @@ def _segment_at(place: float) -> Physics:
 
 
 def _moved(track: int, point: int, to: float) -> Callable[[Any], Any]:
-    """Tracks of a front, one point of one of them at another place."""
+    """Change the place of one point of one track of a front."""
 
     def edit(tracks: Any) -> Any:
         moved = [[list(point) for point in track] for track in tracks]
@@ -162,7 +162,7 @@ _ROBOT_EARLY = [[[0, 0], [1.9, 0]], [[1.9, 1], [4, 1]]]
 
 
 def _two_tracks(to: float) -> Callable[[Any], Any]:
-    """eta of the worm from another place: where its first track begins its last one ends."""
+    """Change the place at which the first track of the worm's eta begins and the last one ends."""
     return lambda tracks: _moved(1, 1, to)(_moved(0, 0, to)(tracks))
 
 
@@ -231,4 +231,4 @@ CHANGES: tuple[Change, ...] = (
         for name in ("mu_1_ratio", "mu_3_ratio", "p_longitudinal", "p_circular")
     ),
 )
-"""Inputs, gaits and mechanics, one at a time."""
+"""Changes of inputs, gaits and mechanics, each tried separately."""

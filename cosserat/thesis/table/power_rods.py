@@ -47,11 +47,11 @@ INFLATION = 1.5
 
 _CALIBRATED = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
 _SCALE_INVARIANT = (
-    "a rod and the closed form of the same rod scale alike with it: what is fitted are pure numbers; "
-    "the four problems are those of the rows before, which notice"
+    "the rod and its closed form scale equally with it, and the fitted coefficients are dimensionless; "
+    "rows of the four problems notice the change"
 )
 _NO_SHEAR = "nothing shears"
-_NO_WEIGHT = "it has no weight and is at rest"
+_NO_WEIGHT = "the rod has no weight and is at rest"
 _EXACT_AT_EVERY_MESH = "weights lumped at the vertices give the linear bar exactly at every N"
 
 
@@ -290,4 +290,4 @@ CHANGES: tuple[Change, ...] = (
         )
     ],
 )
-"""Changes of the rods, each tried by itself."""
+"""Changes of the rods, each tried separately."""

@@ -119,10 +119,10 @@ CHAPTER_3: Mapping[str, Inputs] = {
     "relaxing_clamped_clamped": {**_CLAMPED_CLAMPED, **_DAMPED},
     "relaxing_necking": {**_NECKING, **_DAMPED},
 }
-"""Inputs of the cases of Chapter 3 that are the thesis's, by case."""
+"""Inputs of the cases of Chapter 3 that the thesis has, by case."""
 
 PRINTED: Mapping[str, Inputs] = {**CHAPTER_2, **CHAPTER_3}
-"""Both."""
+"""Inputs of the cases of both chapters, by case."""
 
 SOLVER_KEYS = (
     "newton",
@@ -137,11 +137,11 @@ SOLVER_KEYS = (
     "strides",
     "step",
 )
-"""Keys of a case for the solver and the stored values, where the page is silent."""
+"""Keys of a case for the solver and the stored values, which the page does not give."""
 
 
 def number(case: str, place: str) -> float:
-    """A printed number in its SI unit: of a case ("necking", "forces.1.force"), or a source of inputs."""
+    """A printed number in its SI unit: an input of a case ("necking", "forces.1.force"), or a source of inputs."""
     given = PRINTED[case].get(place) or INPUT_SOURCES[case][place]
     return given.si
 

@@ -89,7 +89,7 @@ _AT_REST: Inputs = {
 
 
 def _as_worm(worm: Inputs) -> Inputs:
-    """Inputs of a worm that is a part of another case."""
+    """Inputs of a worm within another case."""
     return {f"worm.{place}": given for place, given in worm.items()}
 
 
@@ -138,7 +138,7 @@ CHAPTER_2: Mapping[str, Inputs] = {
     "worm_calibration": {**_as_worm(_WORM), **_CALIBRATION_TARGETS},
     "worm_calibration_printed": {**_as_worm({**_WORM, **_PRINTED_EQUATIONS}), **_CALIBRATION_TARGETS},
 }
-"""Inputs of the cases of Chapter 2, all of which are the thesis's, by case."""
+"""Inputs of the cases of Chapter 2 by case; all cases are those of the thesis."""
 
 INPUT_SOURCES: Mapping[str, Inputs] = {
     "soft_robot": {
@@ -162,4 +162,4 @@ INPUT_SOURCES: Mapping[str, Inputs] = {
         "segment 50": Input("2/5", "after eq. (2.8.6), from the anterior end", "1"),
     },
 }
-"""Printed numbers that are not inputs of a case themselves, but sources of inputs."""
+"""Printed numbers from which inputs of a case follow."""

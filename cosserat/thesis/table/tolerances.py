@@ -90,7 +90,7 @@ class Row(Parameters):
             raise PydanticCustomError(
                 "standing",
                 f"is of kind '{self.kind}' and stands as '{self.standing}'; "
-                "rows of kind 'arithmetic', and they alone, stand as 'recomputed'",
+                "only rows of kind 'arithmetic', and all of them, have the standing 'recomputed'",
             )
         return self
 
@@ -126,7 +126,7 @@ class Row(Parameters):
 
     @property
     def ours(self) -> bool:
-        """Whether it belongs to the project's own rod and not to the thesis."""
+        """Whether the row is about the consistent rod and not about the thesis."""
         return self.id.startswith("C-")
 
 
@@ -234,7 +234,7 @@ def _check_readings(rows: list[Row], path: Path) -> None:
 
 
 def _published_by(wanted: str, lines: list[dict[str, str]], name: str) -> float:
-    """The published number of the line with that id, in its SI unit; `name` : the row that refers to it."""
+    """The published number of the row with that id, in its SI unit; `name` : the row that refers to it."""
     for line in lines:
         if line.get("id") == wanted and line.get("kind") in _PRINTED_KINDS:
             return to_si(line["published"], line["units"], unit_required=False)
