@@ -57,7 +57,7 @@ def test_a_case_is_read_as_json_from_standard_input(capsys, tmp_path, monkeypatc
     monkeypatch.setattr("sys.stdin", io.StringIO(lines))
     code, _, err = call(capsys, "run", "-", "--output", tmp_path / "a.nc")
     assert code == 2
-    assert "is no folder" in err
+    assert "is not a folder" in err
     for text in ("", "{}", '{"name": "a", "title": "b", "problem": {"kind": "rod static"}}'):
         monkeypatch.setattr("sys.stdin", io.StringIO(text))
         code, _, err = call(capsys, "run", "-")
@@ -121,7 +121,7 @@ def test_bad_files_and_folders_are_refused(capsys, tmp_path):
         (("show", tmp_path / "bad.nc"), "cannot read"),
         (("show", tmp_path / "none.nc"), "there is no file"),
         (("figure", "fig_3_99"), "there is no figure 'fig_3_99'; did you mean"),
-        (("figure", "fig_3_8", "fig_3_9", "-o", tmp_path / "f.svg"), "which several figures need"),
+        (("figure", "fig_3_8", "fig_3_9", "-o", tmp_path / "f.svg"), "make a folder for several figures"),
         (("figure", "fig_3_9", "--cases", tmp_path, "-o", tmp_path / "f.svg"), "run the case first"),
         (
             (

@@ -198,7 +198,7 @@ def test_uniform_states_without_a_turn_or_a_solution_are_refused():
     for turn, pull in ((np.zeros(3), 1.0), (TWIST, np.nan), (np.full(3, np.inf), 0.0)):
         with pytest.raises(InputError, match="give finite numbers and a turn that is not zero"):
             uniform_state(K, INCOMPRESSIBLE, "after", turn, pull)
-    with pytest.raises(NotConvergedError, match="turn or pull it less"):
+    with pytest.raises(NotConvergedError, match="reduce the rotation or the tension"):
         uniform_state(K, INEXTENSIBLE, "after", TWIST, 1e6 * STIFF)
     with pytest.raises(OutOfReachError, match="its sections collapse"):
         uniform_state(K, INEXTENSIBLE, "after", 100 * BEND, 0.0)

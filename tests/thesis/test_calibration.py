@@ -81,7 +81,7 @@ def test_the_second_beam_does_not_confirm_the_first(fitted):
 
 
 def test_a_calibration_without_the_published_mesh_has_no_row(fitted):
-    with pytest.raises(InputError, match=r"has meshes of \[40\.0, .*; add the published 20 too"):
+    with pytest.raises(InputError, match=r"has meshes of \[40\.0, .*; add the published 20"):
         readouts.READOUTS["recovered_c3"](fitted.isel(mesh=slice(1, None)))
 
 
