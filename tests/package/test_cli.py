@@ -121,7 +121,10 @@ def test_bad_files_and_folders_are_refused(capsys, tmp_path):
         (("show", tmp_path / "bad.nc"), "cannot read"),
         (("show", tmp_path / "none.nc"), "there is no file"),
         (("figure", "fig_3_99"), "there is no figure 'fig_3_99'; did you mean"),
-        (("figure", "fig_3_8", "fig_3_9", "-o", tmp_path / "f.svg"), "make a folder for several figures"),
+        (
+            ("figure", "fig_3_8", "fig_3_9", "-o", tmp_path / "f.svg"),
+            "make a folder for several figures",
+        ),
         (("figure", "fig_3_9", "--cases", tmp_path, "-o", tmp_path / "f.svg"), "run the case first"),
         (
             (

@@ -283,7 +283,7 @@ def test_a_calibration_recovers_the_parameters_of_the_measured_worm():
 def test_a_sweep_needs_masses_and_a_weight_can_collapse_a_body():
     with pytest.raises(InputError, match="'masses' is empty"):
         cosserat.case("worm_masses").vary("x", masses=[])
-    with pytest.raises(InputError, match="'worm.gait.phases' has 4; it takes two"):
+    with pytest.raises(InputError, match="'worm.gait.phases' has 4; give two"):
         cosserat.case("worm_masses").vary("x", worm=cosserat.case("soft_robot").problem.model_dump())
     with pytest.raises(
         InputError, match="'loads.anchoring' = 0 N and a weight of 40 N/m would collapse"

@@ -139,7 +139,7 @@ def test_a_users_file_in_a_book_is_kept_and_named(notebooks, book, name, listed)
     path.parent.mkdir(exist_ok=True)
     path.mkdir() if name.endswith("/") else path.write_text("mine")
     before = contents(book)
-    with pytest.raises(InputError, match=rf"holds {name.rstrip('/')}, which is not of a book"):
+    with pytest.raises(InputError, match=rf"holds {name.rstrip('/')}, which does not belong to a book"):
         render(notebooks, book)
     assert contents(book) == before
 
@@ -158,9 +158,9 @@ def test_folders_of_the_user_are_kept(notebooks, tmp_path, monkeypatch):
         (mine / "work", "holds the folder you work in"),
         (mine / "work" / "here" / "..", "holds the folder you work in"),
         (tmp_path, "holds the folder you work in"),
-        (tmp_path / "link", "link is no folder"),
-        (tmp_path / "nowhere", "nowhere is no folder"),
-        (mine / "thesis.tex", "thesis.tex is no folder"),
+        (tmp_path / "link", "link is not a folder"),
+        (tmp_path / "nowhere", "nowhere is not a folder"),
+        (mine / "thesis.tex", "thesis.tex is not a folder"),
     ]:
         with pytest.raises(InputError, match=sentence):
             render(notebooks, output)
@@ -168,7 +168,7 @@ def test_folders_of_the_user_are_kept(notebooks, tmp_path, monkeypatch):
         with pytest.raises(InputError, match="holds the folder you work in"):
             render(notebooks, Path(relative))
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(InputError, match="holds index.html, which is not of a book"):
+    with pytest.raises(InputError, match="holds index.html, which does not belong to a book"):
         render(notebooks, mine)
     assert contents(tmp_path) == before
 

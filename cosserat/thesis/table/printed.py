@@ -88,7 +88,9 @@ _VIBRATING: Inputs = {
     "rod.section.width": Input("0.1 m", _IN_VIBRATION, "m"),
     "rod.section.height": Input("0.1 m", _IN_VIBRATION, "m", "E3.19"),
     "rod.section.shear_factor": Input("5/6", _IN_VIBRATION, "1"),
-    "rod.material.line_density": Input("10 kg/m", f"{_IN_VIBRATION}: 10^3 times the area", "kg/m", "E3.19"),
+    "rod.material.line_density": Input(
+        "10 kg/m", f"{_IN_VIBRATION}: 10^3 times the area", "kg/m", "E3.19"
+    ),
     "supports": Input(_CLAMPED_FIRST, "section 3.5, 'clamped-free'"),
     "gravity": Input(None, _IN_VIBRATION, assumed="E3.19"),
     "start.shape": Input("first beam mode", "section 3.5, 'in its first mode shape'"),
