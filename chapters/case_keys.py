@@ -9,7 +9,7 @@
 # ---
 
 # %% [markdown]
-# # What a case may say
+# # Keys of a case
 #
 # A case is a table of a TOML file. Its `kind` determines its keys; this page lists them from the classes that read
 # them. `cosserat describe` prints the same list, and `cosserat schema` gives it to editors. A quantity is a text with its

@@ -12,13 +12,13 @@
 # # Chapter 1: the directed rod
 #
 # A rod is a curve $\mathbf{r}(\xi)$ whose points carry two directors. The curve says where the cross-sections are; the
-# directors say how each of them is stretched, sheared and rotated. The material points of the body stand at
+# directors say how each of them is stretched, sheared and rotated. The positions of the material points are
 #
 # $$
 # \mathbf{r}^* = \mathbf{r} + X^\beta \mathbf{d}_\beta , \tag{1.3.4}
 # $$
 #
-# with $X^1, X^2$ the place in the section: plane sections stay plane, and each deforms homogeneously. With
+# with the coordinates $X^1, X^2$ in the section. Plane sections stay plane, and each deforms homogeneously. With
 # $\mathbf{d}_3 = \mathbf{r}'$ the stretches are
 #
 # $$
@@ -56,8 +56,8 @@ page.source(chapter1.surface)
 # \kappa_{\alpha i} = \mathbf{d}'_\alpha \cdot \mathbf{d}_i - \mathbf{D}'_\alpha \cdot \mathbf{D}_i . \tag{1.2.19}
 # $$
 #
-# Put $\mathbf{r}^*$ into the energy of linear elasticity and integrate over the section, about any centreline and any axes,
-# with its moments $S^\alpha = \int X^\alpha dA$ and $I^{\alpha\beta} = \int X^\alpha X^\beta dA$:
+# The energy of linear elasticity for $\mathbf{r}^*$, integrated over the section about any centreline and any axes, with
+# the moments $S^\alpha = \int X^\alpha dA$ and $I^{\alpha\beta} = \int X^\alpha X^\beta dA$, is
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -73,8 +73,8 @@ page.source(chapter1.surface)
 # \end{aligned} \tag{1.2.93}
 # \end{equation*}
 #
-# With the centreline through the centre of the section and the directors along its principal axes, $S^\alpha$ and $I^{12}$
-# vanish, and there remains
+# If the centreline passes through the centre of the section and the directors are along its principal axes, $S^\alpha$ and
+# $I^{12}$ vanish, and the energy is
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -105,9 +105,9 @@ page.source(directed_rod.integrated_stiffnesses)
 page.source(directed_rod.offset_energy)
 
 # %% [markdown]
-# Tests recover all of it by Gauss's rule over a rectangle, for random deformations: (1.2.94) about the centre, (1.2.93) off
-# it and rotated, where stretching and bending couple. These stiffnesses are too high in bending and torsion, because real
-# sections do not stay plane; the thesis adds a term,
+# Tests check both energies by Gauss's rule over a rectangle, for random deformations: (1.2.94) about the centre, (1.2.93)
+# off the centre and with rotated axes, where stretching and bending couple. These stiffnesses are too high in bending and
+# torsion, because real sections do not stay plane. The thesis adds a term,
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -128,8 +128,8 @@ page.source(directed_rod.offset_energy)
 # \end{aligned} \tag{1.2.98}
 # \end{equation*}
 #
-# with the torsional rigidity $\mathcal{D}$, whose sign in the first is corrected (erratum E1.1); the others stay as they
-# are, $k_{11}$ with $I_1$ (erratum E1.2).
+# with the torsional rigidity $\mathcal{D}$. Its sign in the first equation is corrected (erratum E1.1). The other
+# stiffnesses do not change; $k_{11}$ has $I_1$ (erratum E1.2).
 
 # %% tags=["remove-input"]
 page.source(directed_rod.adjusted_stiffnesses)
@@ -141,7 +141,7 @@ twist = np.array([[0, 1.0, 0], [-1.0, 0, 0]])  # d_1' = e_2, d_2' = -e_1: one ra
 _, shear = directed_rod.lame(2e9, 0.3)
 stored = 2 * directed_rod.strain_energy(k, np.zeros((3, 3)), twist)
 print(
-    f"a twisted circle stores {stored / (shear * circle.torsion_constant):.3f} of what torsion theory says;"
+    f"a twisted circle stores {stored / (shear * circle.torsion_constant):.3f} times the energy of torsion theory;"
 )
 polar, torsion = shear * 2 * circle.second_moment_1, shear * circle.torsion_constant
 k[12] = k[13] = (polar - torsion) / 4
@@ -153,7 +153,7 @@ assert abs(stored / (shear * circle.torsion_constant) - 1) < 1e-12
 # %% [markdown]
 # ## Forces are gradients
 #
-# A section pulls at its neighbour with the contact force $\mathbf{n}$ and with the contact director forces
+# A section acts on its neighbour with the contact force $\mathbf{n}$ and with the contact director forces
 # $\mathbf{m}^\alpha$; the intrinsic director forces $\mathbf{k}^\alpha$ resist a change of the section itself. All are
 # gradients of the energy per length $\hat{w}$:
 #
@@ -163,7 +163,7 @@ assert abs(stored / (shear * circle.torsion_constant) - 1) < 1e-12
 # \mathbf{m}^\alpha = \frac{\partial \hat{w}}{\partial \mathbf{d}'_\alpha} . \tag{1.3.18}
 # $$
 #
-# For the energy (1.2.97) the chain rule through the measures gives them. Let $\Gamma_{ij}$ and $K_{\alpha i}$ be its
+# For the energy (1.2.97) they follow from the chain rule. Let $\Gamma_{ij}$ and $K_{\alpha i}$ be its
 # derivatives by $\gamma_{ij}$ and $\kappa_{\alpha i}$, with $\Gamma_{ij} = \Gamma_{ji}$. Then
 #
 # $$
@@ -203,10 +203,11 @@ print(f"the first term is up to {largest:.1e} N, the sum of all three {left:.0e}
 assert left < 1e-13 * largest
 
 # %% [markdown]
-# Tests compare the forces with exact differences of the energy, rotate them with the rod, and check that in any motion the
-# energy grows by their power (1.3.11), and that for small deformations they are integrals of the stress over a rectangle.
+# Tests compare the forces with exact differences of the energy and with the forces of the rotated rod. They check that in
+# any motion the rate of the energy is their power (1.3.11), and that for small deformations they are integrals of the stress
+# over a rectangle.
 #
-# Where the energy is a function of stretches alone, the forces follow from
+# If the energy is a function of the stretches alone, the forces follow from
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -237,9 +238,9 @@ page.source(directed_rod.stretch_gradients)
 page.source(directed_rod.internal_forces)
 
 # %% [markdown]
-# Tests compare both with differences of an energy. The second term of the first vanishes where directors only change their
-# lengths, as in the next chapter. The theory has limits: sections that warp, or bend across themselves, are not
-# homogeneous, and the thesis reports poor agreement there.
+# Tests compare both with differences of an energy. The second term of the first equation vanishes if the directors only
+# change their lengths, as in the next chapter. The theory has limits: the deformation of sections that warp or bend is not
+# homogeneous, and the thesis reports poor agreement for them.
 #
 # ## A constraint may enter before or after the gradients
 #
@@ -257,8 +258,8 @@ page.source(directed_rod.internal_forces)
 # \end{aligned} \tag{1.3.26}
 # \end{equation*}
 #
-# or first put the constraint into the energy, $\hat{w}_c = \hat{w}|_{\phi^I = 0}$ (1.3.27), as Chapter 2 does, which leaves
-# another multiplier:
+# or first put the constraint into the energy, $\hat{w}_c = \hat{w}|_{\phi^I = 0}$ (1.3.27), as in Chapter 2. The multiplier
+# is then another one:
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -317,8 +318,8 @@ page.text(
 # %% [markdown]
 # ## Inertia
 #
-# A section of mass $\rho_0$ and of inertias $\rho_0 y_0^{0\alpha}$, $\rho_0 y_0^{\alpha\beta}$ per length, whose centreline
-# moves with $\mathbf{v}$ and whose directors with $\mathbf{w}_\alpha$, has the momenta
+# A section has the mass $\rho_0$ and the inertias $\rho_0 y_0^{0\alpha}$, $\rho_0 y_0^{\alpha\beta}$ per length. Its
+# centreline moves with the velocity $\mathbf{v}$ and its directors with $\mathbf{w}_\alpha$. Its momenta are
 #
 # $$
 # \mathbf{G} = \rho_0 \mathbf{v} + \rho_0 y_0^{0\beta} \mathbf{w}_\beta , \tag{1.2.39}
@@ -328,7 +329,7 @@ page.text(
 # \mathbf{L}^\alpha = \rho_0 y_0^{0\alpha} \mathbf{v} + \rho_0 y_0^{\alpha\beta} \mathbf{w}_\beta \tag{1.2.41}
 # $$
 #
-# and the kinetic energy
+# and its kinetic energy is
 #
 # $$
 # T = \tfrac12 (\mathbf{G} \cdot \mathbf{v} + \mathbf{L}^\beta \cdot \mathbf{w}_\beta) . \tag{1.2.43}
@@ -348,15 +349,15 @@ omega = np.array([3.0, -1.0, 2.0])
 w = np.cross(omega, np.eye(3)[:2])
 turning = heavy.kinetic_energy(np.zeros(3), w)
 rigid = omega @ heavy.tensor @ omega / 2
-print(f"a circle that turns has {turning / rigid:.12f} of the energy of a rigid one")
+print(f"a rotating circle has {turning / rigid:.12f} times the energy of a rigid one")
 
 # %% tags=["remove-cell"]
 assert abs(turning / rigid - 1) < 1e-12
 
 # %% [markdown]
-# Chapter 2 is quasistatic and needs none of this; Chapter 3 has the same momenta for each part of its rod.
+# Chapter 2 is quasistatic and does not need the momenta. Chapter 3 has the same momenta for each part of its rod.
 #
-# ## Where the page errs
+# ## Errata
 
 # %% tags=["remove-input"]
 page.table(

@@ -11,9 +11,9 @@
 # %% [markdown]
 # # Chapter 2: the soft robot and the earthworm crawl
 #
-# Peristalsis is a sequence of states. Fronts travel through the body from the front end to the rear: behind a front
-# $\gamma$ the body anchors and before it it advances, at a front $\eta$ the other way round. One point at a time holds on
-# to the ground, and from one instant to the next everything else moves past it:
+# Peristalsis is a sequence of equilibrium states. Two kinds of fronts travel from the front end of the body to the rear.
+# The body anchors behind a front $\gamma$ and advances ahead of it. It advances behind a front $\eta$ and anchors ahead of
+# it. At each instant one point is fixed to the ground, and the rest of the body moves relative to it:
 #
 # $$
 # {}^i z({}^i \xi_A) = {}^{i-1} z({}^i \xi_A) , \tag{2.5.10}
@@ -36,8 +36,8 @@ from cosserat.thesis.table import crawl_readouts
 page.excerpt(crawl.Crawl.solve, "for stride in", "run.progress")
 
 # %% [markdown]
-# A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor. This is the gait of the robot in its
-# case file:
+# A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor. The case file of the robot has this
+# gait:
 #
 # ```toml
 # [soft_robot.gait]
@@ -47,15 +47,15 @@ page.excerpt(crawl.Crawl.solve, "for stride in", "run.progress")
 # anchor = [[[0, 0], [2, 0]], [[2, 1], [4, 1]]]
 # ```
 #
-# A gait with a gap in time, with fronts that cross, with an anchor off the body or on a front, or with loads that change
-# at once on a part of the body is an error with a sentence. A front that is nearer to an end than a named clearance has
-# left the body; the page says only that fronts must not come "too close".
+# The library refuses a gait with a gap in time, with fronts that cross, with an anchor off the body or on a front, or with
+# loads that change suddenly on a part of the body. A front leaves the body when its distance to an end is less than a
+# clearance, which is a key of the case. The page says only that fronts must not come "too close".
 #
 # ## Push and pull
 #
-# The robot waits, longitudinally contracted. Then $\gamma$ starts from the front: the thinned part grows and pushes the
-# head forward while the rear end is anchored. When $\gamma$ has a quarter of the way left, $\eta$ appears at the front, the
-# head holds, and the rear is pulled in.
+# The robot first waits in longitudinal contraction. Then $\gamma$ starts at the front. The thin part grows and pushes the
+# head forward, while the rear end is anchored. When $\gamma$ has a quarter of the body left, $\eta$ appears at the front.
+# The head is then the anchor, and the body pulls its rear forward.
 
 # %% tags=["remove-input"]
 page.animation(
@@ -72,24 +72,24 @@ page.figure(
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_8",
-    "Discrete values of both fronts: (a) at the instants that are stored, from the first pause on, (b) at the time step "
-    "of the thesis, which we do not need. A front is on the body only between the ends, never at them.",
+    "Discrete values of both fronts: (a) at the stored instants, from the first pause on, (b) at the time step "
+    "of the thesis, which the library does not need. A front is on the body only between the ends, never at an end.",
 )
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_9",
     "(a) Ends and anchor. (b) Stretches when the anchor changes: two plateaus and a layer. (c), (d) The body on the "
-    "ground through both cycles: the second begins where the first has left it.",
+    "ground in both cycles: the second cycle starts where the first ends.",
 )
 
 # %% [markdown]
-# With the weight as a force per reference length the robot's equations are linear, and the displacement of a cycle has a
-# closed form: while $\gamma$ travels the head advances, and from the instant when $\eta$ appears it is anchored. Every cycle
-# is measured, and the one farthest from that form is in the table.
+# If the weight is a force per reference length, the robot's equations are linear, and the displacement in a cycle has a
+# closed form: the head advances while $\gamma$ travels and is anchored from the instant when $\eta$ appears. The table shows
+# the cycle with the largest difference from the closed form.
 #
-# Inflated artificial muscles ($\bar D = 0$, $p < 0$) are short and thick where their load acts, so their fronts change
-# places. With the robot's own gait they would crawl backwards and anchor with a thin part; a warning says so.
+# Inflated artificial muscles ($\bar D = 0$, $p < 0$) are short and thick where their load acts, so $\gamma$ and $\eta$ must
+# be exchanged. With the gait of the robot they crawl backwards and anchor with a thin part; the library then gives a warning.
 
 # %% tags=["remove-input"]
 page.rows("2.7")
@@ -99,7 +99,7 @@ lines = []
 for name, what in (
     ("soft_robot", "as in the table"),
     ("soft_robot_printed_contact", "weight over the current length, (2.2.20) as printed"),
-    ("soft_robot_held", "contact force held through advancing regions, as in section 2.4"),
+    ("soft_robot_held", "contact force constant through advancing regions, as in section 2.4"),
 ):
     lines.append((what, f"{1e3 * crawl_readouts.strides(page.data(name))[-1]:.2f} mm"))
 page.table(lines, ("soft robot", "displacement in a cycle"))
@@ -107,8 +107,8 @@ page.table(lines, ("soft robot", "displacement in a cycle"))
 # %% [markdown]
 # ## Protrusion and stance
 #
-# The worm of 10 g protrudes its front end while its rear holds, and pulls its rear in while the front holds. Body and
-# times come from the scalings of Table 2.1:
+# The worm of 10 g protrudes its front end while its rear is anchored, and pulls its rear forward while the front is
+# anchored. Its dimensions and times follow from the scaling laws of Table 2.1:
 
 # %% tags=["remove-input"]
 page.rows("T2.1", "2.8-circumference", "2.8.2", "2.8.3")
@@ -119,32 +119,32 @@ page.animation("anim_worm", "Two strides in real time. Segment 50 is black, the 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_1",
-    "The six times of the thesis, heights magnified. The bodies obey the corrected equations; dotted, the equations as "
-    "printed, with which the thesis's numbers are found.",
+    "The six times of the thesis, heights magnified. Solid: the corrected equations. Dotted: the equations as printed, "
+    "which give the numbers of the thesis.",
 )
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_11",
     'The fronts over three strides. Lines: two other readings of the sentence that $\\gamma$ "then speeds up" at $t_p/2$. '
-    "With both it is at one half before the protrusion ends (assumption E2.15).",
+    "In both readings the front is at one half before the protrusion ends (assumption E2.15).",
 )
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_2",
-    "Segment 50 over three strides, by the corrected and by the printed equations. Quillin measured the pressures, and how "
-    "much longer and thinner the segment is in circular than in longitudinal contraction; these ratios are drawn as "
-    "multiples of the corrected worm's longitudinal contraction.",
+    "Segment 50 over three strides, by the corrected and by the printed equations. Quillin measured the pressures, and the "
+    "ratios of length and of width between circular and longitudinal contraction. The figure shows these ratios times "
+    "the stretches of the corrected worm in longitudinal contraction.",
 )
 
 # %% [markdown]
 # Segment 50 is read in the middle of the stance and in the middle of the protrusion, when it lies well inside an advancing
-# and an anchoring region. Longitudinal contraction comes out as published. In circular contraction the equations as
-# printed meet the lateral stretch, and miss the stretch along and the pressure by less than a printed unit; corrected,
-# they give other numbers (erratum E2.5). Corrected in (2.4.18) alone and corrected in the weight too are separate rows. It
-# is the corrected model that meets the measured ratio of longitudinal stretches; the lateral ratio it misses, and no
-# round body of constant volume meets both (question E2.21).
+# and an anchoring region. The longitudinal contraction agrees with the published one. In circular contraction the printed
+# equations give the published lateral stretch; their axial stretch and pressure differ from the published ones by less than
+# one printed unit. The corrected equations give other numbers (erratum E2.5). Separate rows show the correction of (2.4.18)
+# alone and with that of the weight. The corrected model agrees with the measured ratio of axial stretches, but not with the
+# lateral one. No round body of constant volume agrees with both (question E2.21).
 
 # %% tags=["remove-input"]
 page.rows("2.8-mu1", "2.8-mu3", "2.8-p-")
@@ -153,8 +153,8 @@ page.rows("2.8-mu1", "2.8-mu3", "2.8-p-")
 page.rows("2.8.10", "2.8.6")
 
 # %% [markdown]
-# The pressure is the page's: a Piola traction, per area of the reference. What a gauge in the fluid would show is that over
-# $\mu_1 \mu_2$ (question E2.20):
+# The pressure here is that of the page: a Piola traction, per area of the reference. A gauge in the fluid measures the
+# Cauchy pressure, which is the Piola traction divided by $\mu_1 \mu_2$ (question E2.20):
 
 # %% tags=["remove-input"]
 worm = page.data("worm")
@@ -169,25 +169,24 @@ for phase, what in (
 page.table(lines, ("segment 50", "Piola, as published", "Cauchy"))
 
 # %% [markdown]
-# At rest it is the weight alone that presses, by $\rho_0 g / (3 \pi R)$ times $\mu_1 \mu_2$, for which the page says
-# "minimal (10 Pa)". Quillin measured ten times as much: a worm at rest has some tone, which neither the page nor we account
-# for (assumption E2.26).
+# At rest the weight alone causes the pressure, which is $\rho_0 g / (3 \pi R)$ times $\mu_1 \mu_2$. The page calls it
+# "minimal (10 Pa)". Quillin measured ten times as much: the muscles of a worm at rest have some tone. Neither the page nor
+# this library models it (assumption E2.26).
 #
 # ## The stride: which reading gives which length
 #
-# The page prints 39 mm, and no reading of it gives 39 mm. Three things are open, and none of them was tuned.
+# The page prints a stride of 39 mm. No reading of the page gives 39 mm. Three choices are open; none of them was tuned.
 #
-# **When the anchor leaves the mean of $\gamma$ and $\eta$ for the rear end.** There is a mean of two fronts until $t_p/2$,
-# when $\eta$ leaves; until then the rear is thin, and from then on it is fat. A worm anchors "where the worm
-# longitudinally contracts and fattens", as section 2.1 has it, so that $t_p/2$ is the one switch between the two that
-# never holds on with a thin part, and ours (assumption E2.17). The other reading, $t_p/3$, is the instant at which
-# the page draws a sample of the worm; it is nearer to the printed stride. Its worm holds on with a thin rear end and
-# slips back.
+# **When the anchor changes from the mean of $\gamma$ and $\eta$ to the rear end.** Both fronts are on the body until $t_p/2$,
+# when $\eta$ leaves it. Until then the rear is thin; afterwards it is fat. Section 2.1 says that a worm anchors "where the
+# worm longitudinally contracts and fattens". Only with a switch at $t_p/2$ is the anchor never in a thin part, so this
+# library uses $t_p/2$ (assumption E2.17). The other reading is $t_p/3$, an instant at which the page draws the worm. It
+# gives a stride nearer to the printed one, but its worm anchors with a thin rear end and slips back.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_12",
-    "The anchored point: in the beginning of the protrusion the mean of both fronts, then the rear end. From $t_p/3$ "
+    "The anchored point: at the beginning of the protrusion the mean of both fronts, then the rear end. From $t_p/3$ "
     "to $t_p/2$ the rear end is thin.",
 )
 
@@ -219,28 +218,28 @@ page.table(
 )
 
 # %% [markdown]
-# The page says that "backslipping may be accounted for" by a model with one anchor; these are its lengths.
+# The page says that "backslipping may be accounted for" by a model with one anchor. The last two columns give the lengths.
 #
-# **How $\gamma$ runs in the second half of the protrusion.** Two sentences of the page exclude each other, and each way
-# out keeps a part of them (assumption E2.15). The stride is the same in all three, to all digits: the head goes on until
-# $\gamma$ is at 0.5, and holds from then on.
+# **How $\gamma$ moves in the second half of the protrusion.** Two sentences of the page contradict each other, and each
+# reading keeps a part of them (assumption E2.15). The stride is the same in all three readings, to all digits: the head
+# advances until $\gamma$ is at 0.5, and is at rest after that.
 #
-# **How near to the ends the fronts may come.** If a front leaves the body a little earlier, the stride does not change. If it
-# stops before the end and waits, the stride of the worm that changes at $t_p/2$ falls by millimetres, far from enough, and
-# that of the other does not change either (assumption E2.14).
+# **How near to the ends the fronts may come.** If a front leaves the body a little earlier, the stride does not change. If
+# a front stops before the end and waits, the stride of the worm with the switch at $t_p/2$ falls by some millimetres, which
+# is not enough. The stride of the worm with the switch at $t_p/3$ does not change (assumption E2.14).
 
 # %% tags=["remove-input"]
 page.rows("2.8-stride", "2.8.4-stride")
 
 # %% [markdown]
-# The stride does not depend on the time step once the events of the gait are times of the grid. While the anchor lies between
-# the fronts, on a plateau that moves as one piece, it does not matter either which of its points holds.
+# The stride does not depend on the time step if the events of the gait are times of the grid. While the anchor lies between
+# the fronts, it is on a plateau that moves without a change of stretch. Any point of the plateau gives the same stride.
 #
 # ## Calibrated again
 #
 # The page found E, the force and the pressure by calibration "to match the expected outcomes": the two ratios (2.8.6) and
-# the two pressures that were measured. Least squares of these four numbers, each misfit as a fraction, ask for other values
-# (assumption E2.27). Both pressures are then met, and the ratios of stretches as well as before.
+# the two measured pressures. A least-squares fit of the relative misfits of these four numbers gives other values
+# (assumption E2.27). With these values both pressures agree, and the ratios of stretches agree as well as before.
 
 # %% tags=["remove-input"]
 page.rows("2.8-E", "2.8-share")
@@ -260,10 +259,11 @@ page.table(lines, ("equations", "model over measured, with", *names))
 # %% [markdown]
 # ## Worms of every size
 #
-# Quillin measured earthworms from hatchlings of 0.01 g to adults of 10 g. How do the muscles grow? A strip of muscle that
-# pulls with the same tension in every worm, as section 2.8 has it, gives a force that grows with the circumference; by hoop
-# balance its pressure falls with the radius, by the page's own 5.7 kPa it may stay. Muscle of constant *stress*, as thick as
-# the worm is large, gives a force that grows with the area, and a constant pressure.
+# Quillin measured earthworms from hatchlings of 0.01 g to adults of 10 g. How does the force of the muscles depend on the
+# mass? In section 2.8 a strip of muscle has the same tension in every worm. Then the force is proportional to the
+# circumference. The pressure is inversely proportional to the radius by hoop balance, or constant as the 5.7 kPa of the
+# page. If instead the *stress* of the muscle is constant and its thickness is proportional to the radius, the force is
+# proportional to the area, and the pressure is constant.
 
 # %% tags=["remove-input"]
 page.source(earthworm.BodyMasses.scaled)
@@ -275,10 +275,11 @@ page.figure("fig_masses", "Three laws for the muscles; slopes in the legends.")
 page.rows("2.8.4-exponent", "2.8-slope", "2.8-strain")
 
 # %% [markdown]
-# Only muscles of constant stress crawl like earthworms of every size: strains that do not depend on the body, a stride that
-# grows with it as (2.8.4) says. With strips of constant tension and constant pressure small worms are hardly thinned any more; with strips
-# of constant tension they are thinned so much that their surface can no longer stay on the ground. The frequency is the same
-# in all three, for it is put in, by Table 2.1, and the power of the speed is that of the stride and that of the frequency.
+# Only worms with muscles of constant stress crawl like earthworms of every size: their strains do not depend on the mass,
+# and their stride grows with it as in (2.8.4). With constant tension and constant pressure small worms hardly become
+# thinner. With constant tension and the pressure of hoop balance they become so thin that their surface cannot stay on the
+# ground. The frequency is an input, from Table 2.1, and is the same in all three. The exponent of the speed is the sum of
+# the exponents of stride and frequency.
 
 # %%
 small = cosserat.case("worm_masses_strip").vary("one_gram", masses=["1 g"])
@@ -299,7 +300,7 @@ except cosserat.CosseratError as error:
 # gait.anchor = [[[0, 0], [1, 0]], [[1, 1], [2, 1]]]
 # ```
 #
-# `cosserat run inchworm --file my.toml` and `cosserat plot inchworm.nc` show it. In Python:
+# `cosserat run inchworm --file my.toml` computes it, and `cosserat plot inchworm.nc` draws it. In Python:
 
 # %%
 inchworm = cosserat.case("worm").vary(
@@ -312,10 +313,10 @@ inchworm = cosserat.case("worm").vary(
     },
 )
 crawled = cosserat.run(inchworm)
-print(f"It goes {1e3 * float(crawled.along[-1, -1] - crawled.along[0, -1]) / 3:.0f} mm a stride.")
+print(f"The stride is {1e3 * float(crawled.along[-1, -1] - crawled.along[0, -1]) / 3:.0f} mm.")
 
 # %% [markdown]
-# ## Where the page errs, and what it leaves open
+# ## Errata and open questions
 
 # %% tags=["remove-input"]
 page.table(

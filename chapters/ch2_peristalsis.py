@@ -11,14 +11,15 @@
 # %% [markdown]
 # # Chapter 2: a rod with muscles
 #
-# A worm has two kinds of muscle. Those along its body shorten and thicken it; the thick parts are anchored to the ground.
-# Those round its body thin it, and because its volume is constant it lengthens there and is pushed forward. Here the worm
-# is one directed rod, its muscles are loads on it, and the thesis calls them *anchoring* and *advancing* loads.
+# A worm has two kinds of muscle. Longitudinal muscles shorten and thicken the body; the thick parts are anchored to the
+# ground. Circular muscles make the body thin. Its volume is constant, so the thin parts lengthen and push the body forward.
+# The model of the worm is one directed rod, and the muscles are loads on it: *anchoring* and *advancing* loads in the words
+# of the thesis.
 #
 # ## Muscles as loads
 #
-# A muscle along the centreline pulls two neighbouring places together. Spread over a window of width $\lambda$ that is a
-# force forward and one backward; its limit is a doublet. A row of them that fills a window keeps the contact force at
+# A muscle along the centreline pulls two neighbouring points together. Over a window of width $\lambda$ it is a forward and a
+# backward force; the limit is a doublet. In a row of muscles that fills a window the contact force is constant,
 #
 # $$
 # \mathbf{n}(\xi) = -\bar{D} \mathbf{e}_3 \quad \text{for } \xi_1 < \xi < \xi_2 . \tag{2.2.7}
@@ -36,29 +37,29 @@ from cosserat.thesis.book import page
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_5",
-    "(a) One muscle: load and contact force. (b) Muscles half a window apart: between the first and the last the force is "
-    "constant, and outside it falls to zero over half a window, which shrinks as their number grows.",
+    "(a) One muscle: load and contact force. (b) Muscles half a window apart: the force is constant between the first and "
+    "the last and falls to zero over half a window outside. The window becomes smaller as their number grows.",
 )
 
 # %% tags=["remove-input"]
 page.source(doublets.contact_force)
 
 # %% [markdown]
-# At each end of the window the row pushes with its whole force $\bar D$, so that $\mathbf{n}$ jumps there. Muscles round
-# the body are a pressure $p$ on the lateral surface of the reference, which loads both directors alike:
+# At each end of the window the row exerts its whole force $\bar D$, so $\mathbf{n}$ jumps there. Circular muscles are a
+# pressure $p$ on the lateral surface of the reference. It loads both directors equally:
 #
 # $$
 # \rho_0 \mathbf{l}_A^1 = -p \pi R^2 \mathbf{e}_1 . \tag{2.2.9}
 # $$
 #
-# The ground carries the weight, and because the sections stand on it, it flattens them. The page writes
+# The ground supports the weight. The sections stand on the ground, and its reaction flattens them. The page writes
 #
 # $$
 # \lambda^E = \rho g = \frac{\rho_0 g}{\mu_3} , \tag{2.2.20}
 # $$
 #
-# which is the weight over the current length, taken as a force over the reference length (erratum E2.7). We take
-# $\rho_0 g$; the published numbers are computed with both.
+# which is the weight per current length, used as a force per reference length (erratum E2.7). This library uses
+# $\rho_0 g$. The published numbers are computed with both.
 #
 # ## Two materials
 #
@@ -78,14 +79,14 @@ page.source(doublets.contact_force)
 # k_P = \frac{\nu}{1 - \nu} k_S . \tag{2.6.20}
 # $$
 #
-# The worm keeps the product of its stretches, $\mu_1 \mu_2 \mu_3 = 1$, with a multiplier $\lambda_c$ that is its
-# hydrostatic skeleton. With $z = \xi/\ell_0$ and the dimensionless groups
+# The worm is incompressible: $\mu_1 \mu_2 \mu_3 = 1$. The multiplier $\lambda_c$ of this constraint models the hydrostatic
+# skeleton. With $z = \xi/\ell_0$ and the dimensionless groups
 
 # %% tags=["remove-input"]
 page.source(crawler.Groups.of)
 
 # %% [markdown]
-# the robot obeys, in anchoring regions,
+# the equations of the robot in anchoring regions are
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -96,7 +97,8 @@ page.source(crawler.Groups.of)
 # \end{equation*}
 #
 # with $\bar\mu_3$ from $\mathbf{n} = -\bar D \mathbf{e}_3$. In advancing regions the pressure is added, and $\mathbf{n}$ is
-# zero; the page's $\mu_3$ there misses a 2 (erratum E2.1), with which a robot would *shorten* when it is squeezed:
+# zero. There the printed $\mu_3$ lacks a 2 (erratum E2.1), and the printed robot *shortens* under lateral pressure. The
+# corrected form is
 #
 # $$
 # \mu_3 = 1 - \tilde{p}(\mu_1 + \mu_2 - 2) . \tag{2.3.10}
@@ -106,7 +108,7 @@ page.source(crawler.Groups.of)
 page.excerpt(crawler._compressible, "for k in range", "return f")
 
 # %% [markdown]
-# The worm obeys
+# The equations of the worm are
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -116,9 +118,9 @@ page.excerpt(crawler._compressible, "for k in range", "return f")
 # \end{aligned} \tag{2.4.13}
 # \end{equation*}
 #
-# The last line has an integral: $\tilde\lambda_c \mu_1 \mu_2$, the contact force, is constant. On the common domain of
-# (2.4.18) the page has the length of the region once too often, which breaks that integral and makes the answer
-# depend on how long the region is (erratum E2.5). The published numbers carry it.
+# The last equation has a first integral: the contact force $\tilde\lambda_c \mu_1 \mu_2$ is constant. In (2.4.18), on the
+# common domain of the regions, the page has one factor of the region's length too many. With it the integral is not
+# constant, and the answer depends on the length of the region (erratum E2.5). The published numbers contain this error.
 
 # %% tags=["remove-input"]
 page.excerpt(crawler._incompressible, "for k in range", "return f")
@@ -126,19 +128,20 @@ page.excerpt(crawler._incompressible, "for k in range", "return f")
 # %% [markdown]
 # ## Regions
 #
-# Where two regions meet, stretches and their gradients are continuous; at the ends the gradients vanish,
+# At a junction of two regions the stretches and their gradients are continuous. At the ends the gradients vanish,
 #
 # $$
 # \frac{d\mu_\alpha}{d\tilde{z}}(\tilde{z} = 0) = 0, \quad \frac{d\mu_\alpha}{d\tilde{z}}(\tilde{z} = 1) = 0 . \tag{2.3.13}
 # $$
 #
-# The contact force differs there: in the robot it jumps to zero, in the worm it continues unchanged. Each is
-# computed as in its section, and the other way round as a variant (question E2.10). Any sequence of regions is
-# possible, also with an advancing one at an end, where the one junction it has closes the system (assumption E2.12).
+# The condition on the contact force at a junction is not the same in both: in the robot it jumps to zero, in the worm it is
+# continuous. Each is computed as in its section of the thesis, and with the condition of the other as a variant (question
+# E2.10). Any sequence of regions is possible. An advancing region at an end has one junction, whose conditions close the
+# system (assumption E2.12).
 #
 # The states are plateaus joined by layers. Because $k_G / k_I$ in the worm and $k_G / (k_S - k_P)$ in the robot are
-# $R^2/8$, the layers are $R/\sqrt{8}$ long or shorter, some in the loaded worm less than half of that: thinner than the
-# body itself, a limit of the theory, which expects sections to change slowly (question E2.25).
+# $R^2/8$, the layers are at most $R/\sqrt{8}$ long. In the loaded worm some are less than half as long. The layers are
+# thinner than the body. This is a limit of the theory, which assumes that sections change slowly (question E2.25).
 
 # %%
 body = cosserat.case("worm_at_rest").vary(
@@ -162,10 +165,10 @@ print(
 # ## Two solvers
 #
 # The thesis writes the equations as a first-order system, maps all regions to one domain and uses a collocation method.
-# This solver is here too (`solver = "collocation"`, SciPy's `solve_bvp`), as the reference. Each stride needs a hundred
-# such problems; a banded Newton method solves them on spectral elements that are fine in the layers,
-# started from the last instant. Its weak form has the conditions on the gradients in it, and its quadrature points are its
-# nodes, so that the physics enters node by node.
+# The library has this solver as its reference (`solver = "collocation"`, SciPy's `solve_bvp`). A stride consists of a
+# hundred such problems. A banded Newton method solves them on spectral elements that are fine in the layers. It starts from
+# the state of the previous instant. Its weak form contains the conditions on the gradients as natural boundary conditions.
+# The quadrature points are the nodes, so each node has its own constitutive equations.
 
 # %% tags=["remove-input"]
 page.source(regions.solve)
@@ -198,16 +201,16 @@ lines.append(
     ("largest R mu_1'/mu_3 of the robot", f"{statistics_of(robot)['largest_sine_of_tilt']:.2f}")
 )
 least = np.sqrt(1 - statistics_of(banded)["largest_sine_of_tilt"] ** 2)
-lines.append(("least true volume in the worm's layers, over the reference", f"{least:.2f}"))
+lines.append(("smallest true volume in the worm's layers / reference volume", f"{least:.2f}"))
 page.table(lines, ("", "measured"))
 
 # %% [markdown]
-# The last line is the part of the true volume that the constraint on the product of the stretches keeps where sections tilt
-# against the centreline (erratum E2.11). Outside the layers the volume is kept, and the whole worm loses less than two parts
-# in a thousand.
+# The constraint on the product of the stretches does not conserve the true volume where sections tilt relative to the
+# centreline (erratum E2.11). The last row is the smallest ratio of true to reference volume. Outside the layers the volume is
+# conserved, and the whole worm loses less than two parts in a thousand.
 #
-# `cosserat speed` times a stride by both on your machine. Neither returns an answer that has not converged; loads that
-# would collapse a section are an error before anything is solved, with this sentence:
+# `cosserat speed` times a stride with both solvers on your machine. Both raise an error if they do not converge. Loads that
+# collapse a section are an error before the solution starts:
 
 # %%
 try:
@@ -221,10 +224,10 @@ page.source(instant.check_tilt)
 # %% [markdown]
 # ## Is the one material the limit of the other?
 #
-# As $\nu$ tends to $1/2$ the robot's material keeps $\mu_1 + \mu_2 + \mu_3 = 3$, which is $\mu_1 \mu_2 \mu_3 = 1$ for small
-# strains only. So there are two questions: how fast the two rods approach each other under small loads, and by how much
-# they differ under finite ones. The body is the worm's, both rods join their regions as in section 2.4 (the contact force
-# continues), and loads and weight are a fraction of the worm's.
+# As $\nu$ tends to $1/2$, the robot's material satisfies $\mu_1 + \mu_2 + \mu_3 = 3$. This equals $\mu_1 \mu_2 \mu_3 = 1$ for
+# small strains only. So there are two questions: how fast the difference of the two rods vanishes under small loads, and how
+# large it is under finite loads. The body is that of the worm, both rods have the junctions of section 2.4 (the contact
+# force is continuous), and loads and weight are a fraction of the worm's.
 
 # %% tags=["remove-input"]
 page.source(nearly_incompressible.largest_difference)
@@ -247,17 +250,17 @@ assert abs(by_gap - 1) < 0.01
 assert abs(by_load - 2) < 0.01
 page.text(
     f"Under a millionth of the loads the two rods differ by {small[0] / (2 * gaps[0]) / 1e-6:.2f} $(1 - 2\\nu)$ times that "
-    f"fraction of the loads, with a measured order of {by_gap:.2f} in $1 - 2\\nu$. With $\\nu$ at the limit they still differ: "
-    f"the difference grows as the power {by_load:.2f} of the load, because the sum of the stretches and their product differ by "
+    f"fraction of the loads, with a measured order of {by_gap:.2f} in $1 - 2\\nu$. With $\\nu$ at the limit they still differ. "
+    f"The difference grows as the power {by_load:.2f} of the load, because the sum of the stretches and their product differ by "
     f"products of two strains. Under a twentieth of the worm's loads a stretch differs by {100 * limit[-1]:.2f} %, under "
-    f"all of them by {100 * difference(0.5 - 1e-7, 1.0):.0f} %: a nearly incompressible robot is no worm."
+    f"the full loads by {100 * difference(0.5 - 1e-7, 1.0):.0f} %. So a nearly incompressible robot does not replace the worm."
 )
 
 # %% [markdown]
-# ## From the ground up
+# ## The shape on the ground
 #
-# The sections stand on the ground, so the centreline rises with them, and the arc between two sections projects on
-# the ground as
+# The sections stand on the ground, so the height of the centreline follows from the lateral stretch. The distance of two
+# sections along the ground is the projection of the arc between them:
 #
 # $$
 # x(\xi) = R(\mu_1(\xi) - 1) , \tag{2.5.7}
@@ -267,8 +270,8 @@ page.text(
 # z(\xi) - z(\xi_A) = \int_{\xi_A}^{\xi} \sqrt{\mu_3^2 - R^2 \mu_1'^2} \, d\bar{\xi} . \tag{2.5.8}
 # $$
 #
-# The page expects $\mu_3 \gg R \mu_1'$; in the layers it is not so, as the table above shows (erratum E2.19). At one
-# instant this fixes the shape. In the next chapter it moves.
+# The page assumes $\mu_3 \gg R \mu_1'$. In the layers this is not the case, as the table above shows (erratum E2.19). These
+# equations determine the shape at one instant. The next chapter computes the motion.
 
 # %% tags=["remove-cell"]
 assert case_of(banded).problem.loads.contact == "weight"

@@ -9,14 +9,13 @@
 # ---
 
 # %% [markdown]
-# # Chapter 3: what the calibration is
+# # Chapter 3: the calibration
 #
 # The thesis finds its seven coefficients by comparing the four static problems with closed forms: $c_1$ from the hanging
 # bar, $c_3, c_4, c_5$ from the beams, $c_2, c_6, c_7$ from necking, all at $N = 20$. It does not say what was minimised.
-# Here the same procedure is code: least squares over the vertices, in the logarithms of the coefficients. Each problem is
-# fitted alone, and both beams at once with their directors: the page calibrates "simultaneously" and says that the
-# second beam fortifies what the first one gives. It does not: alone the two ask for different coefficients, and together
-# for a third set (E3.23).
+# The library has a procedure: least squares over the vertices, in the logarithms of the coefficients. It fits each problem
+# alone, and both beams together with their directors, because the page calibrates "simultaneously" and says that the second
+# beam confirms the first. It does not: each beam alone gives other coefficients, and both together give a third set (E3.23).
 
 # %% tags=["remove-cell"]
 import numpy as np
@@ -38,8 +37,8 @@ page.rows("3.4.13")
 # %% [markdown]
 # ## Which coefficients do these problems determine?
 #
-# The singular values of the misfit's derivative say how much the answer changes when the logarithms of the coefficients
-# move by one along orthogonal directions, and their vectors say which directions these are. At $N = 20$:
+# The singular values of the derivative of the misfit are the changes of the answer when the logarithms of the coefficients
+# change by one along orthogonal directions. The singular vectors are these directions. At $N = 20$:
 
 # %% tags=["remove-input"]
 page.source(calibration.sensitivities)
@@ -66,23 +65,23 @@ for name in ("clamped_free", "clamped_clamped", "necking"):
     assert (values[:, 2] < 1e-5 * values[:, 1]).all()
 
 # %% [markdown]
-# The beams' displacements leave one direction entirely open: they depend on $c_4$ and $c_5$ through one number alone, the
-# stiffness of a hinge that is derived below. So the printed pair 2.01 and 1 is one of many that do the same.
-# Necking leaves one open too.
+# The displacements of the beams do not determine one direction: they depend on $c_4$ and $c_5$ through one number alone,
+# the stiffness of a hinge that is derived below. So the printed pair 2.01 and 1 is one of many with the same displacements.
+# Necking does not determine one direction either.
 
 # %% tags=["remove-input"]
 least = run.necking_directions[0, -1].to_numpy()
 assert (least > 0).all()
 page.text(
     f"Along it $c_2$ and $c_7$ grow together, {least[0]:.2f} and {least[2]:.2f}, and $c_6$ with them, {least[1]:.2f}: "
-    "the curve holds two numbers, how far the sections contract far from the end and how fast they come to that, and "
-    "three coefficients make them (the balance is derived below)."
+    "the curve has two numbers, the contraction far from the ends and the decay towards it, and they depend on three "
+    "coefficients (the balance is derived below)."
 )
 
 # %% [markdown]
-# ## The coefficients belong to the mesh
+# ## The coefficients depend on the mesh
 #
-# Under refinement the answers at the published coefficients move, and so do the coefficients that would be right.
+# Under refinement the answers at the published coefficients change, and so do the fitted coefficients.
 
 # %% tags=["remove-input"]
 page.figure(
@@ -102,9 +101,9 @@ lines = [
 page.table(lines, ("vertices", *(name.replace("_", " ") for name in calibration.ASSIGNED)))
 
 # %% [markdown]
-# The fitted coefficients, and the remaining misfit, as the root mean square over the vertices and a fraction of the largest
-# ordinate. Along an open direction a fit stays near its start, the published set; so of $c_4$ and $c_5$ one
-# alone means something, and two of the three of necking.
+# The table has the fitted coefficients and the remaining misfit, a root mean square over the vertices as a fraction of the
+# largest ordinate. Along an undetermined direction a fit stays near its start, which is the published set. So only one of
+# $c_4$ and $c_5$ is determined, and two of the three coefficients of necking.
 
 # %% tags=["remove-input"]
 lines = [
@@ -125,7 +124,8 @@ lines = [
 page.table(lines, ("problem", "vertices", *every, "misfit"))
 
 # %% [markdown]
-# Why? Let $\alpha$ be the angle of the tangent. In the limit of many vertices the energy of a bent rod is
+# The reason is in the energy. Let $\alpha$ be the angle of the tangent. In the limit of many vertices the energy of a bent
+# rod is
 #
 # $$
 # \Pi = \int \left( \tfrac12 k_3 \alpha'^2 + \tfrac12 k_4 \vartheta^2 + \tfrac12 k_5 \vartheta'^2 \right) d\xi .
@@ -133,10 +133,10 @@ page.table(lines, ("problem", "vertices", *every, "misfit"))
 #
 # The director appears in $\vartheta$ alone and carries no load, so $k_5 \vartheta'' = k_4 \vartheta$: shear is not
 # proportional to the shear force, as in Timoshenko's beam, but is confined to a layer of width $\sqrt{k_5/k_4}$ beside the
-# clamp that fixes the director, $\vartheta = -\alpha(0)\, e^{-\xi \sqrt{k_4/k_5}}$. The layer's energy,
-# $\tfrac12 \sqrt{k_4 k_5}\, \alpha(0)^2$, is that of a hinge with a spring: it sees the product of $k_4$ and $k_5$ alone,
-# and the moment $M$ at the clamp rotates the whole beam by $M / \sqrt{k_4 k_5}$. Nothing else shears. A mesh that does
-# not resolve the layer makes the hinge stiffer, and the published coefficients balance that at $N = 20$.
+# clamp that fixes the director, $\vartheta = -\alpha(0)\, e^{-\xi \sqrt{k_4/k_5}}$. The energy of the layer,
+# $\tfrac12 \sqrt{k_4 k_5}\, \alpha(0)^2$, is that of a hinge with a spring. It depends only on the product of $k_4$ and $k_5$,
+# and the moment $M$ at the clamp rotates the whole beam by $M / \sqrt{k_4 k_5}$. The rest of the beam does not shear. A mesh
+# that does not resolve the layer makes the hinge stiffer; the published coefficients compensate that at $N = 20$.
 
 # %% tags=["remove-input"]
 page.source(beams.clamped_free_tip_of_published_rod)
@@ -145,8 +145,8 @@ page.source(beams.clamped_free_tip_of_published_rod)
 last, step = float(run.clamped_free_published[-1]), float(np.diff(run.clamped_free_published)[-1])
 assert abs(last + step - limit(run)) < 2e-3
 page.text(
-    f"The clamped-free tip tends to {limit(run):.4f} of Timoshenko's by this formula; extrapolated from the two finest "
-    f"meshes above it is {last + step:.4f}."
+    f"By this formula the clamped-free tip tends to {limit(run):.4f} of Timoshenko's. The extrapolation from the two finest "
+    f"meshes above is {last + step:.4f}."
 )
 
 # %% [markdown]
@@ -158,8 +158,8 @@ page.text(
 # $$
 #
 # so the section stretch goes from the fixed end to its far value $\lambda_\infty$ as $e^{-\beta\xi}$ with
-# $\beta^2 = (2k_2 - k_7^2/2k_1)/k_6$. The printed $\beta$ of (3.5.9) then needs one value of $c_6$. At $N = 20$ a single
-# vertex lies in the layer and another value fits; where the layer is resolved the fit comes to the derived one.
+# $\beta^2 = (2k_2 - k_7^2/2k_1)/k_6$. The printed $\beta$ of (3.5.9) then determines $c_6$. At $N = 20$ a single vertex lies
+# in the layer, and the fit gives another value. If the mesh resolves the layer, the fit gives the derived value.
 
 # %% tags=["remove-input"]
 from cosserat.data.dataset import case_of

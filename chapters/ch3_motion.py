@@ -11,8 +11,8 @@
 # %% [markdown]
 # # Chapter 3: the discrete planar rod in motion
 #
-# Each vertex moves with the mass of the part round it. With $X$ measured along the director and scaled so that its tip
-# is at $X = 1$, the section at vertex $K$ has the inertias
+# Each vertex has the mass of the part around it. The coordinate $X$ is measured along the director and is 1 at its tip.
+# The section at vertex $K$ has the inertias
 #
 # \begin{equation*}
 # \begin{gathered}
@@ -22,7 +22,7 @@
 # \end{gathered} \tag{3.3.28}
 # \end{equation*}
 #
-# which make up its mass matrix, and the rod obeys
+# which form its mass matrix. The equation of motion of the rod is
 #
 # $$
 # \mathbf{M} \ddot{\mathbf{q}} = \mathbf{F} . \tag{3.3.50}
@@ -46,8 +46,8 @@ page.source(hemingway.Hemingway.mass)
 # %% [markdown]
 # ## Conservation of energy and momentum
 #
-# The thesis integrates with an explicit Runge-Kutta method, whose step is bounded by the stiffest wave of the rod. That
-# method is here too (`rk45`, and `rk4` with a fixed step; a step beyond its limit is an error). The other method resolves
+# The thesis integrates with an explicit Runge-Kutta method. The highest frequency of the rod limits its step. The library
+# has that method too (`rk45`, and `rk4` with a fixed step; a step beyond its limit is an error). The other method resolves
 # the motion of interest only. It is the midpoint rule with stresses of the mean strains,
 #
 # \begin{equation*}
@@ -60,10 +60,11 @@ page.source(hemingway.Hemingway.mass)
 # \end{equation*}
 #
 # summed over the strains $s$. Stresses at the midpoint itself would be wrong: a pure rotation by an angle $t$ shortens the
-# midpoint's edges by $t^2/8$, for a thin rod a compression beyond buckling. With the means it rotates freely at 25 steps a
-# turn. A further force $\sigma \mathbf{z}$ makes the work of the elastic forces over the step equal the change of energy,
-# exactly: Gonzalez's discrete gradient. Along the step itself, $\mathbf{z}$ would push a flying rod; here it is the step less
-# its rigid part, so it has neither a resultant nor a moment, and momentum and angular momentum are conserved as well.
+# edges at the midpoint by $t^2/8$, which for a thin rod is a compression beyond buckling. With the mean strains it rotates
+# freely at 25 steps a turn. The force $\sigma \mathbf{z}$ makes the work of the elastic forces over the step exactly equal to
+# the change of energy: this is Gonzalez's discrete gradient. If $\mathbf{z}$ were the step itself, the force would have a
+# resultant. Here $\mathbf{z}$ is the step without its rigid part. So the force has neither a resultant nor a moment, and
+# momentum and angular momentum are conserved as well.
 
 # %% tags=["remove-input"]
 page.source(energy_momentum._solve_step)
@@ -101,9 +102,9 @@ page.source(energy_momentum._sigma)
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_13",
-    "Two shear stiffnesses. A kinetic energy oscillates twice as fast as its beam; the page calls the shorter of the "
-    "two the period of vibration. The band of $c_4 = 20$ in (a) is a shear mode that its start excites and its step does not "
-    "resolve, as the file itself warns.",
+    "Two shear stiffnesses. The kinetic energy oscillates twice as fast as the beam; the page calls the shorter of the "
+    "two the period of vibration. The band of $c_4 = 20$ in (a) is a shear mode that the start excites and the step does not "
+    "resolve. The stored file has a warning about it.",
 )
 
 # %% tags=["remove-input"]
@@ -128,15 +129,15 @@ page.table(
 )
 
 # %% [markdown]
-# The period of the computed motion is that of the lowest mode of the same rod, from its Hessian and its mass alone.
+# The period of the computed motion is that of the lowest mode of the same rod, which follows from its Hessian and its mass.
 # `modes` gives frequencies and shapes about any stable equilibrium; an unstable one, such as a column above Euler's
 # load, is an error.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_modes",
-    "The lowest modes of the beam with $c_4 = 20$, each at both extremes, at any amplitude: the shapes have no "
-    "size. In (c) the bar oscillates along itself.",
+    "The lowest modes of the beam with $c_4 = 20$, each at both extremes. The amplitude is arbitrary. In (c) the bar "
+    "oscillates along its axis.",
 )
 
 # %% tags=["remove-input"]
@@ -146,19 +147,19 @@ assert abs(found[0] / bernoulli - 1) < 0.1
 fine = beam.replace(rod=beam.rod.replace(vertices=10 * beam.rod.vertices)).modes(1).angular_frequency[0]
 assert fine < bernoulli < found[0]
 page.text(
-    f"By (3.5.15) the first of them would be {bernoulli:.1f} rad/s; it is {found[0]:.1f} rad/s with {beam.rod.vertices} "
-    f"vertices and {fine:.1f} rad/s with ten times as many. The published energy bends at interior vertices only, which leaves "
-    "half an edge at the clamp stiff; that wanes under refinement, and the hinge of the chapter on the calibration remains."
+    f"The lowest frequency is {bernoulli:.1f} rad/s by (3.5.15), {found[0]:.1f} rad/s with {beam.rod.vertices} vertices "
+    f"and {fine:.1f} rad/s with ten times as many. The published energy has bending at interior vertices only, so half an "
+    "edge at the clamp is rigid. This effect vanishes under refinement; the hinge of the chapter on calibration remains."
 )
 
 # %% [markdown]
 # ## Where the two integrators agree
 #
-# The start rotates all directors with the beam except the fixed one at the clamp. The tangent there is that of the first
-# edge, (3.3.9), which is already tilted; so the clamp's section starts sheared, and with $c_4 = 20$ shear is stiff. The
-# energy stored there becomes a vibration of the vertices beside the clamp, hundreds of times faster than the bending, which
-# no step for the bending can resolve. Here is a quarter of a period of that beam by both methods, from rest to
-# where it is fastest.
+# The initial state rotates all directors with the beam except the fixed one at the clamp. The tangent at the clamp is that of
+# the first edge, (3.3.9), which is tilted. So the section at the clamp is sheared initially, and with $c_4 = 20$ shear is
+# stiff. The energy stored there becomes a vibration of the vertices beside the clamp. It is hundreds of times faster than the
+# bending, and a step for the bending cannot resolve it. The following compares both methods over a quarter of a period, from
+# rest to the largest velocity.
 
 # %% tags=["remove-cell"]
 short = cosserat.case("vibration_c4_20").vary("short", duration="15 ms")
@@ -200,25 +201,25 @@ assert slow[0] < 5e-3 * slow[1]
 
 # %% tags=["remove-input"]
 page.text(
-    f"Of the start's energy {energy[0] / energy.sum():.0%} is in the first mode and {energy[stiff] / energy.sum():.0%} in a "
-    f"single one of {every.angular_frequency[stiff]:,.0f} rad/s, "
-    f"{2 * np.pi / every.angular_frequency[stiff] * 1e6:.0f} µs a period, while the implicit step is "
+    f"The first mode has {energy[0] / energy.sum():.0%} of the initial energy, and a single mode of "
+    f"{every.angular_frequency[stiff]:,.0f} rad/s has {energy[stiff] / energy.sum():.0%}. Its period is "
+    f"{2 * np.pi / every.angular_frequency[stiff] * 1e6:.0f} µs; the implicit step is "
     f"{beam.integrator.step * 1e6:.0f} µs. The tips agree to {tips[0] / tips[1]:.1%} of the amplitude and the "
     f"kinetic energies of the first mode to {slow[0] / slow[1]:.2%}. The whole kinetic energies differ by up to "
     f"{whole[0]:.2f} of {whole[1]:.1f} J: the long steps keep the energy of the fast vibration but not its phase. "
-    "The ripple on the curves of Fig. 3.13 is that, and belongs to the step as much as to the rod; the period does not."
+    "The ripple on the curves of Fig. 3.13 is this vibration. It depends on the step as well as on the rod; the period does not."
 )
 
 # %% [markdown]
 # ## Coming to rest
 #
-# The thesis found its equilibria by releasing the rods and "tuning the material damping towards critical". It gives no
-# form; we take a force $-c\, \mathbf{M} \dot{\mathbf{q}}$, $c = 2 \zeta \omega_1$, with the lowest frequency $\omega_1$ of
-# the supported rod and $\zeta = 1$. This damping multiplies all momenta by $e^{-ch/2}$ before and after each undamped step:
-# so every mode loses its energy at the rate $c$, also one that the step does not resolve, as long as
-# $c\, \omega h^2 < 8$. Inside the midpoint rule the damping of such a mode would be $1 + (\omega h/2)^2$ times too small. The
-# file stores the energy that the damping has taken. The four rods of the last chapter settle in the equilibria of Newton's
-# method, here by the implicit method; the explicit one of the thesis gives the same in many more steps.
+# The thesis finds its equilibria by releasing the rods and "tuning the material damping towards critical". It gives no
+# damping law. The library uses a force $-c\, \mathbf{M} \dot{\mathbf{q}}$, $c = 2 \zeta \omega_1$, with the lowest frequency
+# $\omega_1$ of the supported rod and $\zeta = 1$. It multiplies all momenta by $e^{-ch/2}$ before and after each undamped step.
+# So every mode loses its energy at the rate $c$, even if the step does not resolve it, as long as $c\, \omega h^2 < 8$.
+# Inside the midpoint rule the damping of such a mode would be $1 + (\omega h/2)^2$ times too small. The file stores the
+# dissipated energy. The four rods of the last chapter come to rest at the equilibria of Newton's method. The implicit method
+# computes this here; the explicit method of the thesis gives the same in many more steps.
 
 # %% tags=["remove-input"]
 page.animation("anim_relaxation", "Displacements × 20.")
@@ -244,7 +245,7 @@ page.table(
 # %% [markdown]
 # ## A rod in the air
 #
-# This rod has no supports: it is thrown up, spins, and bends in flight.
+# This rod has no supports. It is thrown up, spins and bends in flight.
 
 # %%
 thrown = cosserat.case("vibration_c4_20").vary(

@@ -11,8 +11,8 @@
 # %% [markdown]
 # # Chapter 3: rods that are not uniform
 #
-# The theory allows more than the published problems use. Each of these is a key of a case, and each has a test with an
-# answer known from elsewhere.
+# The theory allows more than the published problems use. Each of the following is a key of a case, and each has a test with
+# an independent answer.
 
 # %% tags=["remove-cell"]
 import numpy as np
@@ -32,8 +32,8 @@ from cosserat.thesis.book import page
 # $$
 #
 # and likewise for edges and for $I$, $E$, $G$ and $\nu$ (Table 3.1). Width, height, modulus, Poisson's ratio and density are
-# given at stations along the rod, relative to their nominal values, and are linear between them; two stations at one
-# place make a step, for a rod of several materials. The line density scales with density times area.
+# given at stations along the rod, relative to their nominal values, and are linear between them. Two stations at one place
+# give a step, as in a rod of several materials. The line density is proportional to density times area.
 
 # %% tags=["remove-input"]
 page.source(variation.lump)
@@ -98,9 +98,9 @@ assert arc[edge] < joint < arc[edge + 1]
 assert 0.3 * rod.young < of_edges.young[edge] < rod.young
 
 # %% [markdown]
-# The joint lies inside an edge, and there the averages of Table 3.1 cost accuracy: what adds up along a bar is compliance,
-# $1/EA$, and the table takes the mean of $E$. The error is of first order in the edge. The rod of Chapter 4 adds up
-# compliances and its error falls with the square of the edge. Beside the closed form, $u = \int n/EA\, d\xi$:
+# The joint lies inside an edge, and there the averages of Table 3.1 are inaccurate: the compliances $1/EA$ add up along a
+# bar, but the table takes the mean of $E$. The error is of first order in the edge length. The rod of Chapter 4 adds up
+# compliances, and its error falls with the square of the edge length. The comparison with $u = \int n/EA\, d\xi$:
 
 # %%
 problem = bar.problem
@@ -119,7 +119,7 @@ assert abs(added_up / exact - 1) < 1e-3
 # %% [markdown]
 # ## A centreline anywhere in the section
 #
-# The key `centreline` says how high it stands above the lower surface. If it misses the area centre, the first inertia
+# The key `centreline` is its height above the lower surface. If it does not pass through the area centre, the first inertia
 # ${}_K Y^{02}$ is not zero, the mass matrix couples positions and directors,
 #
 # \begin{equation*}
@@ -127,10 +127,10 @@ assert abs(added_up / exact - 1) < 1e-3
 # Y^{02} & 0 & Y^{22} & 0 \\ 0 & Y^{02} & 0 & Y^{22} \end{bmatrix} , \tag{3.3.43}
 # \end{equation*}
 #
-# and gravity pulls on the directors too. A rod thrown and spun keeps its momenta, its centre of mass flies straight, and
-# the centreline wobbles round it. The energy (3.4.11) has no coupling of stretching and bending for such a rod: its
-# stiffnesses only take $I$ about the centreline, and the thesis leaves the rest to calibration. The sag of a body does not
-# depend on the choice of its centreline, but that of this rod does.
+# and gravity acts on the directors too. A free rod conserves its momenta, its centre of mass moves on a straight line, and
+# the centreline rotates around it. The energy (3.4.11) has no coupling of stretching and bending for such a rod: only $I$ is
+# taken about the centreline, and the thesis leaves the rest to calibration. The sag of a body does not depend on the choice
+# of its centreline, but that of this rod does.
 
 # %% tags=["remove-input"]
 low = cosserat.case("clamped_free").vary("low", rod={"centreline": 0.2})
@@ -140,8 +140,8 @@ stiffer = 1 + 12 * (0.5 - body.centreline) ** 2
 assert abs(stiffer * sags[0] / sags[1] - 1) < 0.1
 page.text(
     f"With its centreline at {body.centreline:g} of the height the clamped-free beam sags {sags[0] / sags[1]:.2f} times as "
-    f"far as with the centreline in the middle, since $I$ is {stiffer:.2f} times as large. The consistent rod couples both, and "
-    "sags the same."
+    f"far as with the centreline in the middle, because $I$ is {stiffer:.2f} times as large. The consistent rod has the "
+    "coupling, and its sag does not change."
 )
 
 # %% [markdown]
@@ -154,21 +154,21 @@ page.text(
 # {}_K\mathbf{P}_{ext} = \frac{{}_K\mathbf{M}}{\|{}_K\mathbf{d}\|} \times {}_K\hat{\mathbf{d}} ,
 # $$
 #
-# where the page has
+# The page has
 #
 # $$
 # {}_K\mathbf{P}_{ext} = \frac{{}_K\mathbf{M}}{{}_K\lambda H} \times {}_K\hat{\mathbf{d}} , \tag{3.3.41}
 # $$
 #
-# half as much for a director that reaches the surface at half the height (E3.10).
+# which is half as much for a director that ends at the surface, at half the height (E3.10).
 
 # %% tags=["remove-input"]
 page.excerpt(couples._work, "terms[0] = 0.0", "energy: float")
 
 # %% [markdown]
-# Line loads act over any part of the rod. Fixed degrees of freedom may be moved (`prescribed_displacements`): to a new place
-# in statics, also sinusoidally in motion. A fixed section may be rotated through any angle (`prescribed_rotations`): moving
-# the components of its director along straight lines would stretch it.
+# Line loads act over any part of the rod. Fixed degrees of freedom may have prescribed displacements
+# (`prescribed_displacements`): to a new place in statics, and also sinusoidally in motion. A fixed section may be rotated
+# through any angle (`prescribed_rotations`); if the components of its director moved along straight lines, it would stretch.
 
 # %% tags=["remove-input"]
 page.source(dead.LineLoad.on_dofs)
@@ -179,10 +179,10 @@ page.source(constraints.RotatedDirector.place)
 # %% [markdown]
 # ## Curved references
 #
-# With the key `curvature` the reference is an arc, its directors along the Bishop vectors, so there is no intrinsic shear.
-# By section 3.2 intrinsic quantities are subtracted from the strains; (3.4.11) as printed charges the
-# whole curvature, and a curved rod would unbend by itself (E3.24). The library subtracts; the printed form is the variant
-# `intrinsic_curvature = "printed"`.
+# With the key `curvature` the reference is an arc. Its directors are along the Bishop vectors, so there is no intrinsic
+# shear. By section 3.2 intrinsic quantities are subtracted from the strains. The printed (3.4.11) depends on the whole
+# curvature, so a curved rod would straighten without a load (E3.24). The library subtracts the intrinsic curvature; the
+# printed form is the variant `intrinsic_curvature = "printed"`.
 
 # %%
 hook = cosserat.case("clamped_free").vary("hook", gravity=None, rod={"curvature": "0.3 m^-1"})

@@ -20,8 +20,8 @@
 # {}_K\mathbf{d} \cdot \mathbf{E}_3,\ {}_K\mathbf{d} \cdot \mathbf{E}_2 \,]^T , \tag{3.3.42}
 # $$
 #
-# and the section at a vertex can stretch and rotate by itself. A lower left index marks a quantity of a vertex, an upper
-# one a quantity of an edge.
+# and the section at a vertex can stretch and rotate independently. A lower left index marks a quantity of a vertex, an
+# upper one a quantity of an edge.
 
 # %% tags=["remove-cell"]
 import numpy as np
@@ -44,7 +44,7 @@ page.figure("fig_3_1", "The lower boundary of the body is the directorline refle
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_2",
-    "A body with $L \\gg D$. The centreline is close to its middle, not in it; hatched, one section.",
+    "A body with $L \\gg D$. The centreline is close to its middle, but not in it. Hatched: one section.",
 )
 
 # %% tags=["remove-input"]
@@ -94,19 +94,19 @@ page.figure(
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_4",
-    "Vertex 4 of the rod of Fig. 3.1(b), which curves down there: its turning angle is negative. Thick, its Voronoi length.",
+    "Vertex 4 of the rod of Fig. 3.1(b), which curves down there: its turning angle is negative. Thick: its Voronoi length.",
 )
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_6",
-    "Vertex 2 of the same rod. The angles go from the first edge to the second, and from the Bishop vector to the director, "
-    "which a couple on the section makes lean.",
+    "Vertex 2 of the same rod. The angles go from the first edge to the second, and from the Bishop vector to the director. "
+    "A couple on the section tilts the director.",
 )
 
 # %% [markdown]
-# The curvature alone would call an inflated ring less bent. Its product with the stretch counts angle per *reference*
-# length and stays constant, so the energy uses it.
+# The curvature of an inflated ring decreases. Its product with the stretch is the angle per *reference* length and stays
+# constant, so the energy uses it.
 
 # %% tags=["remove-input"]
 page.figure("fig_3_5", "A rod bent into a ring, then inflated.")
@@ -115,8 +115,8 @@ page.figure("fig_3_5", "A rod bent into a ring, then inflated.")
 page.rows("F3.5")
 
 # %% [markdown]
-# The library measures a configuration in one function; the arc cosines with their separate signs (3.3.18) and (3.3.26)
-# become one arc tangent, which keeps its digits at small angles.
+# One function of the library computes these strains. It replaces the arc cosines with their separate signs (3.3.18) and
+# (3.3.26) by one arc tangent, which is accurate at small angles.
 
 # %% tags=["remove-input"]
 page.source(reference.strains)
@@ -138,15 +138,15 @@ page.source(reference.strains)
 # \end{aligned} \tag{3.4.11}
 # \end{equation*}
 #
-# The page has a vertex stretch in the first term (E3.1). It also has twice the last one, which the published coefficient
-# does not fit; half the coupling is one of two ways to read that, and they are the same rod (E3.2). The
-# kernel has it term by term, with the first and second derivatives by the strains that forces and stiffness
-# need. `stretching` and `squared_tangent` return the value and two derivatives of $s^2 - s + s^{-1} - 1$ and $\tan^2$.
+# The page has a vertex stretch in the first term (E3.1). It also has twice the last term, which does not agree with the
+# published coefficient. Half the coupling and half the coefficient are two readings of the same rod (E3.2). The kernel
+# computes the energy term by term, with the first and second derivatives by the strains, for forces and stiffness.
+# `stretching` and `squared_tangent` return the value and two derivatives of $s^2 - s + s^{-1} - 1$ and $\tan^2$.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_7",
-    "Both grow without bound where matter would pass through itself; dashed, their form for small strains.",
+    "Both tend to infinity where matter would penetrate itself. Dashed: their form for small strains.",
 )
 
 # %% [markdown]
@@ -157,15 +157,15 @@ page.figure(
 page.rows("F3.7")
 
 # %% [markdown]
-# This does not prevent two neighbouring sections from shearing, or bending (E3.31), into each other. For such cases the
-# page proposes an energy that grows without bound as their upper ends meet,
+# This does not prevent two neighbouring sections from crossing by shear or by bending (E3.31). For such cases the page
+# proposes an energy that tends to infinity as their upper ends meet,
 #
 # $$
 # \|{}_{K+1}\mathbf{d} + {}^K\mathbf{e} - {}_K\mathbf{d}\| \rightarrow 0 ,
 # $$
 #
-# and, for a centreline close to the upper surface, as their lower ends do (E3.30). Neither energy of this library has such
-# a term. Instead an answer whose sections cross, at either surface, is an error: at rest, along a path, and in motion at
+# and, for a centreline close to the upper surface, as their lower ends meet (E3.30). Neither energy of this library has such
+# a term. Instead the library raises an error if sections cross at either surface: at rest, along a path, and in motion at
 # the stored instants.
 
 # %% tags=["remove-input"]
@@ -190,19 +190,19 @@ page.excerpt(hemingway_kernel.assemble, "# Second pass", "# Third pass")
 page.excerpt(hemingway_stiffness.stiffnesses, "end_factor = ", "    )")
 
 # %% [markdown]
-# ## Forces, and rest
+# ## Forces and equilibrium
 #
-# Forces are minus the gradient of that energy,
+# The forces are minus the gradient of that energy,
 #
 # $$
 # {}_K\mathbf{F}_{int} = -\frac{\partial \hat\Pi_e}{\partial\, {}_K\mathbf{x}}, \qquad
 # {}_K\mathbf{P}_{int} = -\frac{\partial \hat\Pi_e}{\partial\, {}_K\mathbf{d}} , \tag{3.4.7}
 # $$
 #
-# exactly: the printed lists (3.4.17)-(3.4.19) are not that gradient (E3.4 to E3.8), so the library does not use
-# them. At rest the forces balance the loads. The thesis lets the rod vibrate until damping has settled it; here the load
-# grows from zero, in increments that the path before them predicts, and Newton's method corrects each with the exact
-# Hessian of the same kernel. So the answer is the one that the growing load leads to, even if there are others.
+# The printed lists (3.4.17)-(3.4.19) are not that gradient (E3.4 to E3.8), so the library does not use them. In equilibrium
+# the forces balance the loads. In the thesis the rod vibrates until damping has brought it to rest. Here the load grows from
+# zero in increments. The path before an increment predicts its end, and Newton's method corrects the prediction with the
+# exact Hessian of the same kernel. If there are several equilibria, the answer is the one that the growing load leads to.
 
 # %% tags=["remove-input"]
 page.source(incremental._by_increments)
@@ -216,14 +216,14 @@ page.source(incremental._by_increments)
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_8",
-    "Computed equilibria, magnified as the titles say; the directors are those of the continuous theory, of unit length in "
-    "the reference. In (d) the published rod stretches less than $n\\ell/EA$, next to which the consistent one ends.",
+    "Computed equilibria, magnified as the titles say. The directors are those of the continuous theory, of unit length in "
+    "the reference. In (d) the published rod stretches by less than $n\\ell/EA$, the consistent one by nearly that.",
 )
 
 # %% [markdown]
 # ### A hanging bar
 #
-# With $\nu = 0$ only the first term works, and in small displacements
+# With $\nu = 0$ only the first term does not vanish, and for small displacements
 #
 # $$
 # \mathbf{u} \cdot \mathbf{E}_3 = \frac{\rho_0 g \ell^2}{EA} \left( \frac{\xi}{\ell} - \frac12 \frac{\xi^2}{\ell^2} \right) .
@@ -234,15 +234,18 @@ page.figure(
 page.source(beams.hanging_bar_displacement)
 
 # %% tags=["remove-input"]
-page.figure("fig_3_9", "Left, displacement; right, computed less analytic in millionths of the tip.")
+page.figure(
+    "fig_3_9",
+    "Left: displacement. Right: computed minus analytic in millionths of the tip's displacement.",
+)
 
 # %% tags=["remove-input"]
 page.rows("F3.9")
 
 # %% [markdown]
-# The weights lumped at the vertices give the linear solution exactly at every $N$. What remains is the energy itself:
-# $f_1 = EA(\varepsilon - \tfrac34 \varepsilon^2 + \ldots)$ makes the bar a little softer in tension, and integrating along
-# the bar raises the tip by half the strain at the clamp.
+# The weights lumped at the vertices give the linear solution exactly at every $N$. The difference comes from the energy:
+# $f_1 = EA(\varepsilon - \tfrac34 \varepsilon^2 + \ldots)$ makes the bar a little softer in tension. Integrated along the
+# bar, this increases the displacement of the tip by a fraction of half the strain at the clamp.
 
 # %% tags=["remove-input"]
 bar = page.data("hanging_bar")
@@ -250,7 +253,7 @@ computed, exact = readouts.hanging_bar_curve(bar)
 at_clamp = (bar.mu_edge[0].item() - 1) * 20 / 19.5
 assert abs((computed[-1] / exact[-1] - 1) / (at_clamp / 2) - 1) < 0.01
 page.text(
-    f"Tip over analytic less one: {computed[-1] / exact[-1] - 1:.3g}; half the strain at the clamp: {at_clamp / 2:.3g}."
+    f"Tip over analytic, minus one: {computed[-1] / exact[-1] - 1:.3g}; half the strain at the clamp: {at_clamp / 2:.3g}."
 )
 
 # %% [markdown]
@@ -272,19 +275,23 @@ page.text(
 # \sigma_1 = \frac{\rho_0 g \ell^3}{EI} , \qquad \sigma_2 = \frac{2(1+\nu) \rho_0 g \ell}{kEA} . \tag{3.5.5}
 # $$
 
-# The closed form has directors of unit length, the rod's reach the lateral surface. The page scales by the height $H$,
+# The closed form has directors of unit length; the directors of the rod end at the lateral surface. The page scales by the
+# height $H$,
 #
 # $$
 # {}^K\boldsymbol{\delta} = {}^K\mathbf{d} - {}^K\mathbf{D} = {}^K H\, \boldsymbol{\delta}({}_K\xi) , \tag{3.5.1}
 # $$
 #
-# but from a centreline half-way up the surface is at $H/2$, which the figures use (E3.11).
+# but from a centreline in the middle the surface is at $H/2$, which the figures use (E3.11).
 
 # %% tags=["remove-input"]
 page.source(beams.clamped_free_displacement)
 
 # %% tags=["remove-input"]
-page.figure("fig_3_10", "Filled, our reading of eq. (3.4.10); hollow, the end areas halved as printed.")
+page.figure(
+    "fig_3_10",
+    "Filled: full end areas, our reading of eq. (3.4.10). Hollow: the end areas halved as printed.",
+)
 
 # %% tags=["remove-input"]
 page.rows("F3.10")
@@ -306,21 +313,24 @@ page.rows("F3.10")
 page.source(beams.clamped_clamped_displacement)
 
 # %% tags=["remove-input"]
-page.figure("fig_3_11", "The same two readings between two clamps, against eqs. (3.5.6) and (3.5.7).")
+page.figure(
+    "fig_3_11", "The same two readings between two clamps, compared with eqs. (3.5.6) and (3.5.7)."
+)
 
 # %% tags=["remove-input"]
 page.rows("F3.11")
 
 # %% [markdown]
-# The two figures cannot both be had. The page halves the areas of the boundary vertices,
+# No reading agrees with both figures. The page halves the areas of the boundary vertices,
 #
 # $$
 # {}_0 A = \frac{{}^0 A}{2} , \qquad {}_{N-1} A = \frac{{}^{N-2} A}{2} , \tag{3.4.10}
 # $$
 #
-# which are then multiplied by half lengths: a clamped end keeps a quarter of an edge's shear stiffness (E3.9). One
-# clamp is fitted without the second halving, two clamps with it. Nor does the shear correction, which the page gives for
-# no beam, bring them together: with $k = 1$ in model and formula both move the other way (E3.17).
+# and these are then multiplied by half lengths: a clamped end has a quarter of the shear stiffness of an edge (E3.9). The
+# beam with one clamp agrees without the second halving, the beam with two clamps agrees with it. The page does not give the
+# shear correction of the beams. Another value does not help: with $k = 1$ in model and formula both results change in the
+# other direction (E3.17).
 
 # %% tags=["remove-input"]
 fitted, lines = ("clamped_free", "clamped_clamped"), []
@@ -353,10 +363,10 @@ page.table(
 )
 
 # %% [markdown]
-# The reason lies in the energy. Bending is charged to the centreline alone, so a director carries no moment: the shear
-# angle is free of load except in a layer of width $\sqrt{k_5/k_4}$ beside a clamp, where the clamped director pulls on the
-# centreline. The deformation in that layer depends on how many edges resolve it, and so does the answer: the coefficients
-# belong to this rod at $N = 20$, not to the material.
+# The reason is in the energy. Its bending term depends on the centreline alone, so a director carries no moment. The shear
+# angle vanishes except in a layer of width $\sqrt{k_5/k_4}$ beside a clamp, where the clamped director acts on the
+# centreline. The deformation in that layer depends on the number of edges in it, and so does the answer: the coefficients
+# are properties of this rod at $N = 20$, not of the material.
 
 # %% tags=["remove-input"]
 rod = page.data("clamped_free").pipe(case_of).problem.rod
@@ -367,7 +377,7 @@ page.text(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f}
 # %% [markdown]
 # ### Necking
 #
-# A bar pulled by $n$ contracts across, except at its ends, where the sections are fixed:
+# A bar under the tension $n$ contracts laterally, except at its ends, where the sections are fixed:
 #
 # $$
 # \lambda - 1 = \frac{\nu n}{EA} \left( \frac{\cosh \beta(\xi - \ell/2)}{\cosh (\beta\ell/2)} - 1 \right) ,
@@ -378,8 +388,8 @@ page.text(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f}
 # \beta^2 = \frac{A(1+\nu)}{I(1-\nu)} , \tag{3.5.9}
 # $$
 #
-# where (3.5.8) is rearranged so that it keeps its digits in doubles (E3.14), and (3.5.9) is printed; balance of director forces
-# gives other squares, twice the printed one for two equal lateral stretches (E3.13).
+# where (3.5.8) is rearranged so that it is accurate in double precision (E3.14). (3.5.9) is as printed. The balance of
+# director forces gives other values of $\beta^2$: twice the printed one for two equal lateral stretches (E3.13).
 
 # %% tags=["remove-input"]
 page.source(beams.necking_decay)
@@ -387,9 +397,10 @@ page.source(beams.necking_decay)
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_12",
-    "Left scales, the section's strain; right scales, the displacement of the lateral surface relative to the centreline, the "
-    "director displacement of the text. The published rod is compared with (3.5.9) as printed, the consistent one, whose sections are "
-    "free to contract, follows the decay of a free section. (c) the Poisson term of (3.4.11) as printed.",
+    "Left scales: the strain of the section. Right scales: the displacement of the lateral surface relative to the centreline, "
+    "the director displacement of the text. The published rod is compared with (3.5.9) as printed. The consistent one has "
+    "sections that are free to contract and is compared with the decay of a free section. (c) The Poisson term of (3.4.11) as "
+    "printed.",
 )
 
 # %% tags=["remove-input"]
@@ -398,9 +409,9 @@ page.rows("F3.12")
 # %% [markdown]
 # Far from the ends the linear rod has $\lambda - 1 = -\frac{n}{M}\, \frac{r}{1 - r^2}$ with
 # $M = EA\frac{1-\nu}{(1+\nu)(1-2\nu)}$ and $r$ the coupling over $M$. With the page's factor 2 in (3.4.11), $r = c_7
-# \frac{\nu}{1-\nu}$; with half of it the published $c_7 = 1.66$ lands on the page's curve. Half the coefficient in the
-# printed energy does the same, and is the same rod; three printed places speak for the coupling and one number against
-# it, so which of the two was meant stays a question (E3.2).
+# \frac{\nu}{1-\nu}$; with half of it the published $c_7 = 1.66$ agrees with the page's curve. Half the coefficient in the
+# printed energy does the same, and is the same rod. Three places of the page have the printed coupling, and one number
+# contradicts it, so it is an open question which of the two was meant (E3.2).
 
 # %% tags=["remove-input"]
 necked = case_of(page.data("necking")).problem.rod
@@ -418,10 +429,10 @@ page.text(
 )
 
 # %% [markdown]
-# The bar itself grows by less than $n \ell / EA$: with Poisson's ratio 0.3 three coefficients share in its stiffness, and
-# $c_1$ was validated where that ratio is zero (E3.26).
+# The bar lengthens by less than $n \ell / EA$: with Poisson's ratio 0.3 three coefficients contribute to its stiffness, and
+# $c_1$ was validated at a ratio of zero (E3.26).
 #
-# ## How the equilibria were found
+# ## Convergence of Newton's method
 
 # %% tags=["remove-input"]
 lines = []

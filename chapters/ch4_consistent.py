@@ -11,25 +11,25 @@
 # %% [markdown]
 # # A rod that converges
 #
-# The published rod is right where it was tuned: at 20 vertices, for beams like the thesis's. This page is about a rod of the
-# same degrees of freedom, a place and a director at each vertex, whose coefficients follow from $E$, $\nu$ and the section, and whose
-# answers approach exact ones as the mesh is refined. Use it for your own rod: `rod.energy =
+# The published rod is accurate at the mesh of its calibration: 20 vertices, for beams like those of the thesis. This page is
+# about a rod with the same degrees of freedom, a position and a director at each vertex. Its coefficients follow from $E$,
+# $\nu$ and the section, and its answers converge to exact ones under refinement. Use it for your own rod: `rod.energy =
 # "consistent"`.
 #
-# ## Why the published coefficients move with the mesh
+# ## Why the published coefficients depend on the mesh
 #
-# In (3.4.11) bending is charged on the turning of the centreline, and the director carries no load of its own. Let $\alpha$ be
-# the angle of the tangent and $\vartheta$ that of shear. In the limit of many vertices the energy is that of
-# $k_3 \alpha'^2 + k_4 \vartheta^2 + k_5 \vartheta'^2$, so that $k_5 \vartheta'' = k_4 \vartheta$: shear is not proportional to
-# the shear force, but is confined to a layer beside a clamp, $\sqrt{k_5 / k_4}$ long, that acts as a hinge of stiffness
-# $\sqrt{k_4 k_5}$ between clamp and tangent. What is missing is the cross term of $EI (\alpha' + \vartheta')^2$: bending must be
-# charged on the turning of the *director*. With 20 vertices the layer is about one edge long, and four coefficients can make
-# up for it there.
+# In (3.4.11) the bending energy depends on the rotation of the centreline, and the director carries no moment. Let $\alpha$
+# be the angle of the tangent and $\vartheta$ that of shear. In the limit of many vertices the energy is that of
+# $k_3 \alpha'^2 + k_4 \vartheta^2 + k_5 \vartheta'^2$, so that $k_5 \vartheta'' = k_4 \vartheta$. Shear is not proportional to
+# the shear force, but is confined to a layer beside a clamp. The layer is $\sqrt{k_5 / k_4}$ long and acts as a hinge of
+# stiffness $\sqrt{k_4 k_5}$ between clamp and tangent. The energy lacks the cross term of $EI (\alpha' + \vartheta')^2$:
+# bending must depend on the rotation of the *director*. With 20 vertices the layer is about one edge long, and four
+# coefficients can compensate it.
 #
 # ## The energy, term by term
 #
-# An edge $\mathbf{e}$ of reference length $h$ is measured in the frame of the director $\mathbf{m}$ half-way between those of
-# its ends, as Reissner measures a beam:
+# The strains of an edge $\mathbf{e}$ of reference length $h$ are those of Reissner's beam, in the frame of the director
+# $\mathbf{m}$ half-way between those of its ends:
 #
 # $$
 # a = \frac{\mathbf{e} \times \mathbf{m}}{h} , \qquad g = \frac{\mathbf{e} \cdot \mathbf{m}}{h} , \qquad
@@ -37,13 +37,13 @@
 # $$
 #
 # - *Stretch and volume.* $2\mu A (a-1)^2$ on edges, $2\mu A (\lambda-1)^2$ at vertices, and
-#   $\Lambda A (a - 1 + \bar\lambda - 1)^2$ on edges with the mean $\bar\lambda$ of both ends: on edges alone the Poisson effect
-#   would lock near $\nu = \tfrac12$, here it does not.
-# - *Shear.* $k \mu A\, g^2$, of the edge against the mean director, which cannot lock: a thin rod bends as easily as it should.
+#   $\Lambda A (a - 1 + \bar\lambda - 1)^2$ on edges with the mean $\bar\lambda$ of both ends. With section stretches on edges
+#   alone the Poisson effect would lock near $\nu = \tfrac12$; here it does not.
+# - *Shear.* $k \mu A\, g^2$, of the edge relative to the mean director. This term does not lock in thin rods.
 # - *Bending.* $EI\, T^2 / h$, of the directors.
-# - *A centreline anywhere.* If it misses the area centres, edges run between those, at $\mathbf{x} + Y^{02}\mathbf{d}$: the
-#   body does not depend on the choice of its centreline. If the height varies along an edge, both ends of the edge are as far
-#   off the centreline as the one axis in it that tension does not bend.
+# - *A centreline anywhere.* If it does not pass through the area centres, edges run between the area centres, at
+#   $\mathbf{x} + Y^{02}\mathbf{d}$. So the body does not depend on the choice of its centreline. If the height varies along an
+#   edge, both ends of the edge have the distance from the centreline at which tension causes no bending.
 # - *Gradients of the section stretch.* $\mu I (\Delta\lambda)^2 / h$, the $k_{11}$ of Chapter 1.
 
 # %% tags=["remove-cell"]
@@ -61,22 +61,24 @@ from cosserat.thesis.table import readouts
 page.excerpt(reissner_kernel.assemble, "wide = (end_a", "if measuring")
 
 # %% [markdown]
-# A section may be free to contract in $\mathbf{E}_1$ (`lateral_constraint = "free"`: then $\Lambda = E\nu/(1-\nu^2)$, a pulled bar answers with
-# $EA$ and necks by $-\nu n / EA$), it may keep its width (`"plane strain"`: Lamé's $\Lambda$, and $EI/(1-\nu^2)$ in bending), or
-# it may keep its area in the plane, edge by edge (`"incompressible"`: stretch along times stretch across is one, by a penalty
-# of $10^5 \cdot 2\mu A$ on $a \bar\lambda - 1$ in place of $a + \bar\lambda - 2$). The output says which. With
-# `barrier = true` the stretches and the rotations resist collapse as in Fig. 3.7; that changes nothing to second order in
-# the strains, nothing in the limit of many edges for bending, and it stiffens large stretches.
+# The key `lateral_constraint` has three values. With `"free"` a section is free to contract in $\mathbf{E}_1$: then
+# $\Lambda = E\nu/(1-\nu^2)$, and a bar in tension has the stiffness $EA$ and the lateral strain $-\nu n / EA$. With
+# `"plane strain"` it keeps its width: $\Lambda$ is Lamé's, and the bending stiffness is $EI/(1-\nu^2)$. With
+# `"incompressible"` each edge keeps its area in the plane: axial stretch times lateral stretch is one, by a penalty of
+# $10^5 \cdot 2\mu A$ on $a \bar\lambda - 1$ in place of $a + \bar\lambda - 2$. The output says which. With `barrier = true`
+# the stretches and the rotations resist collapse as in Fig. 3.7. To second order in the strains this changes nothing. In the
+# limit of many edges it does not change bending. It stiffens large stretches.
 #
-# The decay of a necked end, (3.5.9), is settled by this energy: one director in a section that is free in $\mathbf{E}_1$ gives
-# $\beta^2 = 2(1+\nu)A/I$, in plane strain $2A/(I(1-\nu))$; the page has half of what two directors give.
+# This energy determines the decay of a necked end, (3.5.9): one director in a section that is free in $\mathbf{E}_1$ gives
+# $\beta^2 = 2(1+\nu)A/I$, in plane strain $2A/(I(1-\nu))$. The page has half of the value for two directors.
 #
-# ## It converges
+# ## Convergence
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_convergence",
-    "Every measure falls with the square of the edge. The published rod's error does not fall: it grows towards its limit.",
+    "Every error of the consistent rod falls with the square of the edge length. The error of the published rod does not "
+    "fall: it grows to a limit.",
 )
 
 # %% tags=["remove-input"]
@@ -97,7 +99,7 @@ page.table(
 # %% [markdown]
 # ## The problems of section 3.5 without calibration
 #
-# The figures of the last chapters carry this rod as green diamonds, beside the published one.
+# The figures of the last chapters show this rod as green diamonds, beside the published one.
 
 # %% tags=["remove-input"]
 page.rows("C-3")
@@ -105,9 +107,9 @@ page.rows("C-3")
 # %% [markdown]
 # ## Large deflections
 #
-# A slender rod rotates a lot and hardly stretches. Its energy is a narrow, curved valley, where a line search is slow;
-# full Newton steps cross it. The load grows in increments, in each of which a section may rotate by 0.7 rad. An increment
-# is accepted if the rates of rotation before it predict its end, and if the rod is stable there:
+# A slender rod rotates a lot and hardly stretches. Its energy is a narrow, curved valley, where a line search is slow, so
+# the solver takes full Newton steps. The load grows in increments. In each of them a section may rotate by 0.7 rad. An
+# increment is accepted if the rates of rotation before it predict its end, and if the rod is stable there:
 
 # %% tags=["remove-input"]
 lines = []
@@ -117,20 +119,20 @@ for name in ("elastica", "roll_up"):
 page.table(lines, ("problem", "Newton iterations", "increments refused"))
 
 # %% tags=["remove-input"]
-page.figure("fig_far", "Dotted: the reference. Light: points of the path on the way.")
+page.figure("fig_far", "Dotted: the reference configuration. Light: intermediate points of the path.")
 
 # %% tags=["remove-input"]
 page.rows("C-e", "C-r", "C-column")
 
 # %% [markdown]
 # If the next equilibrium is unstable, bisection locates the load at which the rod loses its stability, and the rod continues
-# along its softest motion there. An imperfection decides the side, of any size above round-off: a force of $10^{-9}$ N
-# across a column under 18 N. A rod without any may go to either side, and its answer has a warning. If a load cannot be
-# reached, the error has the load that was reached and the last state.
+# along its softest mode there. An imperfection of any size above round-off decides the side, such as a lateral force of
+# $10^{-9}$ N on a column under 18 N. A rod without an imperfection may go to either side, and its answer has a warning. If a
+# load cannot be reached, the error has the largest load and the last state.
 #
 # ## Along the path
 #
-# A case of kind `rod path` traces the equilibria themselves by arcs, through limit points:
+# A case of kind `rod path` follows the equilibria by arc-length continuation, through limit points:
 
 # %% tags=["remove-input"]
 page.source(continuation._corrected)
@@ -148,7 +150,7 @@ bent = cosserat.run(
     )
 )
 print(
-    f"at ten times the load of the figure the tip moves sideways by {float(bent.u.sel(axis='E2')[-1]):.4f} m"
+    f"At ten times the load of the figure the lateral displacement of the tip is {float(bent.u.sel(axis='E2')[-1]):.4f} m."
 )
 
 # %% tags=["remove-cell"]
@@ -157,19 +159,19 @@ assert readouts.buckling_ratio(page.data("column_path")).max() > 1.5
 # %% [markdown]
 # ## Motion
 #
-# The integrator of Chapter 3 moves this rod too.
+# The integrator of Chapter 3 also computes the motion of this rod.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_tumbling",
-    "Thrown, spinning, bent. Dashed: the tolerance of the energy. Momenta are conserved to round-off.",
+    "A rod in free flight, which spins and bends. Dashed: the tolerance of the energy. Momenta are conserved to round-off.",
 )
 
 # %% [markdown]
-# ## Thin, and hardly compressible
+# ## No locking in thin and nearly incompressible rods
 #
-# No locking: the error at 20 edges against the exact answer, for thinner and thinner rods across, and for sections that
-# change their volume less and less in a necked bar.
+# The first table has the error at 20 edges of thin rods under a lateral force. The second has the error of a necked bar as
+# its material becomes incompressible.
 
 # %% tags=["remove-input"]
 lines = []
@@ -182,7 +184,7 @@ for side in (1e-1, 1e-2, 1e-3, 1e-4):
     problem = problem.replace(forces=({"at": "last", "along": "E2", "force": unit},))
     exact, _ = elastica.shearable_tip(1.0, beam.axial_stiffness / unit, beam.shear_stiffness / unit)
     lines.append((f"{side:g}", f"{abs(problem.solve('thin')['u'][-1, 1] / exact - 1):.1e}"))
-page.table(lines, ("thickness over length", "error of the tip across"))
+page.table(lines, ("thickness over length", "error of the tip's lateral displacement"))
 
 # %% tags=["remove-input"]
 lines = []
@@ -200,8 +202,8 @@ page.table(lines, ("1 - 2 nu", "error of the section strain far from the ends, p
 # %% [markdown]
 # ## Limits
 #
-# Sections stay plane and stretch uniformly: a section that warps, or bends across itself as a wide strip does when it is
-# bent, is not described, as section 1.2 of the thesis warns. The rod is planar, has no contact, no actuators and no
-# branches; other omissions of the thesis are on the page *What is left out*. Its law is linear in its own measures, which are
-# not those of any material at strains of order one. Speed beside other packages is measured by `snakemake peers`, which
-# needs a network and is the next page; `cosserat speed` times this machine alone.
+# Sections stay plane and stretch uniformly. The model does not describe a section that warps or bends, as that of a wide
+# strip in bending does; section 1.2 of the thesis warns of this. The rod is planar, has no contact, no actuators and no
+# branches; the page *What is left out* lists other omissions of the thesis. The constitutive law is linear in the strains of
+# this rod. At strains of order one it is not that of any material. `snakemake peers` compares the speed with other packages
+# and needs a network; the next page has its results. `cosserat speed` times this machine alone.

@@ -9,18 +9,17 @@
 # ---
 
 # %% [markdown]
-# # Beside other packages
+# # Comparison with other packages
 #
-# `snakemake peers` makes an environment of its own with Exudyn and PyElastica, which needs a network, and solves the same
-# problems with them and with the consistent rod, in one go on one machine: (a) the clamped-free beam of section 3.5 under
-# its weight; (b) a slender clamped rod under a dead force of ten $EI/L^2$ across its tip, from the straight rod; (c) a
-# fifth of a second of the vibrating beam in 800 implicit steps. Times are those of the solver alone, with the model built and
-# the kernels compiled; the packages take turns, run by run. Errors are taken against the same exact answers for everyone.
+# `snakemake peers` makes an environment with Exudyn and PyElastica, for which it needs a network. It solves the same problems
+# with them and with the consistent rod, in one run on one machine: (a) the clamped-free beam of section 3.5 under its weight;
+# (b) a slender clamped rod under a lateral dead force of ten $EI/L^2$ at its tip, from the straight rod; (c) a fifth of a
+# second of the vibrating beam in 800 implicit steps. Times are those of the solver alone, after the model is built and the
+# kernels are compiled. The packages alternate, run by run. All errors are relative to the same exact answers.
 #
-# Exudyn's beam is the geometrically exact one with linear elements, its statics has five load steps in (b), which suit it
-# best, and one in (a),
-# its motion the trapezoidal rule with a modified Newton method. PyElastica has no static solver: it relaxes, critically damped,
-# to where it hardly moves; its motion is explicit, at nine tenths of the stable step.
+# Exudyn's beam is the geometrically exact one with linear elements. Its statics has five load steps in (b), which suit it best,
+# and one in (a). Its motion uses the trapezoidal rule with a modified Newton method. PyElastica has no static solver: it
+# relaxes with critical damping until it hardly moves. Its motion is explicit, at nine tenths of the stable step.
 
 # %% tags=["remove-cell"]
 import csv
@@ -59,23 +58,24 @@ page.table(
 
 # %% tags=["remove-input"]
 page.text(
-    f"Measured last on {dates}, processor {processors}; medians of {runs} runs, while up to {load:.1f} processes wanted "
-    "the machine. "
-    + ("That is a **busy machine**: compare ranges, not medians. " if load > 2 else "")
+    f"Measured last on {dates}, processor {processors}; medians of {runs} runs, at a system load of up to {load:.1f} "
+    "processes. "
+    + ("The machine was **busy**: compare ranges, not medians. " if load > 2 else "")
     + "Versions: "
     + "; ".join(f"{package} ({versions})" for package, versions in used.items())
     + "."
 )
 
 # %% [markdown]
-# What bounds the consistent rod: in (a) and (b) the Newton iterations, some 35 microseconds each at 20 vertices, of which the
-# compiled kernel takes 4 and LAPACK's banded Cholesky 3; the rest is NumPy and Python around them, which finer meshes
-# outgrow. In (b) the load grows in some ten increments that the path before them predicts, forty iterations in all, so the
-# answer is the one that the growing load leads to; a single increment took eight, and could end on the wrong side.
+# The time of the consistent rod in (a) and (b) is that of the Newton iterations. Each takes some 35 microseconds at 20
+# vertices: the compiled kernel takes 4, LAPACK's banded Cholesky 3, and NumPy and Python the rest. The rest is a smaller part
+# on finer meshes. In (b) the load grows in some ten increments, which the path before them predicts. They take forty
+# iterations in all, and the answer is the one that the growing load leads to. A single increment takes eight iterations, but
+# may end at another equilibrium.
 #
 # In (c) everything is compiled, and the arithmetic accounts for all of the time. A step takes five or six iterations of the
-# modified Newton method; each evaluates the gradient at the middle and the energy at the end of the step in one pass (some
+# modified Newton method. Each evaluates the gradient at the middle and the energy at the end of the step in one pass (some
 # 70 nanoseconds a vertex), multiplies by the mass (20) and substitutes into a factor (60) that is computed again in one step
-# of ten or twenty. That adds up to the measured time. A gradient is some two hundred additions and multiplications, two roots,
-# nine divisions and an arctangent, so it runs near what one core does in scalar arithmetic; the substitution is a chain in
-# which every number waits for the one before, which no wider unit shortens.
+# of ten or twenty. The sum is the measured time. A gradient has some two hundred additions and multiplications, two roots,
+# nine divisions and an arctangent, so it is near the limit of scalar arithmetic on one core. In the substitution each number
+# depends on the one before, so vector units do not make it faster.

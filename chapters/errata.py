@@ -11,9 +11,9 @@
 # %% [markdown]
 # # Errata, assumptions and questions
 #
-# An *erratum* is a printed form that fails something checkable which the corrected form meets; a test shows both. An
-# *assumption* is our choice where the page is silent or ambiguous, with the alternatives measured. A *question* is
-# suspicious but not proven. What looked wrong and is right is *refuted*.
+# An *erratum* is a printed form that fails a check which the corrected form passes; a test shows both. An *assumption* is our
+# choice where the page is silent or ambiguous, and the alternatives are measured. A *question* is a suspicion without a
+# proof. A *refuted* entry looked wrong and is right.
 
 # %% tags=["remove-cell"]
 from cosserat.thesis.book import page
@@ -26,7 +26,7 @@ def entries(standing):
         "\n\n".join(
             f"**{name}**, {entry.where}\n\n"
             f"- printed: {entry.printed}\n"
-            f"- taken instead: {entry.corrected}\n"
+            f"- used instead: {entry.corrected}\n"
             f"- why: {entry.why}\n"
             f"- evidence: `{entry.evidence}`"
             for name, entry in found.items()

@@ -14,11 +14,11 @@
 # A directed (Cosserat) rod is a curve whose points carry directors: vectors that say how the cross-section stretches,
 # shears and rotates. Evan Hemingway's thesis *Cosserat Curves: Descriptions of Peristalsis and a Discrete Model*
 # (University of California, Berkeley, 2020) uses such rods twice: for crawling by peristalsis, and for a discrete model
-# of planar motion. This book computes what the thesis publishes, beside the equations, and judges every number.
+# of planar motion. This book computes the published results beside the equations, and checks every number.
 #
-# Each page was executed when the book was built. Equations carry the numbers of the thesis; code shown beside them is
-# the library's own, not a copy. A figure is followed by the rows of the results table that judge it, and the book cannot
-# be built while one of those claims fails.
+# Each page was executed when the book was built. Equations have the numbers of the thesis. The code beside them is that of
+# the library, not a copy. The rows of the results table that check a figure follow it. The book cannot be built while one of
+# these claims fails.
 #
 # ```{toctree}
 # :maxdepth: 2
@@ -46,7 +46,7 @@ from cosserat.thesis.table.tolerances import read_report
 
 page.figure(
     "fig_opening",
-    "Above, four times of a stride; lines across the worm are equally far from each other at rest. Below, states of a "
+    "Above: four times of a stride; the lines across the worm have equal distances at rest. Below: states of a "
     "column and an arch as their loads grow, and of a free rod in flight. The last state is dark.",
 )
 
@@ -54,10 +54,10 @@ page.figure(
 page.text(f"**The results table today:** {check(read_report(page.results() / 'report.csv'))}.")
 
 # %% [markdown]
-# ## Put in your own rod
+# ## Your own rod
 #
-# A case is a few lines of TOML that may start from a published one. Numbers carry their units; misspelt, missing
-# and out-of-range values are errors with a sentence.
+# A case is a few lines of TOML that may start from a published one. Numbers have units. A misspelt, missing or out-of-range
+# value is an error with a sentence that explains it.
 #
 # ```toml
 # [long_beam]

@@ -11,8 +11,8 @@
 # %% [markdown]
 # # What is left out
 #
-# Each numbered equation, figure and table of the thesis is either used, in this book, in the package or in its tests, or it
-# stands here with the reason. A test compares this list with all citations: nothing is missing, nothing is in both.
+# Each numbered equation, figure and table of the thesis is either used in this book, in the package or in its tests, or it is
+# listed here with the reason. A test compares this list with all citations: nothing is missing, and nothing is in both.
 
 # %% tags=["remove-input"]
 from cosserat.thesis.book import page
@@ -22,8 +22,8 @@ listed = page.left_out()
     listed.kept, ("equations", "figures", "tables")
 )
 page.text(
-    f"Used are {equations} of {of_equations} equations and {tables} of {of_tables} tables; drawn are {figures} of "
-    f"{of_figures} figures."
+    f"The book and the package use {equations} of {of_equations} equations and {tables} of {of_tables} tables, and draw "
+    f"{figures} of {of_figures} figures."
 )
 
 # %% tags=["remove-input"]

@@ -12,7 +12,7 @@
 # # The library from Python
 #
 # The functions and classes for your own rod, worm or robot, with the signatures and docstrings of the library itself. The
-# keys of parameter classes are on the page [What a case may say](case_keys.ipynb); in Python their values may also be
+# keys of parameter classes are on the page [Keys of a case](case_keys.ipynb); in Python their values may also be
 # plain numbers in SI units. The first names are those of `cosserat` itself.
 #
 # ## Cases and results

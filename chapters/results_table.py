@@ -11,16 +11,16 @@
 # %% [markdown]
 # # The results table
 #
-# One row for each number or curve that the thesis publishes, and some others. *Printed text* is that of the
+# The table has one row for each number or curve that the thesis publishes, and some others. *Printed text* is that of the
 # page, never corrected; if the page claims that two curves agree at some coefficients, it is those coefficients.
-# The kind of a row is the source of *expected*: for *printed*, that number in SI units; for *analytic*, a closed form, the
-# page's if it claims agreement with it, another exact one for our own rows (they begin with C); for *in words*, the
-# statement; for *literature*, a measurement in a source of the page that the page does not print. An *arithmetic* number
-# follows from other numbers of the page: nothing is solved for it, and its standing is only *recomputed*. Closed forms use
-# the inputs as the page prints them, not those of the solved case.
+# The kind of a row is the source of *expected*. For *printed*, it is that number in SI units. For *analytic*, it is a closed
+# form: that of the page if it claims agreement with it, another exact one for our own rows (they begin with C). For *in
+# words*, it is the statement. For *literature*, it is a measurement in a source of the page that the page does not print. An
+# *arithmetic* number follows from other numbers of the page: nothing is solved for it, and its standing is only
+# *recomputed*. Closed forms use the inputs as the page prints them, not those of the solved case.
 #
-# *Measured* comes from the stored datasets. The claim of a row is that the measured number lies within its tolerance,
-# or, if the page is wrong or admits a reading that does not fit, that it lies outside, at the number that the row gives.
+# *Measured* comes from the stored datasets. A row claims that the measured number lies within its tolerance. If the page is
+# wrong or has a reading that does not agree, the row claims that the number lies outside, at the value that the row gives.
 # Rows of one number in several readings name the first of them.
 
 # %% tags=["remove-input"]
@@ -51,7 +51,7 @@ page.table(
 )
 
 # %% [markdown]
-# ## Why each tolerance is what it is
+# ## The reasons for the tolerances
 
 # %% tags=["remove-input"]
 page.table(
@@ -70,11 +70,11 @@ page.table(
 )
 
 # %% [markdown]
-# ## Would it notice?
+# ## The sensitivity of the claims
 #
 # `cosserat power` changes inputs and physics one at a time and names the rows whose claims then fail: a modulus, a
-# length, a load, a coefficient, a mass, a characteristic of the energy. Each change is noticed by a row of the cases that
-# it touches, but for these, which no number can see:
+# length, a load, a coefficient, a mass, a characteristic of the energy. Each change makes a row of the changed cases fail,
+# except for the following, which change no number of the table:
 
 # %% tags=["remove-input"]
 page.table(

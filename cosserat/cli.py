@@ -34,7 +34,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 2 if isinstance(error, InputError) else 1
     except MemoryError:
         print(
-            "cosserat: this needs more memory than there is; take fewer vertices, sections, elements or frames",
+            "cosserat: there is not enough memory; use fewer vertices, sections, elements or frames",
             file=sys.stderr,
         )
         return 2
@@ -130,7 +130,7 @@ def _epilog() -> str:
         f"published cases:\n{listed}\n\n"
         "example:\n"
         "  cosserat run clamped_free        solves it and writes clamped_free.nc here\n"
-        "  cosserat show clamped_free.nc    prints what came out\n"
+        "  cosserat show clamped_free.nc    prints its contents\n"
         "  cosserat plot clamped_free.nc    draws it into clamped_free.svg\n\n"
         "a case of your own, in my.toml, may start from a published one:\n"
         '  [long_beam]\n  like = "clamped_free"\n  rod.length = "10 m"\n\n'
@@ -163,7 +163,7 @@ def _run(options: argparse.Namespace) -> None:
         cases = [parse(line) for line in sys.stdin.read().strip().split("\n")]
     folder = Path() if options.output is None else options.output
     if len(cases) > 1 and not os.path.isdir(folder):
-        raise InputError(f"{folder} is no folder; write several cases to an existing folder")
+        raise InputError(f"{folder} is not a folder; write several cases to an existing folder")
     for case in cases:
         path = folder / f"{case.name}.nc" if os.path.isdir(folder) else folder
         _run_case(case, path, keep_last=options.keep_last)

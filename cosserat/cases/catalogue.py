@@ -205,7 +205,7 @@ def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict
     """The table of a case with everything inherited by `like`."""
     if name in seen:
         raise InputError(
-            f"case '{name}': its 'like' refers back to itself ({' -> '.join((*seen, name))}); break the circle"
+            f"case '{name}': its 'like' refers back to itself ({' -> '.join((*seen, name))}); remove the cycle"
         )
     if name not in known:
         raise InputError(

@@ -32,7 +32,7 @@ def check_destination(path: Path, suffix: str = "") -> None:
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the name of a file with --output")
     if path.exists() and not path.is_file():
-        raise InputError(f"{path} is no ordinary file; {remedy}")
+        raise InputError(f"{path} is not a regular file; {remedy}")
     if not os.access(path.parent, os.W_OK):
         raise InputError(f"the folder {path.parent} cannot be written to; {remedy}")
     if suffix and path.suffix != suffix:

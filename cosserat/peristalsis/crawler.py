@@ -51,14 +51,14 @@ class Compressible(Parameters):
         if -1 < poisson <= _AUXETIC:
             raise PydanticCustomError(
                 "moduli",
-                f"has a Poisson's ratio nu = {poisson:.12g}; it must be above {_AUXETIC:g}: nearer to -1 the stiffness "
+                f"has a Poisson's ratio nu = {poisson:.12g}; it must be above {_AUXETIC:g}: closer to -1 the stiffness "
                 "becomes singular, eq. (2.3.19)",
             )
         if not -1 < poisson < _INCOMPRESSIBLE:
             raise PydanticCustomError(
                 "moduli",
                 f"has a Poisson's ratio nu = {poisson:.12g}; it must be above -1 and below 1/2: for a material that "
-                "keeps its volume take kind = 'incompressible'",
+                "keeps its volume use kind = 'incompressible'",
             )
         return self
 
@@ -107,7 +107,7 @@ class Crawler(Parameters):
             fault = "has neither" if self.mass is None else "has both"
             raise PydanticCustomError(
                 "mass",
-                f"{fault} a mass and a density; give one of them (and 'none' for what 'like' brought in)",
+                f"{fault} a mass and a density; give one of them (and 'none' for the inherited one)",
             )
         if self.length > _MAX_SLENDERNESS * self.radius:
             raise PydanticCustomError(

@@ -241,7 +241,7 @@ class Gait(Parameters):
                 raise PydanticCustomError(
                     "gait",
                     f"at phase {phase:g} the fronts {first} at {a:g} and {second} at {b:g} overlap or leave an empty "
-                    "region; gamma and eta must take turns along the body",
+                    "region; gamma and eta must alternate along the body",
                 )
         anchor = self.anchored(phase)
         for place, kind in inner:

@@ -191,8 +191,8 @@ class Crawl(CrawlerProblem):
             if all(region.load == "advancing" for region in instant.regions):
                 raise PydanticCustomError(
                     "gait",
-                    f"at phase {instant.phase:g} no region anchors, and the force in the advancing ones would vanish "
-                    "at once; keep an anchoring region, or set loads.advancing_force = 'none'",
+                    f"at phase {instant.phase:g} no region anchors, and the force in the advancing ones would jump to "
+                    "zero; keep an anchoring region, or set loads.advancing_force = 'none'",
                 )
         return self
 

@@ -135,11 +135,11 @@ def uniform_state(
     asked = f"a uniform rod that rotates by {turn} per metre under {pull:g} N"
     if not residual < _FORCE_TOLERANCE:
         raise NotConvergedError(
-            f"{asked}: no equilibrium found; turn or pull it less",
+            f"{asked}: no equilibrium found; reduce the rotation or the tension",
             iterations=int(found.nfev),
             residual=residual * scale,
             tolerance=_FORCE_TOLERANCE * scale,
         )
     if np.linalg.det(d) < _MIN_VOLUME_RATIO:
-        raise OutOfReachError(f"{asked}: its sections collapse; turn or push it less")
+        raise OutOfReachError(f"{asked}: its sections collapse; reduce the rotation or the compression")
     return d, float(found.x[9]) * scale

@@ -109,9 +109,9 @@ def trace_path(
 def _returned(solver: EquilibriumSolver, origin: Equilibrium, last: Equilibrium) -> NotConvergedError:
     """The error of a branch that returns to its start."""
     return solver.stopped(
-        f"the path returns to {origin.factor:.4g} of the load, where it branched off: nothing stable leads on from "
-        "there, and a body under more load jumps; lessen the load, add a small one that breaks the symmetry, or see "
-        "the path that stays with kind = 'rod path' and arc.branch = 'stay'",
+        f"the path returns to {origin.factor:.4g} of the load, where it branched off: no stable path continues "
+        "from there, and under more load a body jumps; reduce the load, add a small one that breaks the symmetry, or "
+        "follow the unstable path with kind = 'rod path' and arc.branch = 'stay'",
         last,
     )
 

@@ -82,10 +82,10 @@ class EquilibriumSolver:
         self.passed_limit_load = False
         self.residual = self.tolerance = np.inf  # of the last attempt
         self.limit_remedy = (
-            "the body jumps to where no path leads from here; lessen the load, or see kind = 'rod path'"
+            "the body jumps to a state that no path reaches; reduce the load, or use kind = 'rod path'"
         )
         self.remedy = (
-            "try a smaller load or more 'newton.max_iterations', see where the path goes with kind = 'rod path', and "
+            "try a smaller load or more 'newton.max_iterations', follow the path with kind = 'rod path', and "
             "check supports and loads"
         )
 
@@ -196,8 +196,8 @@ class EquilibriumSolver:
 
     def _round_off_error(self, rounding: float) -> NotConvergedError:
         return NotConvergedError(
-            f"{self.name}: rounding the degrees of freedom makes forces up to {rounding:.2g} N, too much beside "
-            "the loads; use fewer vertices, or loads that strain the body less",
+            f"{self.name}: rounding the degrees of freedom makes forces up to {rounding:.2g} N, too large for "
+            "the loads; use fewer vertices, or loads that give smaller strains",
             iterations=self.iterations,
             residual=self.residual,
             tolerance=self.tolerance,

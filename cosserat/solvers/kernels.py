@@ -33,7 +33,7 @@ def choose_cache() -> None:
             return
     _cache_nothing()
     _print_note(
-        "compiled kernels are kept nowhere, which costs seconds a run; set NUMBA_CACHE_DIR to a folder to keep them"
+        "compiled kernels are not cached, which costs seconds a run; set NUMBA_CACHE_DIR to a folder to keep them"
     )
 
 

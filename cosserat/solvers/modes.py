@@ -55,7 +55,7 @@ def modes(
     """
     if not system.symmetric:
         raise InputError(
-            f"{name}: a load has no potential, so that small motions need not be vibrations; leave it out, or see with "
+            f"{name}: a load has no potential, so small motions need not be vibrations; leave it out, or compute with "
             "kind = 'rod motion' how they grow or fade"
         )
     stiffness, mass = (matrix.toarray() for matrix in free_matrices(system, q, history))
@@ -67,8 +67,8 @@ def modes(
         growing = int((every < -rounding).sum())
     if growing:
         raise UnstableError(
-            f"{name}: what it vibrates about is unstable in {growing} direction{'s' * (growing > 1)}, along which "
-            "small motions grow instead of oscillating; lessen the loads, or nudge the rod by a small force so that it "
+            f"{name}: its equilibrium is unstable in {growing} direction{'s' * (growing > 1)}, along which "
+            "small motions grow instead of oscillating; reduce the loads, or add a small force so that the rod "
             "comes to rest in a stable equilibrium"
         )
     squared, vectors = _lowest(stiffness, mass, min(count, mass.shape[0]), supported)

@@ -88,7 +88,7 @@ def solve(mesh: Mesh, equation: Equation, start: Array, settings: RegionSettings
     u = start
     source = equation.source(mesh.split(u))
     if source is None:
-        raise _failure(name, "the first guess is no admissible state", 0, np.inf, settings)
+        raise _failure(name, "the initial guess is not admissible", 0, np.inf, settings)
     size = np.inf
     for iteration in range(settings.max_iterations):
         system = _Linear(mesh, source, u.shape[1])
@@ -104,11 +104,11 @@ def solve(mesh: Mesh, equation: Equation, start: Array, settings: RegionSettings
                     break
             fraction /= 2
             if fraction < _MIN_DAMPING:
-                raise _failure(name, "no shorter step brings it nearer", iteration, size, settings)
+                raise _failure(name, "no shorter step reduces the residual", iteration, size, settings)
         u, source = trial, found
         if fraction == 1.0 and min(left, size) <= settings.tolerance:
             return Solved(u, iteration + 1, min(left, size))
-    raise _failure(name, "the iterations were not enough", settings.max_iterations, size, settings)
+    raise _failure(name, "the iterations did not converge", settings.max_iterations, size, settings)
 
 
 def _failure(

@@ -30,7 +30,7 @@ def _fastest(work: Callable[[], T], runs: int) -> tuple[float, T]:
 
 
 def statics() -> Iterator[str]:
-    """The method, then seconds for an equilibrium of each rod."""
+    """Lines with the method and with the seconds for an equilibrium of each rod."""
     yield (
         "Equilibria, from the parameters to strains and support forces, by wall clock, kernels compiled, "
         f"nothing written; the fastest of {_STATICS_RUNS} runs:"
@@ -50,7 +50,7 @@ def statics() -> Iterator[str]:
 
 
 def integrator() -> Iterator[str]:
-    """The method, then steps per second of each rod on the vibrating beam of Fig. 3.13."""
+    """Lines with the method and with the steps per second of each rod for the vibrating beam of Fig. 3.13."""
     for name, rod in (
         ("vibration_c4_20", "the published rod"),
         ("vibration_consistent", "the consistent rod"),
@@ -73,7 +73,7 @@ def integrator() -> Iterator[str]:
 
 
 def stride() -> Iterator[str]:
-    """The method, then seconds of each solver for the instants of one stride of the worm."""
+    """Lines with the method and with the seconds of each solver for the instants of one stride of the worm."""
     yield (
         "One stride of case 'worm', by wall clock, kernels compiled, nothing written; collocation (SciPy's solve_bvp) "
         f"once, the banded Newton method the fastest of {_RUNS} runs:"

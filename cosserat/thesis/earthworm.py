@@ -25,9 +25,10 @@ MUSCLE_LAWS: dict[Muscles, tuple[float, float]] = {
 }
 """Powers of the radius that scale the anchoring force and the advancing pressure.
 
-In section 2.8 a strip of muscle one millimetre wide pulls with the same force in every worm.  The force then scales
-with the circumference, and by hoop balance the pressure with the inverse radius; the page's 5.7 kPa would not depend
-on it.  Muscle of constant stress whose thickness scales with the worm gives the third law.
+In section 2.8 a strip of muscle one millimetre wide has the same tension in every worm.  The force is then
+proportional to the circumference.  The pressure is inversely proportional to the radius by hoop balance, or constant
+as the 5.7 kPa of the page.  Muscle of constant stress whose thickness is proportional to the radius gives the third
+law.
 """
 
 SEGMENT_50 = 3 / 5
@@ -53,7 +54,7 @@ def peak_pressure(diameter: float) -> float:
 
 
 def circumference(diameter: float) -> float:
-    """Radius of a round body, section 2.8 [m]."""
+    """Circumference of a round body, section 2.8 [m]; diameter in m."""
     return float(np.pi * diameter)
 
 
@@ -80,8 +81,8 @@ def resting_diameter(mass: float) -> float:
 class BodyMasses(Problem):
     """A worm's crawl at many body masses, under one law for its muscles.
 
-    Length, radius, mass and durations of the worm are replaced by those of Table 2.1, its loads by those of the law,
-    and one stride is made.
+    Table 2.1 replaces length, radius, mass and durations of the worm, and the law replaces its loads.  Each worm makes
+    one stride.
     """
 
     kind: Literal["body masses"] = "body masses"
@@ -99,8 +100,8 @@ class BodyMasses(Problem):
         if len(self.worm.gait.phases) != 2:
             raise PydanticCustomError(
                 "phases",
-                f"'worm.gait.phases' has {len(self.worm.gait.phases)}; it takes two, protrusion and stance, whose "
-                "durations Table 2.1 then gives",
+                f"'worm.gait.phases' has {len(self.worm.gait.phases)}; give two, protrusion and stance; "
+                "Table 2.1 replaces their durations",
             )
         return self
 

@@ -24,13 +24,13 @@ OUTCOMES = ("ratio of mu_1", "ratio of mu_3", "p in longitudinal", "p in circula
 class WormCalibration(Problem):
     """A worm, and the targets for its segment 50.
 
-    The page says that it calibrated E, D and p "to match the expected outcomes", and not how.  ASSUME least squares
-    of the four relative misfits, E2.27.
+    The page says that it calibrated E, D and p "to match the expected outcomes", but does not say how.  ASSUME least
+    squares of the four relative misfits, E2.27.
     """
 
     kind: Literal["worm calibration"] = "worm calibration"
     worm: Crawl
-    """The worm whose E, D and p are fitted; its own are the start."""
+    """The worm whose E, D and p are fitted; its values are the start of the fit."""
     mu_1_ratio: Annotated[float, Quantity("1", r"\mu_1", "2.8.6", above=0)]
     """Radial stretch of segment 50, circular over longitudinal contraction."""
     mu_3_ratio: Annotated[float, Quantity("1", r"\mu_3", "2.8.6", above=0)]
@@ -50,12 +50,12 @@ class WormCalibration(Problem):
         if not (self.worm.loads.anchoring > 0 and self.worm.loads.advancing > 0):
             raise PydanticCustomError(
                 "worm",
-                "'worm.loads' has a load that is not above 0; give both, the fit starts from them",
+                "'worm.loads' has a load that is not above 0; give both; the fit starts from them",
             )
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """E, D and p of the fit, and outcomes of the fit and of the given worm over the measured ones.
+        """E, D and p of the fit, and ratios of the fitted and of the given worm's outcomes to the measured ones.
 
         Raises
         ------

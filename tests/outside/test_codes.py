@@ -1,4 +1,4 @@
-"""The codes that judge, held to textbooks: nothing here imports the package."""
+"""The reference codes compared with textbooks.  Nothing here imports the package."""
 
 import ast
 from pathlib import Path
@@ -16,7 +16,7 @@ CODES = ("closed", "published_energy", "reissner", "sides", "timoshenko")
 
 
 @pytest.mark.parametrize("name", CODES)
-def test_they_import_nothing_of_the_package(name):
+def test_reference_codes_do_not_import_the_package(name):
     tree = ast.parse(Path(__file__).with_name(f"{name}.py").read_text())
     names = {a.name for n in ast.walk(tree) if isinstance(n, ast.Import) for a in n.names}
     names |= {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)}
@@ -27,14 +27,14 @@ def test_they_import_nothing_of_the_package(name):
     ("force", "sideways", "shortening"),
     [(1, 0.30172, 0.05643), (5, 0.71379, 0.38763), (10, 0.81061, 0.55500)],
 )
-def test_the_cantilever_under_a_force_is_that_of_the_tables(force, sideways, shortening):
+def test_the_cantilever_agrees_with_published_tables(force, sideways, shortening):
     """Mattiasson (1981), five digits."""
     x, y = reissner.tip(STIFF, Load(CLAMP, FREE | {"Ny": force}), steps=5)
     assert (y, 1 - x) == pytest.approx((sideways, shortening), abs=6e-6)
     assert (x, y) == pytest.approx(reissner.elastica_tip(force), abs=1e-8)
 
 
-def test_a_column_beyond_its_load_is_that_of_timoshenko_and_gere():
+def test_a_buckled_column_agrees_with_timoshenko_and_gere():
     """Theory of elastic stability, table of the elastica: at 60 degrees P/P_cr = 1.152, at 120 1.884."""
     for degrees, ratio, along, across in ((60, 1.152, 0.741, 0.593), (120, 1.884, 0.123, 0.803)):
         load = reissner.column_load(np.radians(degrees))
@@ -44,7 +44,7 @@ def test_a_column_beyond_its_load_is_that_of_timoshenko_and_gere():
         assert state[:2, -1] == pytest.approx([along, across], abs=1e-3)
 
 
-def test_a_chain_of_no_stretch_is_a_catenary_and_a_taut_one_a_parabola():
+def test_an_inextensible_chain_is_a_catenary_and_a_taut_one_a_parabola():
     H, first, last, shape = reissner.catenary(2 * np.sinh(1.0), 1.0, 1e9, 2.0, 0.0)
     assert (H, first, last) == pytest.approx((1.0, np.cosh(1.0), np.cosh(1.0)), rel=1e-8)
     assert shape(np.sinh(1.0))[1] == pytest.approx(1 - np.cosh(1.0), rel=1e-8)
@@ -60,7 +60,7 @@ def test_buckling_loads_are_eulers_and_greenhills():
     assert reissner.greenhill(slender) == pytest.approx(7.8373, abs=5e-5)
 
 
-def test_a_column_that_shears_and_shortens_buckles_where_its_path_leaves():
+def test_the_buckling_load_with_shear_and_shortening_is_the_branching_load():
     """The boundary value problem by itself: its tip stays below the critical load and leaves above."""
     soft = Rod(1.0, 1.0, 200.0, 100.0)
     critical = reissner.buckling_load(soft, "clamped-free")
@@ -71,12 +71,12 @@ def test_a_column_that_shears_and_shortens_buckles_where_its_path_leaves():
         assert (state[1, -1] > 0.05) == leaves
 
 
-def test_a_curl_without_weight_is_an_arc():
+def test_a_weightless_curved_strip_is_an_arc():
     x, y = reissner.tip(Rod(1.0, 1.0, 1e9, 1e9, np.pi), Load(CLAMP, FREE, py=-1e-9), steps=1)
     assert (x, y) == pytest.approx((0.0, 2 / np.pi), abs=1e-8)
 
 
-def test_frequencies_are_those_of_the_tables():
+def test_frequencies_agree_with_published_tables():
     """1.8751, 4.6941, 7.8548 squared; with a mass as heavy as the beam at its end 1.2479; stepwise the same."""
     beam = Piece(1.0, 1.0, 1e9, 1.0, 0.0)
     wave = np.sqrt(2 * np.pi * timoshenko.frequencies([beam], 3, start=0.5))
@@ -87,7 +87,7 @@ def test_frequencies_are_those_of_the_tables():
     assert np.sqrt(2 * np.pi * cut) == pytest.approx(wave, rel=1e-9)
 
 
-def test_a_thick_hinged_beam_has_timoshenkos_frequency_by_both_codes():
+def test_both_codes_give_timoshenkos_frequency_of_a_thick_hinged_beam():
     """Of sin(pi x): (m J / GA) w^4 - (m + (J + m EI / GA) pi^2) w^2 + EI pi^4 = 0; elements agree with the matrices."""
     beam = Piece(1.0, 1.0, 50.0, 1.0, 0.02)
     a, b, c = beam.m * beam.J / beam.GA, -(beam.m + (beam.J + beam.m / beam.GA) * np.pi**2), np.pi**4
@@ -109,7 +109,7 @@ def test_a_strip_that_is_shaken_slowly_follows_and_at_its_frequency_lags_a_quart
     assert abs(timoshenko.shaken(beam, lowest, 0.005)) == pytest.approx(1.566 / 0.01, rel=1e-2)
 
 
-def test_closed_forms_in_their_limits():
+def test_closed_forms_have_the_right_limits():
     assert closed.overhanging_tip(1.0, 1.0 - 1e-12, 1.0, 1.0, 1e9)[0] == pytest.approx(0, abs=1e-9)
     sag, left, right = closed.overhanging_tip(2.0, 1.0, 1.0, 1.0, np.inf)
     assert (left, right) == (0.0, 2.0)

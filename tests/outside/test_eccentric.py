@@ -1,4 +1,4 @@
-"""Rods whose height jumps while the line they are followed by is not in the middle: of second order, by other codes."""
+"""Rods with a step in height and an eccentric centreline converge with second order to independent codes."""
 
 from itertools import pairwise
 
@@ -64,7 +64,7 @@ def check_order(errors, size, floor):
 
 @everywhere
 @pytest.mark.parametrize("poisson", [0.0, 0.3])
-def test_the_code_that_judges_is_beam_theory_where_the_rod_is_thin(centreline, poisson):
+def test_the_reference_code_agrees_with_beam_theory_for_thin_rods(centreline, poisson):
     """Closed form, section stretch and shooting give one answer for a rod a hundred times as long as high."""
     parts = pieces(0.01, 0.4, centreline, poisson)
     for load in ((1e-7, 0.0), (0.0, 1e-7)):
@@ -81,7 +81,7 @@ def test_the_code_that_judges_is_beam_theory_where_the_rod_is_thin(centreline, p
 @steps
 @pytest.mark.parametrize("poisson", [0.0, 0.3])
 def test_a_slender_stepped_body_pulled_beside_its_axis_bends_as_a_beam(at, centreline, poisson):
-    """What tension bends and what a force across pulls along, both by (0.5 - centreline) of the height."""
+    """The deflection by tension and the axial displacement by a lateral force, with the offset (0.5 - centreline) H."""
     parts = pieces(0.02, at, centreline, poisson)
     for along, across in ((1e-3, 0.0), (0.0, 1e-3)):
         judge = eccentric.linear_tip if poisson else eccentric.beam_tip
@@ -103,7 +103,7 @@ def test_a_slender_stepped_body_pulled_beside_its_axis_bends_as_a_beam(at, centr
 @everywhere
 @steps
 @pytest.mark.parametrize("poisson", [0.0, 0.3])
-def test_a_thick_stepped_body_with_its_layers(at, centreline, poisson):
+def test_a_thick_stepped_body_with_layers_converges(at, centreline, poisson):
     """Five times as long as high, so that the meshes resolve the layers of section stretch."""
     parts = pieces(0.2, at, centreline, poisson)
     for along, across in ((1.0, 0.0), (0.0, 1.0)):
@@ -159,9 +159,7 @@ def test_a_curved_body_whose_height_jumps_is_of_second_order(at, centreline, thi
 
 @everywhere
 @steps
-def test_the_weight_of_a_stepped_body_that_hangs_bends_it_as_much_as_its_halves_are_apart(
-    at, centreline
-):
+def test_the_weight_of_a_hanging_stepped_body_bends_it_by_the_offset_of_its_halves(at, centreline):
     """The thin part hangs beside the area centres of the thick one, by e1 - e2, and nothing bends the thin one."""
     height, g = 0.05, 1e-3
     thick, thin = pieces(height, at, centreline, 0.0)

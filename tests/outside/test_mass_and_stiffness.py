@@ -1,4 +1,4 @@
-"""Weight and inertia are one mass, and what jumps inside an edge costs no order: right values of other codes."""
+"""Weight and inertia have one mass, and steps inside an edge keep second order: values of independent codes."""
 
 import numpy as np
 import pytest
@@ -43,13 +43,13 @@ def test_a_free_rod_falls_without_turning(stations, vertices, centreline):
 
 
 @pytest.mark.parametrize("stations", TAPERS.values(), ids=TAPERS)
-def test_nor_does_the_published_rod(stations):
+def test_a_free_published_rod_falls_without_turning(stations):
     published = cosserat.case("vibration_c4_20").problem.rod.calibration.model_dump()
     rod = {"stations": stations, "energy": "published", "calibration": published}
     assert np.abs(turned(run("falling", rod=rod, duration=0.05))).max() < 1e-10
 
 
-def test_half_a_second_of_the_taper():
+def test_a_free_tapered_rod_does_not_turn_in_half_a_second():
     assert np.abs(turned(run("falling"))).max() < 1e-10
 
 
@@ -82,7 +82,7 @@ def test_a_mass_inside_the_last_edge_is_of_second_order_in_frequency(times):
 
 @pytest.mark.parametrize("place", [1 / 3, 13 / 30])
 def test_a_density_and_a_modulus_that_jump_inside_an_edge_are_of_second_order(place):
-    """Meshes four times as fine meet the jump at the same share of an edge, so that their errors compare."""
+    """On meshes four times as fine the step is at the same fraction of an edge, so their errors are comparable."""
     at = 0.5 * place
     stations = [{"at": at}, {"at": at, "density": 8.0, "young": 0.2}]
     beam = piece("mass_inside")
@@ -107,7 +107,7 @@ def softer(s, at=0.52):
     return 1.0 if s < at else 0.3
 
 
-def test_the_right_value_of_the_joint_is_that_of_a_textbook():
+def test_the_reference_value_of_the_joint_agrees_with_a_textbook():
     """P (a^3 + (1/n - 1)(L^3 - ...)): a cantilever whose outer part b has n times the stiffness; and shear."""
     a, b, n, P = 0.52, 0.48, 0.3, 1e-3
     bending = P / (3 * EI) * (1 - b**3 + b**3 / n)
@@ -118,8 +118,8 @@ def test_the_right_value_of_the_joint_is_that_of_a_textbook():
 
 
 @pytest.mark.parametrize("vertices", [11, 21, 41, 81, 161])
-def test_a_joint_inside_an_edge_bends_and_stretches_as_it_should(vertices):
-    """The errors of no mesh exceed one and a half times (h / L)^2, twice what a joint on a vertex leaves."""
+def test_a_joint_inside_an_edge_has_the_right_displacements(vertices):
+    """The error of each mesh is at most 1.5 (h / L)^2, twice that of a joint on a vertex."""
     allowed = 1.5 / (vertices - 1) ** 2 + 1e-8
     bent = closed.cantilever_tip(1e-3, 1.0, lambda s: EI * softer(s), lambda s: GA * softer(s), [0.52])
     assert last(run("joint", rod={"vertices": vertices})) == pytest.approx(bent, rel=allowed)
@@ -129,7 +129,7 @@ def test_a_joint_inside_an_edge_bends_and_stretches_as_it_should(vertices):
     assert last(data, "E3") - 1 == pytest.approx(stretched, rel=1e-6)
 
 
-def test_a_joint_at_the_same_share_of_an_edge_is_of_second_order():
+def test_a_joint_at_the_same_fraction_of_an_edge_is_of_second_order():
     at = 13 / 30
     stations = [{"at": at}, {"at": at, "young": 0.3}]
     right = closed.cantilever_tip(
@@ -168,7 +168,7 @@ def test_tapers_are_of_second_order(thin, end):
 
 
 @pytest.mark.parametrize("vertices", [20, 40, 80, 160])
-def test_the_bar_of_two_materials_that_hangs(vertices):
+def test_a_hanging_bar_of_two_materials_has_the_exact_tip(vertices):
     """u = g rho1 a (a / 2 + b r) / E1 A + g rho2 b^2 / 2 E2 A, with a joint at 2 of 5 m: 0.63765 mm on any mesh."""
     glued = [{"at": 2.0}, {"at": 2.0, "young": 0.3, "poisson": 1.5, "density": 3.0}]
     bar = cosserat.case("hanging_bar_consistent").vary(
@@ -181,7 +181,7 @@ def test_the_bar_of_two_materials_that_hangs(vertices):
     assert tip == pytest.approx(exact, rel=1 / vertices**2)
 
 
-def test_the_exact_beam_that_judges_the_vibrating_one_is_that_of_transfer_matrices():
+def test_the_exact_beam_agrees_with_transfer_matrices():
     """Its first period, 0.06230951 s, also by a determinant of a third code."""
     beam = beam_of(cosserat.case("vibration_consistent").problem)
     found = elastica.timoshenko_frequencies(beam, 3) / (2 * np.pi)

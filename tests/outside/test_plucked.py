@@ -1,4 +1,4 @@
-"""The README's `plucked` against a fine explicit run of the thesis's energy written anew in NumPy."""
+"""The README's `plucked` compared with a fine explicit run of the thesis's energy, written independently in NumPy."""
 
 import functools
 from dataclasses import replace
@@ -92,7 +92,7 @@ def test_the_lowest_frequency_is_that_of_the_page():
 
 @pytest.mark.parametrize(("c4", "lowest"), [(2.0, 101.01406), (20.0, 105.44195)])
 def test_four_frequencies_are_those_of_the_package(c4, lowest):
-    """The lowest also as a third code found it."""
+    """The lowest frequency also agrees with a third code."""
     c = (*VIBRATION.c[:3], c4, *VIBRATION.c[4:])
     right = frequencies(replace(VIBRATION, c=c), 4)
     assert right[0] == pytest.approx(lowest, rel=1e-6)
@@ -100,8 +100,8 @@ def test_four_frequencies_are_those_of_the_package(c4, lowest):
     np.testing.assert_allclose(found, right, rtol=1e-6)
 
 
-def test_a_short_run_starts_as_the_long_one():
-    """A millisecond at two tolerances agree, start with the energy stored above, and lose what they should."""
+def test_a_short_run_agrees_with_the_start_of_the_long_one():
+    """Two tolerances agree over a millisecond, start with the energy stored above, and lose energy."""
     times = np.array([0.0, 0.001])
     (coarse, _), (fine, _) = (
         plucked(VIBRATION, 0.02, 0.05, times, tolerance) for tolerance in (1e-7, 1e-8)
@@ -111,7 +111,7 @@ def test_a_short_run_starts_as_the_long_one():
     assert fine[1] < fine[0]
 
 
-def test_plucked_loses_its_energy_as_it_should():
+def test_the_plucked_rod_loses_its_energy_at_the_exact_rate():
     """To 1 % at every tenth of a second, over five orders of ten."""
     case = cosserat.case("vibration_c4_20").vary(
         "plucked",

@@ -1,4 +1,4 @@
-"""Quick problems of every kind against other codes; `python -m tests.outside` has all of them."""
+"""Quick problems of every kind compared with independent codes; `python -m tests.outside` runs all of them."""
 
 import pytest
 
@@ -13,12 +13,12 @@ def test_a_quick_case_holds(name):
     assert [row for row in rows if not row.holds] == []
 
 
-def test_quick_ones_are_of_every_kind():
+def test_quick_cases_cover_every_kind():
     asked = {inputs()[name].problem.kind for name in QUICK if name in inputs()}
     assert asked >= {"rod statics", "rod path", "rod motion", "posture", "crawl"}
 
 
-def test_a_row_that_misses_does_not_hold():
+def test_a_row_outside_its_tolerance_fails():
     for found in (1.2, 0.8, 0.0, -1.0, 1e6, float("nan"), float("inf")):
         assert not Row("", 1.0, found, 0.1, "").holds
     assert Row("", 1.0, 1.05, 0.1, "").holds

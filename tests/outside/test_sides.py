@@ -1,4 +1,4 @@
-"""Which way a slender body goes: to the side that the growing load leads to, however little decides it.
+"""The side to which a slender body buckles is the one that the growing load leads to, for the smallest imperfection.
 
 Right values: the boundary value problem of `reissner`, the load grown with a strong push to the same side which is then
 taken away, or, of the ribbon, its weight put on first.  `python -m tests.outside.sides` finds them anew, in a minute.
@@ -19,7 +19,7 @@ MESH = 3e-3
 
 @pytest.mark.parametrize("steps", [1, 3, 10])
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_the_pushed_bar_goes_where_it_is_pushed(steps, side):
+def test_a_compressed_bar_buckles_to_the_side_of_its_lateral_force(steps, side):
     forces = [
         {"at": "last", "along": "-E3", "force": 980665.0},
         {"at": "last", "along": "E2", "force": side * 1000.0},
@@ -42,7 +42,7 @@ def middle(data):
 
 
 @pytest.mark.parametrize(("young", "push"), RIBBONS)
-def test_a_ribbon_of_any_stiffness_sags_however_far_it_is_pushed_together(young, push):
+def test_a_ribbon_of_any_stiffness_sags_at_any_compression(young, push):
     prescribed_displacements = [{"at": "last", "dof": "x3", "by": -push}]
     data = cosserat.run(
         inputs()["ribbon"].vary(
@@ -52,7 +52,7 @@ def test_a_ribbon_of_any_stiffness_sags_however_far_it_is_pushed_together(young,
     assert middle(data) == pytest.approx(RIBBONS[young, push], abs=1e-3)
 
 
-def test_and_upwards_where_its_weight_pulls_upwards():
+def test_a_ribbon_goes_up_under_an_upward_weight():
     data = cosserat.run(inputs()["ribbon"].vary("x", gravity={"g": 9.81, "along": "E2"}))
     assert middle(data) == pytest.approx(-RIBBONS[1e9, 0.1], abs=1e-3)
 
@@ -74,15 +74,17 @@ def between_clamps(curvature, push, aside, **more):
 
 @pytest.mark.parametrize("steps", [1, 3, 10, 40])
 @pytest.mark.parametrize(("curvature", "push", "aside"), SHIFTED)
-def test_a_bow_decides_also_where_the_clamp_moves_aside(curvature, push, aside, steps):
-    """The rod that its clamp carries along is not pulled to that side by it."""
+def test_an_initial_curvature_decides_the_side_when_the_clamp_moves_laterally(
+    curvature, push, aside, steps
+):
+    """The lateral motion of the clamp does not decide the side."""
     data = cosserat.run(between_clamps(curvature, push, aside, newton={"load_increments": steps}))
     assert middle(data) == pytest.approx(SHIFTED[curvature, push, aside], abs=1e-3)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_tiny_load_beside_moved_supports_is_no_reason_to_refuse(side):
-    """1e-7 N, five orders below the forces that hold the ribbon, still decide; 1e-9 N drown, which is said or right."""
+def test_a_tiny_load_with_moved_supports_is_not_refused(side):
+    """1e-7 N, 1e-5 of the support forces, decide.  1e-9 N are below round-off: the answer is right or has a warning."""
     push = [{"at": 20, "along": "E2", "force": side * 1e-7}]
     data = cosserat.run(between_clamps(0.0, 0.01, 0.0, forces=push))
     assert side * middle(data) > 0.05
@@ -94,8 +96,8 @@ def test_a_tiny_load_beside_moved_supports_is_no_reason_to_refuse(side):
 
 @pytest.mark.parametrize("steps", [1, 3, 10, 40])
 @pytest.mark.parametrize(("push", "aside"), [(0.056, 0.128), (0.0104, 0.0309), (0.06, -0.07)])
-def test_without_a_bow_the_side_is_open_and_that_is_said(push, aside, steps):
-    """A turn by half a circle about the middle between the clamps makes of either answer the other."""
+def test_without_an_initial_curvature_the_open_side_is_warned_of(push, aside, steps):
+    """A rotation by half a turn about the middle between the clamps exchanges the two answers."""
     data = cosserat.run(between_clamps(0.0, push, aside, newton={"load_increments": steps}))
     assert abs(middle(data) - aside / 2) > 0.05
     assert [warning.split(":")[0] for warning in warnings_of(data)] == ["bifurcation"]
@@ -118,32 +120,32 @@ def stands_at(case, place, side):
 
 @pytest.mark.parametrize("multiple", MULTIPLES)
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_at_any_multiple_of_the_critical_load_the_side_force_decides(multiple, side):
+def test_the_side_force_decides_at_any_multiple_of_the_critical_load(multiple, side):
     stands_at(column(multiple, side * 0.01), MULTIPLES[multiple], side)
 
 
 @pytest.mark.parametrize("aside", SIDES)
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_side_force_of_any_size_decides(aside, side):
+def test_a_side_force_of_any_size_decides_the_side(aside, side):
     stands_at(column(4, side * aside), SIDES[aside], side)
 
 
 @pytest.mark.parametrize("bow", BOWS)
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_bow_of_any_size_decides(bow, side):
+def test_an_initial_curvature_of_any_size_decides_the_side(bow, side):
     stands_at(column(4, curvature=side * bow), BOWS[bow], side)
 
 
 @pytest.mark.parametrize("steps", [2, 7, 20])
 @pytest.mark.parametrize("multiple", [1.2, 4, 12])
-def test_for_any_number_of_load_steps(steps, multiple):
+def test_the_side_does_not_depend_on_the_number_of_load_steps(steps, multiple):
     stands_at(column(multiple, -0.01, newton={"load_increments": steps}), MULTIPLES[multiple], -1.0)
 
 
 @pytest.mark.parametrize("steps", [1, 5, 20])
 @pytest.mark.parametrize("multiple", [1.1, 1.5, 3.0])
 @pytest.mark.parametrize("aside", [0.1, -0.1, 1.0, -1.0])
-def test_so_it_does_for_the_published_rod(multiple, aside, steps):
+def test_the_side_force_decides_for_the_published_rod(multiple, aside, steps):
     """Of 500 kN along the column 0.1 N across are 2e-7."""
     beam = cosserat.case("clamped_free")
     rod = beam.problem.rod
@@ -160,7 +162,7 @@ def test_so_it_does_for_the_published_rod(multiple, aside, steps):
 @pytest.mark.parametrize("fraction", [1e-9, 1e-6, 1e-3])
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_path_does_not_jump_to_the_other_side(fraction, side):
-    """Every point beyond the critical load lies on the side of the force, and the last where the elastica stands."""
+    """Every point beyond the critical load lies on the side of the force, and the last agrees with the elastica."""
     load = 2.3132
     forces = [
         {"at": "last", "along": "-E3", "force": load},
@@ -173,6 +175,6 @@ def test_a_path_does_not_jump_to_the_other_side(fraction, side):
     assert tip[-1] == pytest.approx(MULTIPLES[2][1], abs=MESH)
 
 
-def test_the_inputs_are_those_that_the_right_values_were_found_for():
+def test_the_inputs_are_those_of_the_reference_values():
     rod = rectangle("ribbon")
     assert np.pi**2 * rod.EI / 4 == pytest.approx(EULER, rel=1e-12)

@@ -1,4 +1,4 @@
-"""Cases and parameters: what is right is read with its units, what is wrong is refused with one sentence."""
+"""Cases and parameters: right values are read with their units, bad values are refused with one sentence."""
 
 import pytest
 from conftest import ROOT
@@ -34,7 +34,7 @@ def test_units_are_converted_to_si(load_mine):
     assert rod.shear_correction == pytest.approx(5 / 6)
 
 
-def test_python_takes_si_numbers_and_texts_alike():
+def test_python_takes_si_numbers_and_texts():
     case = cosserat.case("clamped_free")
     assert case.vary("a", rod={"length": 2}).problem == case.vary("a", rod={"length": "200 cm"}).problem
 
@@ -75,7 +75,7 @@ def test_python_takes_paths_as_text(tmp_path, monkeypatch):
         (lambda case: type(case.problem.rod)(), "Rod: 'vertices' is missing"),
     ],
 )
-def test_what_python_gives_amiss_is_answered_in_a_sentence(call, sentence):
+def test_bad_python_arguments_give_one_sentence(call, sentence):
     with pytest.raises(InputError, match=sentence) as caught:
         call(cosserat.case("necking"))
     assert "\n" not in str(caught.value)
@@ -159,7 +159,7 @@ def test_bad_values_are_refused_with_name_value_and_remedy(load_mine, line, sent
     assert "\n" not in str(caught.value)
 
 
-def test_every_fault_of_a_case_is_named_at_once(load_mine):
+def test_all_faults_of_a_case_are_named_together(load_mine):
     with pytest.raises(InputError, match="'rod.lenght' is not a key") as caught:
         load_mine('rod.lenght = "5 m"\nrod.material.poisson = 0.7')
     assert "'rod.material.poisson' is 0.7" in str(caught.value)
@@ -251,7 +251,7 @@ def test_unknown_cases_and_unreadable_files_are_refused(tmp_path):
         ("rod.vertices = [1, 2", "in cosserat/thesis/cases"),
     ],
 )
-def test_a_number_that_is_no_toml_has_its_remedy_in_the_sentence(tmp_path, line, remedy):
+def test_a_number_that_is_not_toml_is_refused_with_its_remedy(tmp_path, line, remedy):
     file = tmp_path / "mine.toml"
     file.write_text(f'[mine]\nlike = "elastica"\n{line}\n')
     with pytest.raises(InputError, match=r"mine\.toml is not TOML: ") as caught:
@@ -299,7 +299,7 @@ def test_lumped_properties_may_vary_along_the_rod():
     np.testing.assert_allclose(strain, 100.0 / (young * 0.25), rtol=1e-5)
 
 
-def test_a_bad_case_does_not_keep_its_neighbours_from_running(tmp_path):
+def test_a_bad_case_does_not_stop_other_cases_of_its_file(tmp_path):
     file = tmp_path / "my.toml"
     file.write_text('[good]\nlike = "necking"\n[bad]\nlike = "necking"\nrod.length = "5 kg"\n')
     assert cosserat.case("good", file).name == "good"

@@ -1,4 +1,4 @@
-"""Continuous integration runs what the README says, on the oldest Python that is promised and on a newer one."""
+"""Continuous integration runs the commands of the README, on the oldest supported Python and on a newer one."""
 
 import os
 import re
@@ -26,7 +26,7 @@ def job():
     return only
 
 
-def test_it_runs_on_the_oldest_python_that_is_promised_and_a_newer_one():
+def test_ci_runs_on_the_oldest_supported_python_and_a_newer_one():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     promised = SpecifierSet(project["requires-python"])
     versions = job()["strategy"]["matrix"]["python"]
@@ -37,7 +37,7 @@ def test_it_runs_on_the_oldest_python_that_is_promised_and_a_newer_one():
     assert f"Python {min(versions, key=Version)} or newer" in README
 
 
-def test_each_python_runs_the_script_that_types_what_the_readme_says():
+def test_ci_runs_the_commands_of_the_readme_on_each_python():
     steps = job()["steps"]
     (step,) = (step for step in steps if "run" in step)
     assert step["run"] == ".ci/run"
@@ -49,7 +49,7 @@ def test_each_python_runs_the_script_that_types_what_the_readme_says():
     assert (ROOT / set_up["with"]["cache-dependency-path"]).is_file()
 
 
-def test_the_script_types_every_command_of_the_readme_and_no_other():
+def test_the_ci_script_runs_every_command_of_the_readme_and_no_other():
     typed = "".join(re.findall(r"^```sh\n(.*?)^```$", README, flags=re.MULTILINE | re.DOTALL))
     for name in ("make", "cosserat"):
         said = commands(typed, name)

@@ -1,4 +1,4 @@
-"""The command line as a person uses it: help that suffices, sentences for bad input, nothing half-written."""
+"""The command line: sufficient help, one sentence for bad input, and no incomplete files."""
 
 import io
 import os
@@ -29,7 +29,7 @@ def test_help_lists_the_cases_and_says_how_to_run_one(capsys):
     assert "writes clamped_free.nc here" in text
 
 
-def test_run_says_where_the_result_went(capsys, tmp_path, monkeypatch):
+def test_run_prints_the_path_of_the_result(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, out, err = call(capsys, "run", "clamped_free")
     assert (code, err) == (0, "")
@@ -42,7 +42,7 @@ def test_run_says_where_the_result_went(capsys, tmp_path, monkeypatch):
 
 
 def test_a_case_is_read_as_json_from_standard_input(capsys, tmp_path, monkeypatch):
-    """The text that a result carries runs its case again, to the same bytes."""
+    """The attribute `parameters` of a result runs its case again, to the same bytes."""
     first, again = tmp_path / "first.nc", tmp_path / "again.nc"
     assert call(capsys, "run", "necking", "--output", first)[0] == 0
     monkeypatch.setattr("sys.stdin", io.StringIO(cosserat.load(first).attrs["parameters"]))
@@ -57,7 +57,7 @@ def test_a_case_is_read_as_json_from_standard_input(capsys, tmp_path, monkeypatc
     monkeypatch.setattr("sys.stdin", io.StringIO(lines))
     code, _, err = call(capsys, "run", "-", "--output", tmp_path / "a.nc")
     assert code == 2
-    assert "is no folder" in err
+    assert "is not a folder" in err
     for text in ("", "{}", '{"name": "a", "title": "b", "problem": {"kind": "rod static"}}'):
         monkeypatch.setattr("sys.stdin", io.StringIO(text))
         code, _, err = call(capsys, "run", "-")
@@ -96,7 +96,7 @@ MY = '[mine]\nlike = "clamped_free"\n'
         ("mine", MY + 'gravity.g = "500 m/s^2"\nnewton.max_iterations = 1', "no equilibrium found"),
     ],
 )
-def test_bad_cases_leave_one_sentence_an_exit_code_and_the_old_file(
+def test_bad_cases_give_one_sentence_and_an_exit_code_and_keep_the_old_file(
     capsys, tmp_path, case, text, sentence
 ):
     arguments = ["run", case, "--output", tmp_path / "out.nc"]
@@ -114,14 +114,17 @@ def test_bad_cases_leave_one_sentence_an_exit_code_and_the_old_file(
     assert {file.name: file.read_text() for file in tmp_path.iterdir()} == before
 
 
-def test_bad_files_and_folders(capsys, tmp_path):
+def test_bad_files_and_folders_are_refused(capsys, tmp_path):
     (tmp_path / "bad.nc").write_bytes(b"\x89HDF\r\n\x1a\n but not really")
     for arguments, sentence in [
         (("run", "necking", "-o", tmp_path / "none" / "x.nc"), "does not exist"),
         (("show", tmp_path / "bad.nc"), "cannot read"),
         (("show", tmp_path / "none.nc"), "there is no file"),
         (("figure", "fig_3_99"), "there is no figure 'fig_3_99'; did you mean"),
-        (("figure", "fig_3_8", "fig_3_9", "-o", tmp_path / "f.svg"), "which several figures need"),
+        (
+            ("figure", "fig_3_8", "fig_3_9", "-o", tmp_path / "f.svg"),
+            "make a folder for several figures",
+        ),
         (("figure", "fig_3_9", "--cases", tmp_path, "-o", tmp_path / "f.svg"), "run the case first"),
         (
             (
@@ -161,7 +164,7 @@ def test_case_files_of_any_editor_are_read(tmp_path, mark, end):
 
 
 @pytest.mark.parametrize("coding", ["utf-16", "utf-16-le", "latin-1"])
-def test_a_case_file_in_another_coding_is_refused_by_that_word(capsys, tmp_path, coding):
+def test_a_case_file_in_another_encoding_is_refused_with_that_word(capsys, tmp_path, coding):
     (tmp_path / "my.toml").write_bytes((MY + "# \u00e9").encode(coding))
     code, _, err = call(capsys, "run", "mine", "--file", tmp_path / "my.toml")
     assert code == 2
@@ -185,7 +188,7 @@ def test_a_case_file_in_another_coding_is_refused_by_that_word(capsys, tmp_path,
         (MY + 'gravity.g = "1e300 m/s^2"', "no equilibrium found"),
     ],
 )
-def test_strange_case_files_leave_one_sentence(capsys, tmp_path, text, sentence):
+def test_malformed_case_files_give_one_sentence(capsys, tmp_path, text, sentence):
     (tmp_path / "my.toml").write_text(text)
     code, out, err = call(
         capsys, "run", "mine", "--file", tmp_path / "my.toml", "-o", tmp_path / "out.nc"
@@ -197,7 +200,7 @@ def test_strange_case_files_leave_one_sentence(capsys, tmp_path, text, sentence)
     assert [file.name for file in tmp_path.iterdir()] == ["my.toml"]
 
 
-def test_files_that_only_look_like_ours_are_refused(capsys, tmp_path, solved):
+def test_similar_files_of_other_programs_are_refused(capsys, tmp_path, solved):
     import os
 
     cosserat.save(solved["necking"].assign_attrs(solver="{"), tmp_path / "a.nc")
@@ -213,7 +216,7 @@ def test_files_that_only_look_like_ours_are_refused(capsys, tmp_path, solved):
         (("show", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
         (("plot", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
         (("show", tmp_path), "is a folder"),
-        (("run", "necking", "-o", tmp_path / "pipe.nc"), "no ordinary file"),
+        (("run", "necking", "-o", tmp_path / "pipe.nc"), "not a regular file"),
         (("run", "necking", "-o", tmp_path / "a.png"), "let its name end in '.nc'"),
         (("run", "necking", "-o", tmp_path / ("a" * 300 + ".nc")), "File name too long"),
         (("measure", "--table", tmp_path / "empty.csv", "-o", tmp_path / "r.csv"), "has no rows"),
@@ -259,7 +262,7 @@ def test_an_unknown_command_is_refused(capsys):
     assert "invalid choice: 'ran'" in capsys.readouterr().err
 
 
-def test_the_whole_chain_by_hand(capsys, solved, tmp_path):
+def test_the_commands_of_the_workflow_run_by_hand(capsys, solved, tmp_path):
     (tmp_path / "cases").mkdir()
     for name in solved:
         target = tmp_path / "cases" / f"{name}.nc"
@@ -307,7 +310,7 @@ print(sorted(set({spared}) & set(sys.modules)))
     assert done.stdout.splitlines()[-1] == "[]"
 
 
-def test_a_rod_of_ones_own_needs_nothing_of_the_book_or_the_workflow(tmp_path):
+def test_a_users_rod_needs_no_package_of_the_book_or_the_workflow(tmp_path):
     """The packages of the extra `thesis` are blocked in a process that solves, shows and draws a case."""
     extra = (
         "snakemake",

@@ -1,4 +1,4 @@
-"""What could be listed by hand and forgotten: set equalities, the direction of imports, and a clean repository."""
+"""Lists agree with what they list, imports have one direction, and the repository is clean."""
 
 import ast
 import builtins
@@ -75,7 +75,7 @@ def imports_of(file):
 @pytest.mark.parametrize(
     "file", sorted(PACKAGE.rglob("*.py")), ids=lambda f: str(f.relative_to(PACKAGE))
 )
-def test_imports_follow_one_direction(file):
+def test_imports_have_one_direction(file):
     own = file.relative_to(PACKAGE).parts[0].removesuffix(".py")
     if own == "__init__":
         return
@@ -91,13 +91,13 @@ def test_solvers_import_no_model_and_formulas_import_nothing_of_ours():
 
 
 def test_the_library_never_imports_the_thesis():
-    """What a user imports for a rod of their own stands without the part that reproduces one publication."""
+    """The library for users does not import the part that reproduces one publication."""
     for file in PACKAGE.rglob("*.py"):
         if file.relative_to(PACKAGE).parts[0] != "thesis":
             assert "thesis" not in {room_of(m) for m in imports_of(file)}, file
 
 
-def test_folders_of_kernels_are_those_whose_cache_is_looked_after():
+def test_folders_with_kernels_are_those_with_a_managed_cache():
     holding = {
         str(file.parent.relative_to(PACKAGE))
         for file in computing_sources()
@@ -170,7 +170,7 @@ def layouts_in(source):
 
 
 @pytest.mark.parametrize("file", sorted((PACKAGE / "solvers").glob("*.py")), ids=lambda file: file.stem)
-def test_the_solver_knows_nothing_of_positions_and_directors(file):
+def test_the_solvers_do_not_use_positions_and_directors(file):
     assert layouts_in(file.read_text()) == []
 
 
@@ -212,12 +212,12 @@ def test_a_layout_planted_in_a_solver_is_noticed(planted):
         "fields = np.zeros((2, count + 1, n))",
     ],
 )
-def test_what_fits_every_layout_is_let_through(fair):
+def test_code_that_fits_every_layout_is_accepted(fair):
     assert layouts_in(fair) == []
 
 
 def test_computing_sources_are_closed_under_import():
-    """What a computing source imports computes too: its edits rerun the simulations and change the digest."""
+    """Every module that a computing source imports is one too: edits rerun simulations and change the digest."""
     computing = set(computing_sources())
     for file in computing:
         for module in imports_of(file):
@@ -265,7 +265,7 @@ def test_every_entry_of_the_errata_has_evidence_that_pytest_finds():
     assert {name if name in asked else name.split("[")[0] for name in found} == set(asked)
 
 
-def test_a_test_named_after_an_erratum_names_one_that_there_is():
+def test_a_test_named_after_an_erratum_names_a_known_one():
     named = {
         f"{match[1]}.{match[2]}"
         for file in (ROOT / "tests").rglob("test_*.py")
@@ -312,7 +312,7 @@ def test_equations_shown_in_a_chapter_are_cited_in_the_code():
     assert len(shown_equations()) >= 20
 
 
-def test_equations_of_chapter_3_that_are_doubted_or_read_in_our_way_are_shown_in_a_chapter():
+def test_equations_of_chapter_3_with_an_errata_entry_are_shown_in_a_chapter():
     """Of an erratum the list of errata shows both forms."""
     doubted = {
         equation
@@ -325,7 +325,7 @@ def test_equations_of_chapter_3_that_are_doubted_or_read_in_our_way_are_shown_in
     assert doubted <= shown_equations()
 
 
-def test_chapters_type_no_result():
+def test_results_are_not_typed_into_chapters():
     """No number of more than three digits stands in a chapter's prose or code outside equations and citations."""
     for file in CHAPTERS:
         text = re.sub(
@@ -401,7 +401,7 @@ def test_nothing_that_a_rule_writes_is_tracked():
         assert file.suffix != ".ipynb", file
 
 
-def test_the_version_stands_in_one_place():
+def test_the_version_is_written_in_one_place():
 
     version = importlib.metadata.version("cosserat")
     changelog = (ROOT / "CHANGELOG.md").read_text()
@@ -491,7 +491,7 @@ def stale_names(source):
 @pytest.mark.parametrize(
     "file", sorted(PACKAGE.rglob("*.py")), ids=lambda f: str(f.relative_to(PACKAGE))
 )
-def test_docstrings_name_nothing_that_is_gone(file):
+def test_docstrings_name_only_existing_names(file):
     assert stale_names(file.read_text()) == []
 
 
@@ -510,5 +510,5 @@ def test_docstrings_name_nothing_that_is_gone(file):
         ),
     ],
 )
-def test_a_name_that_is_gone_is_noticed(text, gone):
+def test_a_removed_name_in_a_docstring_is_noticed(text, gone):
     assert stale_names(f'def solve(q, step):\n    """{text}"""') == gone

@@ -1,4 +1,4 @@
-"""Datasets and files: units on all, no clock, the same bytes twice, whole or absent."""
+"""Datasets and files: every variable has units, files have no date, are reproducible and never incomplete."""
 
 import hashlib
 import json
@@ -28,7 +28,7 @@ def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def test_every_variable_says_what_it_is(solved):
+def test_every_variable_has_a_description(solved):
     for data in solved.values():
         for name, variable in data.variables.items():
             if name in LABELS:
@@ -42,14 +42,14 @@ def test_every_variable_says_what_it_is(solved):
 
 
 def test_every_described_variable_is_written(solved):
-    """Those of an energy or a load of one's own are written where there is one, which no published case has."""
+    """Variables of a user's energy or load are not in a published case."""
     own = {"internal_variables", "other_dofs", "other_rates"}
     written = {str(name) for data in solved.values() for name in data.variables}
     assert written | own == set(VARIABLES) | set(LABELS)
     assert not written & own
 
 
-def test_units_are_units():
+def test_units_of_variables_are_known_units():
     import pint
 
     registry = pint.UnitRegistry()
@@ -76,7 +76,7 @@ CLOCK = re.compile(
 @pytest.mark.parametrize(
     "text", ["2026-11-22T17:05", "at 9:41", "Sun Nov 22 2026", "17:05:33", "1795367133.5"]
 )
-def test_a_clock_is_recognised(text):
+def test_dates_and_times_of_day_are_recognised(text):
     assert CLOCK.search(text)
 
 
@@ -101,7 +101,7 @@ def test_the_same_case_at_another_time_gives_the_same_bytes(tmp_path):
     assert len(digests) == 1
 
 
-def test_a_file_reads_back_as_it_was(tmp_path, solved):
+def test_a_file_is_read_as_it_was_written(tmp_path, solved):
     cosserat.save(solved["necking"], tmp_path / "a.nc")
     xr.testing.assert_identical(cosserat.load(tmp_path / "a.nc"), solved["necking"])
 
@@ -123,7 +123,7 @@ def test_times_open_anywhere_as_plain_seconds_and_along_no_dimension_of_dates(tm
         assert cosserat.load(path).sizes == data.sizes
 
 
-def test_a_failed_write_leaves_the_old_file_and_no_rest(tmp_path, solved, monkeypatch):
+def test_a_failed_write_keeps_the_old_file_and_leaves_no_temporary_file(tmp_path, solved, monkeypatch):
     path = tmp_path / "a.nc"
     path.write_text("old")
 
@@ -138,7 +138,7 @@ def test_a_failed_write_leaves_the_old_file_and_no_rest(tmp_path, solved, monkey
     assert [file.name for file in tmp_path.iterdir()] == ["a.nc"]
 
 
-def test_what_a_killed_process_was_writing_is_swept_away(tmp_path, solved):
+def test_temporary_files_of_killed_processes_are_removed(tmp_path, solved):
     finished = subprocess.Popen([sys.executable, "-c", ""])
     finished.wait()
     dead, other, alive, foreign = (
@@ -157,7 +157,7 @@ def test_what_a_killed_process_was_writing_is_swept_away(tmp_path, solved):
 
 
 def test_ctrl_c_waits_until_a_file_is_written(tmp_path, solved, monkeypatch):
-    """In the midst of xarray's writing it would leave a lock taken, and the run would hang for ever."""
+    """An interrupt while xarray writes would leave a lock, and the run would hang."""
     write, written = xr.Dataset.to_netcdf, []
     before = signal.signal(
         signal.SIGINT, signal.default_int_handler
@@ -195,7 +195,7 @@ def test_bad_destinations_and_files_are_refused(tmp_path, solved):
         files.case_of(xr.Dataset(attrs={"parameters": '{"name": "x"}'}))
 
 
-def test_values_that_are_not_finite_never_become_a_dataset():
+def test_values_that_are_not_finite_are_refused():
     case = cosserat.case("clamped_free")
     with pytest.raises(ValueError, match="variable 'mu' is not finite"):
         files.to_dataset(case, Solution({"mu": (("vertex",), np.array([1.0, np.nan]))}, {}))
@@ -210,17 +210,17 @@ def test_values_that_are_not_finite_never_become_a_dataset():
         ("x", ("section", "vertex", "axis"), (3, 2, 4)),
     ],
 )
-def test_fields_of_other_dimensions_never_become_a_dataset(name, dims, shape):
+def test_fields_of_other_dimensions_are_refused(name, dims, shape):
     with pytest.raises(ValueError, match=f"variable '{name}' has dimensions"):
         files.to_dataset(cosserat.case("clamped_free"), Solution({name: (dims, np.zeros(shape))}, {}))
 
 
-def test_unknown_fields_never_become_a_dataset():
+def test_unknown_fields_are_refused():
     with pytest.raises(ValueError, match="no such variables: mew"):
         files.to_dataset(cosserat.case("clamped_free"), Solution({"mew": (("vertex",), np.ones(3))}, {}))
 
 
-def test_parts_are_forgotten_with_their_folder_and_what_else_is_in_it_stays(tmp_path):
+def test_parts_are_removed_with_their_folder_and_other_files_stay(tmp_path):
     parts = Parts(tmp_path / "x.nc")
     parts.folder.mkdir()
     for name in ("00000.nc", "00001.nc", "stopped.nc", ".00002.nc.machine.12.part", "notes.txt"):

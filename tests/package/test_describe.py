@@ -1,4 +1,4 @@
-"""What a case may say: the list of keys agrees with the classes, and what it says is what the reader does."""
+"""The keys of a case: their list agrees with the classes, and its text with the reader."""
 
 import math
 import re
@@ -272,8 +272,8 @@ def test_a_kind_is_described_in_a_hundred_columns_of_plain_text(kind, capsys):
     assert "\t" not in text
 
 
-def test_a_key_reads_so():
-    """Written by hand, as a person would say it."""
+def test_a_key_is_printed_as_expected():
+    """The expected text is written by hand."""
     said_of = dict(printed("rod motion"))
     assert said_of["rod.length"] == (
         "a length in m (above 0); required Length of the centreline in the reference configuration. "
@@ -289,7 +289,7 @@ def test_a_key_reads_so():
     assert said_of["rod.vertices"].startswith("a whole number (from 3 to 20000000); required ")
 
 
-def test_an_unknown_kind_is_answered_with_the_nearest(capsys):
+def test_an_unknown_kind_is_refused_with_the_nearest_name(capsys):
     assert main(["describe", "rod", "static"]) == 2
     assert (
         capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""The lock holds all that is installed, so no resolver runs; the environment is made whole, here, or anew."""
+"""The lock has every installed package, so no resolver runs; an incomplete environment is made again."""
 
 import importlib.metadata
 import re
@@ -71,13 +71,13 @@ def test_the_lock_names_no_host_and_hashes_everything():
     assert all(re.fullmatch(r"==[^,*]+", str(pin.specifier)) for pin in PINS)
 
 
-def test_what_is_installed_is_what_the_lock_pins():
+def test_installed_packages_are_those_of_the_lock():
     for name, pin in pinned(PINS).items():
         assert pin.specifier.contains(importlib.metadata.version(name), prereleases=True), name
 
 
 def test_the_lock_is_complete_with_extras():
-    """So `pip install --no-deps` needs nothing else, and nothing that appears tomorrow can come in."""
+    """So `pip install --no-deps` needs nothing else and installs no later version."""
     assert lacking(pinned(PINS), asked_for(), installed) == []
 
 
@@ -89,7 +89,7 @@ def test_the_lock_is_complete_with_extras():
         ("snakemake", "snakemake"),
     ],
 )
-def test_a_lock_that_lacks_something_is_noticed(without, said):
+def test_an_incomplete_lock_is_noticed(without, said):
     name, _, extra = without.partition("[")
     kept = [pin for pin in PINS if pin.name != name]
     if extra:
@@ -156,28 +156,28 @@ def test_a_folder_of_the_user_is_not_made_into_an_environment(folder, linked):
     assert (mine / "thesis.tex").read_text() == "mine"
 
 
-def test_an_environment_of_which_a_kill_left_anything_is_made_anew(folder):
+def test_an_environment_with_leftovers_of_a_kill_is_made_again(folder):
     assert set_up(folder) == (0, 1)
     (folder / ".venv/.ready").unlink()
     (folder / ".venv/lib").mkdir()  # and no pyvenv.cfg: it was being cleared
     assert set_up(folder) == (0, 2)
 
 
-def test_an_environment_is_made_once_and_anew_from_another_lock(folder):
+def test_an_environment_is_made_once_and_again_for_another_lock(folder):
     assert [set_up(folder), set_up(folder)] == [(0, 1), (0, 1)]
     (folder / "requirements.lock").write_text("# nothing\n")
     assert [set_up(folder), set_up(folder)] == [(0, 2), (0, 2)]
 
 
 @pytest.mark.parametrize("at", ["--editable", "check"])
-def test_an_environment_whose_making_was_killed_is_made_anew(folder, at):
+def test_an_environment_whose_installation_was_killed_is_made_again(folder, at):
     code, count = set_up(folder, KILLED=at)
     assert code != 0
     assert count == 1
     assert [set_up(folder), set_up(folder)] == [(0, 2), (0, 2)]
 
 
-def test_an_environment_killed_while_it_was_made_anew_is_made_anew(folder):
+def test_an_environment_killed_during_its_second_installation_is_made_again(folder):
     assert set_up(folder) == (0, 1)
     lock = (folder / "requirements.lock").read_text()
     (folder / "requirements.lock").write_text("# nothing\n")
@@ -186,13 +186,13 @@ def test_an_environment_killed_while_it_was_made_anew_is_made_anew(folder):
     assert set_up(folder) == (0, 3)
 
 
-def test_an_environment_made_in_another_folder_is_made_anew(folder):
+def test_an_environment_of_another_folder_is_made_again(folder):
     assert set_up(folder) == (0, 1)
     moved = folder.rename(folder.with_name("moved"))
     assert [set_up(moved), set_up(moved)] == [(0, 2), (0, 2)]
 
 
-def test_an_environment_whose_python_has_gone_is_made_anew(folder):
+def test_an_environment_without_its_python_is_made_again(folder):
     assert set_up(folder) == (0, 1)
     (folder / ".venv/bin/python").unlink()
     assert set_up(folder) == (0, 2)

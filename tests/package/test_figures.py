@@ -1,4 +1,4 @@
-"""Figures: each is drawn from its cases, the same bytes twice, and shows what the table judges."""
+"""Figures: each is drawn from its cases, is reproducible, and shows the numbers of the table."""
 
 import itertools
 
@@ -21,7 +21,7 @@ ONE_OF_EACH = list({entry.module: name for name, entry in FIGURES.items()}.value
 
 
 @pytest.mark.parametrize("name", ONE_OF_EACH)
-def test_a_figure_of_each_module_is_the_same_twice(solved, name, tmp_path):
+def test_figures_are_reproducible(solved, name, tmp_path):
     for number in (1, 2):
         write(
             draw(name, {case: solved[case] for case in FIGURES[name].cases}), tmp_path / f"{number}.svg"
@@ -164,7 +164,7 @@ def strokes(ax):
 
 
 @pytest.mark.parametrize("name", GRAPHS)
-def test_no_text_of_a_figure_is_lost_and_nothing_lies_on_another_text_or_a_line(solved, name):
+def test_texts_of_a_figure_are_visible_and_do_not_overlap(solved, name):
     figure = drawing(solved, name)
     pixels = laid_out(figure)
     texts = shown_texts(figure)
@@ -311,7 +311,7 @@ def test_the_robot_is_drawn_crawling_through_both_cycles(solved):
     assert first.get_xlim() == second.get_xlim()
 
 
-def test_the_worms_gamma_is_drawn_in_the_reading_taken_and_in_those_that_speed_up_at_half_the_protrusion(
+def test_the_worms_gamma_is_drawn_in_all_three_readings(
     solved,
 ):
     ax = drawing(solved, "fig_2_11").axes[0]
@@ -331,7 +331,7 @@ def test_the_worms_gamma_is_drawn_in_the_reading_taken_and_in_those_that_speed_u
         assert (end[1] - begin[1]) / (end[0] - begin[0]) < 1.2 * slow < 0
 
 
-def test_a_rod_like_body_has_both_its_lengths_a_hatched_section_and_a_centreline_off_its_middle(solved):
+def test_the_rod_like_body_shows_both_lengths_a_section_and_an_eccentric_centreline(solved):
     ax = drawing(solved, "fig_3_2").axes[0]
     assert {text.split("=")[0].strip("$ ") for text in annotations(ax)} == {"L", "D"}
     assert [bool(patch.get_hatch()) for patch in ax.patches].count(True) == 1
@@ -397,7 +397,7 @@ def test_the_osculating_circle_belongs_to_a_negative_angle_and_touches_half_a_vo
     assert sum("ell / 2" in text for text in annotations(ax)) == 2
 
 
-def test_the_angles_of_a_vertex_are_large_enough_to_be_read_and_go_the_way_they_say(solved):
+def test_the_angles_of_a_vertex_are_readable_and_have_the_right_sense(solved):
     ax = drawing(solved, "fig_3_6").axes[1]
     rod = solved["bent_rod"]
     arcs = [line.get_xydata() for line in ax.lines if len(line.get_xydata()) == 30]

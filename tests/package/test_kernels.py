@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept when the package, the home or both cannot be written to."""
+"""The folder of compiled kernels if the package, the home or both are read-only."""
 
 import os
 import shutil
@@ -51,13 +51,13 @@ def python(closed, *arguments, **environment):
     return done.returncode, done.stdout, done.stderr
 
 
-def test_beside_the_sources_nothing_is_chosen(monkeypatch):
+def test_beside_writable_sources_the_default_cache_is_used(monkeypatch):
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     kernels.choose_cache()
     assert "NUMBA_CACHE_DIR" not in os.environ
 
 
-def test_the_cache_of_the_user_is_next_and_said_once(closed, tmp_path):
+def test_the_cache_of_the_user_is_the_second_choice_and_is_reported_once(closed, tmp_path):
     homes = {"HOME": str(tmp_path), "TMPDIR": str(tmp_path)}
     code, out, err = python(closed, "use.py", **homes)
     assert code == 0, err
@@ -67,7 +67,7 @@ def test_the_cache_of_the_user_is_next_and_said_once(closed, tmp_path):
     assert python(closed, "use.py", **homes) == (0, out, "")
 
 
-def test_without_a_home_a_private_temporary_folder_is_next(closed, tmp_path):
+def test_without_a_home_the_cache_is_a_private_temporary_folder(closed, tmp_path):
     nowhere = {"HOME": "/dev/null/none", "TMPDIR": str(tmp_path)}
     folder = tmp_path / f"cosserat-{os.getuid()}"
     code, out, err = python(closed, "use.py", **nowhere)
@@ -79,7 +79,7 @@ def test_without_a_home_a_private_temporary_folder_is_next(closed, tmp_path):
 
 @pytest.mark.parametrize("caches", [{}, {"XDG_CACHE_HOME": "missing/.cache"}])
 def test_a_missing_home_is_not_made(closed, tmp_path, caches):
-    """Whoever may, as the superuser of a container may, would leave a home that nobody has."""
+    """A superuser in a container could create the missing home; the package does not."""
     caches = {name: str(tmp_path / place) for name, place in caches.items()}
     code, out, err = python(
         closed, "use.py", HOME=str(tmp_path / "missing"), TMPDIR=str(tmp_path), **caches
@@ -90,8 +90,8 @@ def test_a_missing_home_is_not_made(closed, tmp_path, caches):
 
 
 @pytest.mark.parametrize("reason", ["others may write there", "nothing can be written"])
-def test_where_nothing_is_safe_nothing_is_kept_and_all_works(closed, tmp_path, reason):
-    """What is read from a cache is run, so a folder that others may write to is none."""
+def test_without_a_safe_folder_nothing_is_cached(closed, tmp_path, reason):
+    """Code in a cache is executed, so a folder that others may write to is not used."""
     folder = tmp_path / f"cosserat-{os.getuid()}"
     if reason == "others may write there":
         folder.mkdir()

@@ -1,4 +1,4 @@
-"""What every kind of problem promises, whichever part of the package brings it: these tests name none of them."""
+"""The contract of every kind of problem of the registry.  These tests name no kind."""
 
 import ast
 import importlib
@@ -112,7 +112,7 @@ def stored(solved, case):
 
 
 @every_kind
-def test_a_result_runs_its_case_again_and_goes_on_after_an_interruption(
+def test_a_result_runs_its_case_again_and_resumes_after_an_interruption(
     solved, kind, tmp_path, monkeypatch, capsys
 ):
     """From the text that it carries, to the same bytes; a kind that stores parts is stopped after the first."""
@@ -188,11 +188,11 @@ def classes_of_problems():
         ("isinstance(problem, asked)", False),
     ],
 )
-def test_a_decision_by_kind_is_noticed(source, found):
+def test_a_branch_on_the_kind_of_a_problem_is_noticed(source, found):
     assert bool(list(decisions(ast.parse(source), set(kinds()), classes_of_problems()))) == found
 
 
-def test_only_the_registries_decide_by_the_name_of_a_kind_or_by_its_class():
+def test_only_the_registries_branch_on_the_kind_of_a_problem():
     """So a new kind is a class and an entry, and no other file is edited."""
     words, classes = set(kinds()), classes_of_problems()
     found = {}

@@ -1,4 +1,4 @@
-"""The README is executed: every block of TOML, shell and Python; and its picture is the one that is drawn today."""
+"""Every block of TOML, shell and Python in the README is executed, and its picture is up to date."""
 
 import os
 import re
@@ -38,7 +38,7 @@ TABLES = [(name, text) for text in blocks("toml") for name in tomllib.loads(text
 LINES = [line.split("  #")[0].strip() for text in blocks("sh") for line in text.splitlines()]
 
 
-def test_every_block_is_of_a_language_that_is_executed():
+def test_every_block_is_in_a_language_that_is_executed():
     assert {language for language, _ in BLOCKS} == {"toml", "sh", "python"}
     assert TEXT.count("```") == 2 * len(BLOCKS)
     prose = re.sub(r"^```.*?^```$", "", TEXT, flags=re.MULTILINE | re.DOTALL)
@@ -68,7 +68,7 @@ def test_python_of_the_readme_is_executed(text, tmp_path, monkeypatch, capsys):
 
 
 def test_shell_lines_of_the_readme_are_executed_in_their_order(tmp_path):
-    """With its cases in my.toml, as it says; what each line is said to write stands there."""
+    """The cases of the README are in my.toml, and each line writes the file that the README names."""
     assert set(ELSEWHERE) <= set(LINES), "an exemption of a line that the README does not have"
     (tmp_path / "my.toml").write_text("\n".join(blocks("toml")), encoding="utf-8")
     path = os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()])
@@ -95,7 +95,7 @@ def test_commands_within_sentences_have_the_options_that_they_name():
         assert _parser().parse_args(shlex.split(code)[1:]), code
 
 
-def test_files_that_the_readme_names_are_there():
+def test_files_named_in_the_readme_exist():
     patterns = (
         r"\]\(([^)#]+)\)",
         r"`((?:cosserat|chapters|tests)/[\w/]+\.\w+)`",
@@ -127,7 +127,7 @@ def redrawn(solved, tmp_path_factory):
     return path.read_text(encoding="utf-8")
 
 
-def test_the_picture_of_the_readme_is_what_is_drawn_today(redrawn):
+def test_the_picture_of_the_readme_is_up_to_date(redrawn):
     assert f"({PICTURE.relative_to(ROOT)})" in TEXT
     assert same_picture(PICTURE.read_text(encoding="utf-8"), redrawn), (
         "chapters/opening.svg is stale: 'make', then 'cosserat figure fig_opening -o chapters/opening.svg'"

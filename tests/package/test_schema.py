@@ -1,4 +1,4 @@
-"""The JSON Schemas of cases, judged by the package jsonschema: shipped cases pass, and what is amiss is refused."""
+"""The JSON Schemas of cases, with the validator jsonschema: published cases pass, and bad cases are refused."""
 
 import copy
 import json
@@ -79,11 +79,11 @@ def reads(text, tmp_path):
 
 
 @pytest.mark.parametrize("text", [*FILES, *README])
-def test_files_of_cases_pass(written, text):
+def test_published_case_files_pass_the_schema(written, text):
     assert [error.message for error in written.iter_errors(tomllib.loads(text))] == []
 
 
-def test_published_cases_pass_when_merged(whole):
+def test_merged_published_cases_pass_the_schema(whole):
     assert [name for name in titles() if not whole.is_valid(table_of(name))] == []
 
 
@@ -123,7 +123,7 @@ def test_published_cases_pass_when_merged(whole):
         'gait.phases = ["1 m"]\ncrawler.length = "1 m"',
     ],
 )
-def test_what_is_amiss_is_refused_as_written_and_by_the_reader(written, text, tmp_path):
+def test_bad_cases_are_refused_by_the_schema_and_by_the_reader(written, text, tmp_path):
     assert not written.is_valid(mine(text))
     assert not reads(text, tmp_path)
 
@@ -141,7 +141,7 @@ def test_what_is_amiss_is_refused_as_written_and_by_the_reader(written, text, tm
         "prescribed_displacements = [{ at = 1, dof = 'x2', by = '1 m' }]",
     ],
 )
-def test_what_a_schema_cannot_see_is_left_to_the_reader(written, text, tmp_path):
+def test_faults_beyond_a_schema_are_refused_by_the_reader(written, text, tmp_path):
     text = text if "like" not in text else 'rod = { like = "no_such_case" }'
     assert written.is_valid(mine(text))
     assert not reads(text, tmp_path)
@@ -160,11 +160,11 @@ def test_what_a_schema_cannot_see_is_left_to_the_reader(written, text, tmp_path)
         "gravity = { g = '9.81 m s-2', along = '-E2' }",
     ],
 )
-def test_what_is_right_passes(written, text):
+def test_right_cases_pass_the_schema(written, text):
     assert written.is_valid(mine(text))
 
 
-def test_a_file_has_tables_with_the_names_of_files(written):
+def test_names_of_cases_are_names_of_files(written):
     assert not written.is_valid({})
     assert not written.is_valid({"mine": 5})
     assert not written.is_valid({"my rod": {"like": "clamped_free"}})
@@ -206,14 +206,14 @@ def test_a_merged_case_has_the_keys_of_its_kind_alone(whole):
     assert whole.is_valid(table_of("clamped_free") | {"title": "Mine", "source": "here"})
 
 
-def test_units_are_known_in_every_spelling_that_the_reader_takes(whole):
+def test_the_schema_takes_every_spelling_of_a_unit_that_the_reader_takes(whole):
     for unit, texts in (READ | {"m/s": ["5 m/s", "18 km/h", "5 m s⁻¹", "5 m s-1", "1 mm/s"]}).items():
         if unit in NAMES:
             validator = Draft202012Validator(whole.schema["$defs"][NAMES[unit]])
             assert [text for text in texts if not validator.is_valid(text)] == [], unit
 
 
-def test_wrong_units_are_refused_but_for_those_that_no_pattern_sees(whole):
+def test_wrong_units_are_refused_except_those_beyond_a_pattern(whole):
     defs = whole.schema["$defs"]
     passing = [
         text for unit, text, _ in REFUSED if Draft202012Validator(defs[NAMES[unit]]).is_valid(text)
@@ -268,7 +268,7 @@ def test_an_editor_is_shown_every_key_with_its_meaning_unit_and_default(written)
         }
 
 
-def test_a_fault_is_shown_where_it_is(written):
+def test_a_fault_is_reported_at_its_key(written):
     places = {
         'rod.length = "3 kg"': "$.mine.rod.length",
         'rod.lenght = "3 m"': "$.mine.rod",

@@ -1,4 +1,4 @@
-"""What CONTRIBUTING says of adding an energy, a load, a constraint and a kind, followed with a toy of each.
+"""The instructions of CONTRIBUTING for a new energy, load, constraint and kind, followed with a toy of each.
 
 None of them touches the package: each is a class, and one entry in a registry.
 """
@@ -160,7 +160,7 @@ def linear_truss(rod, load):
     return u.reshape(-1, 3, 2)
 
 
-def test_an_energy_of_its_own_unknowns_rests_moves_and_vibrates(trussed):
+def test_an_energy_with_its_own_unknowns_has_equilibria_motions_and_modes(trussed):
     forces = [{"at": "last", "along": "E2", "force": 1e-4}]
     braced = cosserat.case("elastica").vary("braced", rod=trussed, forces=forces, supports=[CLAMP])
     data = cosserat.run(braced)
@@ -186,8 +186,8 @@ def test_an_energy_of_its_own_unknowns_rests_moves_and_vibrates(trussed):
     assert flown.other_dofs.shape == (5, 9, 2)
 
 
-def test_a_damped_motion_of_its_own_unknowns_knows_its_fastest_mode(trussed):
-    """The one of the dense matrices, which the warning of a damping that steps do not follow names."""
+def test_a_damped_motion_with_its_own_unknowns_finds_its_fastest_mode(trussed):
+    """The warning of unresolved damping has the fastest mode of the dense matrices."""
     case = cosserat.case("vibration_consistent").vary(
         "damped",
         rod={**trussed, "material": {"young": 1e6}},
@@ -205,7 +205,7 @@ def test_a_damped_motion_of_its_own_unknowns_knows_its_fastest_mode(trussed):
     assert f"the fastest has {highest:.3g})" in named
 
 
-def test_a_misspelt_energy_is_answered_with_those_there_are(trussed):
+def test_a_misspelt_energy_is_refused_with_the_known_names(trussed):
     with pytest.raises(InputError, match="'published' or 'consistent' or 'truss'"):
         cosserat.case("elastica").vary("x", rod={"energy": "trus"})
 
@@ -285,7 +285,7 @@ def follower_angle(load):
     return abs(done.y[0, -1])
 
 
-def test_a_load_that_follows_the_rod_meets_the_elastica(pushes):
+def test_a_follower_load_agrees_with_the_elastica(pushes):
     problem = cosserat.case("elastica").problem
     section = problem.rod.section
     section = section.replace(height=section.height / 8, width=section.width / 8)
@@ -306,7 +306,7 @@ def test_a_load_that_follows_the_rod_meets_the_elastica(pushes):
     assert np.log2(errors[:-1] / errors[1:]) == pytest.approx(2, abs=0.2)
 
 
-def test_its_work_is_the_change_of_energy_and_not_corrected_away(pushes):
+def test_the_work_of_a_follower_load_is_the_change_of_energy(pushes):
     table = cosserat.case("vibration_consistent").problem.model_dump()
     force = 1e-3 * table["rod"]["material"]["young"] * table["rod"]["section"]["height"] ** 4
     table |= {"kind": "pushed motion", "start": {}, "duration": 0.05, "every": 0.005, "damping": 0.0}
@@ -324,7 +324,7 @@ def test_its_work_is_the_change_of_energy_and_not_corrected_away(pushes):
     assert missing[-1] < 1e-9  # exactly what the midpoint rule gives
 
 
-def test_small_motions_under_it_are_not_called_vibrations(pushes):
+def test_modes_under_a_follower_load_are_refused(pushes):
     table = cosserat.case("elastica").problem.model_dump() | {"kind": "pushed statics", "forces": []}
     table["pushes"] = [{"force": 1e-6}]
     with pytest.raises(InputError, match="a load has no potential"):
@@ -354,7 +354,7 @@ class CountedMotion(RodMotion):
     counters: tuple[Counter, ...] = ()
 
 
-def test_what_a_load_remembers_is_kept_from_one_part_of_a_run_to_the_next(monkeypatch):
+def test_internal_variables_of_a_load_are_kept_between_parts_of_a_run(monkeypatch):
     monkeypatch.setitem(LOADS, "counters", Counter)
     table = cosserat.case("vibration_consistent").problem.model_dump() | {"kind": "counted motion"}
     table |= {"duration": 0.01, "every": 0.005, "integrator": {"step": 5e-4}, "counters": [{}]}
@@ -407,7 +407,7 @@ class LedStatics(RodStatics):
     circles: tuple[Circle, ...] = ()
 
 
-def test_a_constraint_leads_a_vertex_and_a_hinged_rod_follows_it_rigidly(monkeypatch):
+def test_a_constraint_moves_a_vertex_and_a_hinged_rod_follows_it_rigidly(monkeypatch):
     monkeypatch.setitem(CONSTRAINTS, "circles", Circle)
     base = cosserat.case("elastica").problem
     table = base.model_dump() | {

@@ -1,4 +1,4 @@
-"""Numbers with units as people write them: each is read as what it means, or refused with the reason."""
+"""Numbers with units in many spellings: each has its meaning, or is refused with the reason."""
 
 import contextlib
 import math
@@ -114,13 +114,13 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("unit", READ)
-def test_each_spelling_is_read_as_what_it_means(unit):
+def test_each_spelling_of_a_unit_has_its_meaning(unit):
     for text, value in READ[unit].items():
         assert to_si(text, unit, unit_required=True) == pytest.approx(value, rel=1e-14), text
 
 
 @pytest.mark.parametrize("unit", READ)
-def test_no_spelling_is_read_as_a_quantity_of_another_kind(unit):
+def test_a_quantity_of_another_dimension_is_refused(unit):
     for other, texts in READ.items():
         for text in texts:
             if other != unit:
@@ -129,7 +129,7 @@ def test_no_spelling_is_read_as_a_quantity_of_another_kind(unit):
 
 
 @pytest.mark.parametrize(("unit", "text", "why"), REFUSED, ids=[text[:20] for _, text, _ in REFUSED])
-def test_what_is_typed_wrongly_is_refused_with_the_reason(unit, text, why):
+def test_bad_quantities_are_refused_with_the_reason(unit, text, why):
     with pytest.raises(PydanticCustomError) as caught:
         to_si(text, unit, unit_required=True)
     sentence = str(caught.value)
@@ -139,7 +139,7 @@ def test_what_is_typed_wrongly_is_refused_with_the_reason(unit, text, why):
 
 
 @given(st.text("0123456789.,_eE+-*/^x ()kMmNPapsigrdµμ²⁻·×°º%", max_size=14))
-def test_whatever_is_typed_is_a_number_or_a_sentence(text):
+def test_any_text_gives_a_number_or_an_error_sentence(text):
     for unit in ("Pa", "m^-1", "1"):
         with contextlib.suppress(PydanticCustomError):  # no error of another kind
             assert math.isfinite(to_si(text, unit, unit_required=True))

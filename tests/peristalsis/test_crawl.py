@@ -1,4 +1,4 @@
-"""Gaits, crawling, and what is refused of a gait."""
+"""Gaits and crawling, and the gaits that are refused."""
 
 import numpy as np
 import pytest
@@ -150,7 +150,7 @@ def test_a_front_at_an_end_has_left_the_body():
         ({"speed": "1 m/s"}, "'speed' is not a key"),
     ],
 )
-def test_what_is_no_gait_is_refused(changes, sentence):
+def test_bad_gaits_are_refused(changes, sentence):
     with pytest.raises(InputError, match=sentence):
         gait(**changes)
 
@@ -190,7 +190,7 @@ def test_regions_that_do_not_cover_the_body_are_refused(regions, sentence):
         posture(regions)
 
 
-def test_a_posture_of_ones_own_and_a_gait_of_ones_own(tmp_path):
+def test_a_users_posture_and_gait_are_solved(tmp_path):
     data = cosserat.run(
         posture(REGIONS).vary("mine", loads={"advancing": "1 kPa", "anchoring": "20 mN"})
     )
@@ -211,7 +211,7 @@ def test_a_posture_of_ones_own_and_a_gait_of_ones_own(tmp_path):
     assert (strides(crawled) > 0.09).all()
 
 
-def test_an_incompressible_body_has_to_anchor_somewhere():
+def test_an_incompressible_body_without_an_anchoring_region_is_refused():
     whole = {
         "gamma": [
             [
@@ -256,7 +256,7 @@ def test_an_incompressible_body_has_to_anchor_somewhere():
         ({"loads": {"anchoring": "-1 N"}}, "'loads.anchoring' is -1 N; it must be at least 0"),
     ],
 )
-def test_crawls_that_cannot_be_are_refused(changes, sentence):
+def test_impossible_crawls_are_refused(changes, sentence):
     with pytest.raises(InputError, match=sentence):
         WORM.vary("x", **changes)
 
@@ -269,7 +269,7 @@ def test_a_calibration_needs_an_incompressible_worm_and_loads_to_start_from():
         case.vary("x", worm=cosserat.case("soft_robot").problem.model_dump())
 
 
-def test_a_calibration_gives_back_the_parameters_of_the_worm_that_was_measured():
+def test_a_calibration_recovers_the_parameters_of_the_measured_worm():
     case = cosserat.case("worm_calibration")
     soft = case.problem.loaded(1500, 0.02, 1000)
     ratio_1, ratio_3, low, high = case.problem.fractions(soft, "soft") * (0.75, 1.60, 300, 800)
@@ -283,7 +283,7 @@ def test_a_calibration_gives_back_the_parameters_of_the_worm_that_was_measured()
 def test_a_sweep_needs_masses_and_a_weight_can_collapse_a_body():
     with pytest.raises(InputError, match="'masses' is empty"):
         cosserat.case("worm_masses").vary("x", masses=[])
-    with pytest.raises(InputError, match="'worm.gait.phases' has 4; it takes two"):
+    with pytest.raises(InputError, match="'worm.gait.phases' has 4; give two"):
         cosserat.case("worm_masses").vary("x", worm=cosserat.case("soft_robot").problem.model_dump())
     with pytest.raises(
         InputError, match="'loads.anchoring' = 0 N and a weight of 40 N/m would collapse"
@@ -332,7 +332,7 @@ def fatness_of_the_anchor(data):
 
 
 @pytest.mark.parametrize("name", CRAWLS)
-def test_crawlers_hold_on_with_a_fat_part_but_for_the_early_switch(name, solved):
+def test_crawlers_anchor_with_a_fat_part_except_at_the_early_switch(name, solved):
     """At every instant, by the gait and by the stretches that were solved for; section 2.1."""
     problem = cosserat.case(name).problem
     thin = [instant.time for instant in problem.thin_anchors()]
@@ -347,7 +347,7 @@ def test_crawlers_hold_on_with_a_fat_part_but_for_the_early_switch(name, solved)
     assert (fat < 0.5).sum() == 10 * problem.strides
 
 
-def test_a_thin_anchor_is_told_with_its_instants():
+def test_a_thin_anchor_is_warned_of_with_its_instants():
     said = cosserat.case("worm_early").problem.thin_anchor_warning()
     assert said.startswith("thin anchor: at 10 of 100 instants of a stride (t = 1.1 to 1.55 s)")
     twice = [[[0, 0.75], [0.1, 0.65]], [[0.1, 0], [0.2, 0]], [[0.2, 0.6], [0.3, 0.5]]]
@@ -358,7 +358,7 @@ def test_a_thin_anchor_is_told_with_its_instants():
     assert same.problem.thin_anchors() == []  # nothing makes one part thinner than another
 
 
-def test_a_pneumatic_robot_moves_by_the_closed_form_and_holds_on_where_it_is_inflated():
+def test_a_pneumatic_robot_moves_by_the_closed_form_and_anchors_in_inflated_regions():
     """Section 2.7: D = 0 and p < 0.  Inflated regions are short and fat, so the robot's fronts change their places."""
     robot = cosserat.case("soft_robot")
     own = robot.problem.gait
@@ -407,7 +407,7 @@ def test_gaits_are_periodic(name, solved):
 
 @pytest.mark.parametrize("name", [name for name in CRAWLS if not name.endswith("_reference")])
 def test_the_stride_does_not_depend_on_the_time_step_once_events_are_on_the_grid(name):
-    """An anchor between the fronts lies on a plateau that moves as one piece: any point of it may hold."""
+    """An anchor between the fronts lies on a plateau without a change of stretch: any point of it may be the anchor."""
     case = cosserat.case(name)
     count = 2 if name == "worm_clipped" else 1  # its first stride begins elsewhere
     lengths = [
@@ -446,7 +446,7 @@ def test_a_crawl_run_backwards_in_mirror_image_is_the_same_crawl():
     np.testing.assert_allclose(-moved[:, ::-1], kept, atol=1e-9)
 
 
-def test_progress_is_told_and_a_failing_instant_is_named():
+def test_progress_is_reported_and_a_failing_instant_is_named():
     told = []
     cosserat.run(
         WORM.vary("x", strides=2, step=1),
@@ -501,8 +501,8 @@ def test_a_crawl_that_will_collapse_is_refused_before_its_first_solve(
         cosserat.run(cosserat.case(name).vary("x", **changes))
 
 
-def test_doubling_the_mesh_moves_no_row_by_a_tenth_of_what_it_claims(solved):
-    """Neither by a tenth of a tolerance nor, where another number is found, by half of the last digit of that."""
+def test_doubling_the_mesh_changes_no_row_by_a_tenth_of_its_tolerance(solved):
+    """The change is below a tenth of the tolerance, and below half of the last digit of another number found."""
     rows = [
         row
         for row in read_table(ROOT / "results/tolerances.csv")
@@ -526,7 +526,7 @@ def test_doubling_the_mesh_moves_no_row_by_a_tenth_of_what_it_claims(solved):
 
 
 @pytest.mark.parametrize("name", ["worm", "worm_printed", "worm_balanced"])
-def test_what_is_found_outside_is_found_by_the_collocation_too(name):
+def test_values_found_outside_agree_with_collocation(name):
     """Solved in the thesis's way, at both contractions and the ends of a stride, to the last digit of the rows."""
     rows = [row for row in read_table(ROOT / "results/tolerances.csv") if row.case == name and row.found]
     way = {"solver": "collocation", "collocation_tolerance": 1e-5, "strides": 1, "step": 0.875}
@@ -539,7 +539,7 @@ def test_what_is_found_outside_is_found_by_the_collocation_too(name):
 # ---------------------------------------------------------------- worms of every size
 
 
-def test_table_2_1():
+def test_scaling_laws_are_those_of_table_2_1():
     for value, printed, digits in (
         (stance_time(0.01), 1.75, 0.005),
         (protrusion_time(0.01), 3.15, 0.005),
@@ -549,7 +549,7 @@ def test_table_2_1():
         assert value == pytest.approx(printed, abs=digits)
 
 
-def test_muscles_of_constant_stress_alone_scale_like_an_earthworm(solved):
+def test_only_muscles_of_constant_stress_scale_like_an_earthworm(solved):
     known = {
         "stride_exponent": 0.40,
         "speed_slope": 0.33,
@@ -565,7 +565,7 @@ def test_muscles_of_constant_stress_alone_scale_like_an_earthworm(solved):
     assert min(distance["worm_masses_constant_pressure"], distance["worm_masses_strip"]) > 0.1
 
 
-def test_a_power_of_a_strain_is_not_the_power_of_the_stretch():
+def test_the_exponent_of_a_strain_is_not_that_of_the_stretch():
     """Strains of 0.6 m^0.1 grow with the power 0.1; the stretches with about a third of it."""
     mass = np.array([1e-5, 1e-4, 1e-3, 1e-2])
     most, least = 1 + 0.6 * (mass / 0.01) ** 0.1, np.ones(4)

@@ -1,4 +1,4 @@
-"""Chapter 2 with units: moduli of section 2.6, governing equations as printed, the ground that the rod lies on."""
+"""Chapter 2 with units: moduli of section 2.6, governing equations as printed, the shape on the ground."""
 
 import numpy as np
 import pytest
@@ -66,7 +66,7 @@ def test_the_energy_2_6_18_is_that_of_chapter_1_without_shear(seed):
 
 
 @given(st.integers(0, 10_000))
-def test_its_quadratic_part_has_the_stiffnesses_of_the_crawler(seed):
+def test_the_quadratic_part_of_2_6_18_has_the_stiffnesses_of_the_crawler(seed):
     """(2.6.19) is (2.3.1) with (2.6.20); the rest falls with the third power of the strains."""
     rng = np.random.default_rng(seed)
     e, slope = rng.uniform(-1, 1, 3), rng.uniform(-30, 30, 2)
@@ -181,7 +181,7 @@ def test_the_lowest_line_stays_on_the_ground_and_the_centreline_is_as_long_as_it
     assert np.abs(alone / middle - 1).max() > 1e-3
 
 
-def test_the_contact_force_goes_on_through_both_junctions():
+def test_the_contact_force_is_continuous_at_both_junctions():
     """(2.4.14) at gamma, (2.4.15) at eta: lambda_c mu_1 mu_2 is -delta on either side of each."""
     regions = [Region(0, 0.3, "anchoring"), Region(0.3, 0.7, "advancing"), Region(0.7, 1, "anchoring")]
     problem = InstantProblem(WORM.crawler, WORM.loads, regions, "test")

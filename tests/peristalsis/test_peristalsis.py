@@ -66,7 +66,7 @@ def rest(groups, **given_):
         {"poisson": 0.3, "bulk": 1e4 / (3 * 0.4)},
     ],
 )
-def test_thought_experiments_of_section_2_6_give_back_the_moduli(material):
+def test_thought_experiments_of_section_2_6_recover_the_moduli(material):
     body = Crawler(length=0.3, radius=0.02, mass=0, material=Compressible(**material))
     k_s, k_p, k_g = body.stiffnesses
     assert k_g == pytest.approx(1e4 * np.pi * 0.02**4 / (8 * 1.3))  # (2.6.21)
@@ -96,7 +96,7 @@ def test_thought_experiments_of_section_2_6_give_back_the_moduli(material):
         ({"young": 1e5, "bulk": 1e4}, "it must be above -1 and below 1/2"),
     ],
 )
-def test_moduli_that_make_no_material_are_refused(material, sentence):
+def test_impossible_moduli_are_refused(material, sentence):
     with pytest.raises(InputError, match=sentence):
         Compressible.read(material, "material", units_required=False)
 
@@ -281,7 +281,7 @@ def test_the_incompressible_rod_keeps_the_product_of_its_stretches(multiplier):
 
 
 @pytest.mark.parametrize("name", ["worm", "worm_printed", "worm_at_rest", "worm_reference"])
-def test_the_delivered_stretches_keep_their_product_and_the_pressure_goes_with_them(name):
+def test_the_stored_stretches_keep_their_product_and_agree_with_the_pressure(name):
     """In the Dataset, between the points of the mesh; the contact force that p_coelom holds is constant there too."""
     problem = cosserat.case(name)
     if problem.problem.kind == "crawl":
@@ -299,7 +299,7 @@ def test_the_delivered_stretches_keep_their_product_and_the_pressure_goes_with_t
         np.testing.assert_allclose(force, -loads.anchoring, rtol=1e-12)
 
 
-def test_the_true_volume_strays_where_sections_tilt_and_nowhere_else():
+def test_the_true_volume_changes_only_where_sections_tilt():
     """(d_1 x d_2) . r' = mu_1 mu_2 mu_3 cos(theta): less than one in the layers."""
     profile, _ = instant(WORM, "thesis").solve(FINE, None)
     sine = profile.slope[..., 0] * WORM.crawler.radius / WORM.crawler.length / profile.mu_3
@@ -349,7 +349,7 @@ def test_for_small_loads_the_compressible_rod_tends_to_the_incompressible_one_wi
     np.testing.assert_allclose(np.diff(np.log10(distance)), -1, atol=0.001)
 
 
-def test_at_finite_loads_the_linear_volume_parts_the_two_rods():
+def test_at_finite_loads_the_linear_volume_separates_the_two_rods():
     """(2.2.14) in the one, (2.2.13) in the other: what remains at nu = 1/2 grows with the square of the load."""
     remains = [nearly_incompressible(0.5 - 1e-7, fraction) for fraction in (1.25e-2, 2.5e-2, 5e-2)]
     np.testing.assert_allclose(np.diff(np.log2(remains)), 2, atol=0.01)
@@ -381,7 +381,7 @@ def test_a_material_that_hardly_resists_a_change_of_volume_is_refused_by_its_poi
         cosserat.case("soft_robot").vary("x", crawler={"material": {"poisson": poisson}})
 
 
-def test_next_to_that_both_solvers_still_agree():
+def test_both_solvers_agree_near_the_refused_poisson_ratio():
     near = ROBOT.replace(
         crawler=ROBOT.crawler.replace(material=Compressible(young=1e4, poisson=-0.9998))
     )
@@ -425,7 +425,7 @@ def test_layers_too_steep_for_the_ground_are_refused():
 
 
 def test_both_solvers_agree_on_instants_of_a_stride():
-    """On some instants of the stride; `cosserat speed` says how much faster the banded one is."""
+    """At some instants of the stride; `cosserat speed` compares their times."""
     problem = WORM.replace(strides=1, step=1.0)
     banded = problem.solve("test")
     reference = problem.replace(solver="collocation").solve("test")

@@ -1,4 +1,4 @@
-"""Motion of the published rod: what is kept, how fast errors fall, what is refused, and Fig. 3.13."""
+"""Motion of the published rod: conservation, orders of convergence, refused input, and Fig. 3.13."""
 
 from dataclasses import replace
 
@@ -45,7 +45,7 @@ def total_energy(data):
     return (data.kinetic_energy + data.strain_energy + data.load_potential).to_numpy()
 
 
-def test_energy_is_kept_over_a_hundred_periods_at_a_hundred_steps_each():
+def test_energy_is_conserved_over_a_hundred_periods():
     problem, system, state = parts_of(BEAM)
     period = 2 * np.pi / problem.modes(1).angular_frequency[0]
     start = system.internal.energy(state.q) + integrate.kinetic_energy(system, state)
@@ -59,7 +59,7 @@ def test_energy_is_kept_over_a_hundred_periods_at_a_hundred_steps_each():
     assert worst < 1e-8
 
 
-def test_a_large_motion_keeps_energy_where_the_plain_midpoint_rule_does_not():
+def test_a_large_motion_conserves_energy_and_the_plain_midpoint_rule_does_not():
     """A tip displacement of a tenth of the length: sigma z is what keeps the energy."""
     large = {"duration": 0.1, "every": 1e-3, "start": {"amplitude": 0.1}, "integrator": {"step": 1e-4}}
     data = vibrating(**large)
@@ -232,8 +232,8 @@ def test_modes_about_an_unstable_equilibrium_are_refused():
             modes(system, straight, 1, "the column", supported=True)
 
 
-def test_damping_of_a_free_rod_is_a_share_of_that_of_its_first_bending():
-    """Its three rigid motions have no frequency to be damped by."""
+def test_damping_of_a_free_rod_is_relative_to_its_first_bending_mode():
+    """The three rigid motions have zero frequency and no damping."""
     problem = free_flight(damping=1.0).problem
     elastic = problem.modes(4).angular_frequency[3]
     assert problem.system(problem.geometry).damping_rate == pytest.approx(2 * elastic, rel=1e-9)
@@ -340,7 +340,7 @@ def test_kinetic_energy_and_angular_momentum_of_a_spinning_rod():
     assert spin == pytest.approx(J * 7, rel=1e-12)
 
 
-def test_a_falling_rod_falls_as_bodies_do():
+def test_a_falling_rod_has_the_acceleration_of_gravity():
     case = BEAM.vary(
         "falling",
         supports=[],
@@ -381,7 +381,7 @@ def test_relaxation_by_the_thesiss_explicit_method_reaches_newtons_equilibrium()
     assert settled.kinetic_energy[-1] < 1e-6 * settled.strain_energy[-1]
 
 
-def test_damping_takes_energy_and_never_gives_it(solved):
+def test_damping_never_increases_the_energy(solved):
     for name in ("relaxing_clamped_free", "relaxing_hanging_bar"):
         energy = total_energy(solved[name])
         assert (np.diff(energy) < 1e-9 * np.abs(energy).max()).all()
@@ -401,7 +401,7 @@ def test_the_stability_limit_is_where_the_motion_diverges():
         assert at_load != bounded
 
 
-def test_the_limit_of_a_rod_with_one_free_number_is_that_of_one_oscillator():
+def test_the_stability_limit_with_one_free_dof_is_that_of_an_oscillator():
     whole = ["x3", "x2", "d3", "d2"]
     supports = [{"at": at, "fixed": constrain} for at, constrain in enumerate((whole, whole, whole[:3]))]
     case = BEAM.vary("one", rod={"vertices": 3}, supports=supports, start={"amplitude": 0.0})
@@ -411,7 +411,7 @@ def test_the_limit_of_a_rod_with_one_free_number_is_that_of_one_oscillator():
 
 
 def test_modes_of_a_motion_are_those_of_the_unloaded_rod():
-    """Its reference is at rest without loads alone; so couples neither move them nor the damping they set."""
+    """Couples change neither the modes nor the damping that follows from them: modes are about the reference."""
     hinge = [{"at": "first", "fixed": ["x3", "x2"]}]
     plain = BEAM.vary("plain", supports=hinge, damping=1.0).problem
     motor = BEAM.vary(
@@ -450,7 +450,7 @@ def test_steps_are_never_longer_than_the_one_given():
 
 
 def test_drag_shortens_the_stable_step():
-    """At 700 times the critical damping the drag alone makes steps of 20 microseconds diverge."""
+    """At 700 times the critical damping steps of 20 microseconds diverge because of the drag."""
     damped = {"damping": 700.0, "integrator": {"method": "rk4", "step": 2e-5}}
     with pytest.raises(InputError, match=r"only up to 1\.8\d*e-05 s"):
         vibrating(**damped)
@@ -495,7 +495,7 @@ def test_a_diverging_run_stops_with_a_sentence_and_keeps_its_frames(tmp_path):
     assert np.isfinite(cosserat.load(kept[-1]).x).all()
 
 
-def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
+def test_an_interrupted_run_resumes_to_the_same_bytes(tmp_path):
     case = BEAM.vary("beam", duration=0.05, every=2.5e-4)
     cosserat.save(cosserat.run(case), tmp_path / "whole.nc")
 
@@ -517,8 +517,8 @@ def test_an_interrupted_run_goes_on_to_the_same_bytes(tmp_path):
     assert (tmp_path / "cut.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
 
 
-def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
-    """Parts end between two frames where one alone takes longer than a part may; cut there, nothing changes."""
+def test_a_long_interval_between_frames_is_stored_in_parts(tmp_path, monkeypatch):
+    """A part may end between two frames if their interval is longer than a part; the result does not change."""
     shaken = {
         "at": "first",
         "dof": "x2",
@@ -561,7 +561,7 @@ def test_a_frame_that_takes_long_is_stored_in_legs(tmp_path, monkeypatch):
     ("method", "vertices", "step", "steps"),
     [("implicit", 20, 1e-4, 25_000), ("implicit", 400, 1e-4, 1250), ("rk4", 20, 1e-5, 12_500)],
 )
-def test_parts_hold_as_much_work_whatever_the_method(method, vertices, step, steps):
+def test_parts_hold_equal_work_for_every_method(method, vertices, step, steps):
     """Of a run of 20 s with a frame every 5 s, which is longer than a part may be: half a million vertices stepped."""
     integrator = {"method": method, "step": step}
     case = BEAM.vary("long", rod={"vertices": vertices}, duration=20, every=5, integrator=integrator)

@@ -1,4 +1,4 @@
-"""The four static problems of section 3.5: what the thesis publishes, and what our readings of it change."""
+"""The four static problems of section 3.5: the published results, and the effect of our readings of the thesis."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def ratio(reading):
     return reading.measured / reading.expected
 
 
-def test_hanging_bar_meets_the_formula(solved):
+def test_hanging_bar_agrees_with_the_closed_form(solved):
     assert abs(ratio(readouts.at_tip(readouts.hanging_bar_curve(solved["hanging_bar"]))) - 1) < 1e-4
 
 
@@ -57,7 +57,7 @@ def test_necking_midspan_with_half_and_with_printed_coupling(solved):
     assert printed == pytest.approx(3.57, abs=1e-2)
 
 
-def test_published_coefficients_belong_to_twenty_vertices():
+def test_published_coefficients_are_valid_at_twenty_vertices_only():
     """The clamped-free tip moves away from Timoshenko's under refinement, towards 1.127 of it."""
     tips = []
     for n, expected in ((20, 0.9955), (40, 1.067), (80, 1.100), (320, 1.121)):
@@ -68,7 +68,7 @@ def test_published_coefficients_belong_to_twenty_vertices():
 
 
 def test_added_supports_carry_no_force(solved):
-    """The supports that the page does not list hold rigid motions only."""
+    """The supports that the page does not list prevent rigid motions only."""
     bar = solved["hanging_bar"]
     weight = bar.applied_force.sum().item()
     reaction = bar.support_force.isel(vertex=0)
@@ -97,8 +97,8 @@ def test_symmetric_problems_have_symmetric_answers(solved, name):
 
 
 @pytest.mark.parametrize("name", ["clamped_free", "necking"])
-def test_director_length_changes_no_displacement(name):
-    """Stretches and angles do not know how long a director was drawn; only its plotted displacement does (E3.11)."""
+def test_displacements_do_not_depend_on_the_director_length(name):
+    """Stretches and angles do not depend on the length of the director; its plotted displacement does (E3.11)."""
     from cosserat.rods.reference import Geometry
     from cosserat.solvers.equilibrium import EquilibriumSolver
     from cosserat.solvers.incremental import solve_full_load
@@ -128,8 +128,8 @@ def test_small_loads_give_proportional_answers():
     assert tips[1] / tips[0] == pytest.approx(2, rel=1e-8)
 
 
-def test_one_solve_takes_few_steps_and_assembles_the_body_as_often(problem, monkeypatch):
-    """One increment: the unloaded rod, its slope, and Newton's steps from what that foretells."""
+def test_a_solve_takes_two_iterations_and_few_assemblies(problem, monkeypatch):
+    """One increment: the unloaded rod, its tangent, and Newton's steps from the prediction."""
     from cosserat.solvers.potential import Potential
 
     calls = []

@@ -128,7 +128,7 @@ def test_reactions_of_constant_volume_are_those_of_2_2_15():
 @pytest.mark.parametrize(
     "wrong", ["no reaction on the directors", "gamma_33 put in, its change left out"]
 )
-def test_a_wrong_form_gives_another_state(wrong, monkeypatch):
+def test_the_wrong_form_of_the_constraint_gives_another_state(wrong, monkeypatch):
     loads = LOADS["twisted and pulled"]
     right, _ = uniform_state(K, INCOMPRESSIBLE, "before", *loads)
 
@@ -194,11 +194,11 @@ def test_relation_of_the_multipliers_of_chapter_2():
         assert active == pytest.approx((k_s - k_p) * (2 - mu.sum()), abs=10 * size**2)
 
 
-def test_a_rod_that_does_not_turn_or_is_asked_too_much_is_refused():
+def test_uniform_states_without_a_turn_or_a_solution_are_refused():
     for turn, pull in ((np.zeros(3), 1.0), (TWIST, np.nan), (np.full(3, np.inf), 0.0)):
         with pytest.raises(InputError, match="give finite numbers and a turn that is not zero"):
             uniform_state(K, INCOMPRESSIBLE, "after", turn, pull)
-    with pytest.raises(NotConvergedError, match="turn or pull it less"):
+    with pytest.raises(NotConvergedError, match="reduce the rotation or the tension"):
         uniform_state(K, INEXTENSIBLE, "after", TWIST, 1e6 * STIFF)
     with pytest.raises(OutOfReachError, match="its sections collapse"):
         uniform_state(K, INEXTENSIBLE, "after", 100 * BEND, 0.0)

@@ -86,7 +86,7 @@ def test_integrating_elasticity_over_the_section_gives_the_energy_1_2_94(seed):
 
 
 @given(st.integers(0, 10_000))
-def test_off_its_centre_and_out_of_its_axes_a_section_gives_the_energy_1_2_93(seed):
+def test_an_eccentric_rotated_section_has_the_energy_1_2_93(seed):
     """S^alpha couples stretching with bending, I^12 one bending with the other; without them something is missing."""
     rng = np.random.default_rng(seed)
     delta, kappa = rng.uniform(-1, 1, (3, 3)), rng.uniform(-1, 1, (2, 3))
@@ -172,7 +172,7 @@ def test_forces_of_the_energy_1_2_97_are_its_gradient_1_3_18(seed):
 
 
 @given(st.integers(0, 10_000))
-def test_forces_of_a_little_deformed_section_are_resultants_of_the_stress(seed):
+def test_forces_at_small_strains_are_resultants_of_the_stress(seed):
     """Half the difference of the forces at two opposite small states, against the integrals over a rectangle."""
     width, height = 0.7, 0.4
     section = Section(width * height, width * height**3 / 12, height * width**3 / 12, np.nan)
@@ -203,7 +203,7 @@ def test_angular_momentum_is_balanced_1_2_91(seed):
 
 
 @given(st.integers(0, 10_000))
-def test_forces_turn_with_the_rod_and_its_energy_stays(seed):
+def test_forces_rotate_with_the_rod_and_its_energy_does_not_change(seed):
     d, d_prime = state(seed, 0.8)
     turn = Rotation.random(random_state=seed).as_matrix()
     energies = [
@@ -316,7 +316,7 @@ def test_the_measures_vanish_in_the_reference_and_under_rotation():
 
 
 @pytest.mark.parametrize("shape", [Section.circle(0.3), Section(0.28, 0.0037, 0.0114, 0.009)])
-def test_adjusted_stiffnesses_bend_twist_and_stretch_as_known(shape):
+def test_adjusted_stiffnesses_give_known_bending_torsion_and_tension(shape):
     k = adjusted_stiffnesses(YOUNG, POISSON, shape, 5 / 6)
     _, shear = lame(YOUNG, POISSON)
     none = np.zeros((3, 3))

@@ -1,4 +1,4 @@
-"""Chapter 3, equation by equation: what no solved case would notice if it were wrong."""
+"""Chapter 3, equation by equation: those in which a fault changes no solved case."""
 
 import itertools
 
@@ -180,7 +180,7 @@ def test_stiffnesses_are_made_of_the_means_of_table_3_1():
         np.testing.assert_allclose(getattr(found, name), value, rtol=1e-9, err_msg=name)
 
 
-def test_bending_of_a_curved_rod_costs_as_eulers_elastica():
+def test_bending_energy_of_a_curved_rod_is_that_of_eulers_elastica():
     """EI (kappa - kappa_0)^2 / 2, eq. (3.2.3), on the inner parts, for arcs with the curvatures of (3.3.23)."""
     rod = make_rod(vertices=9, curvature=0.1)
     geometry = rod.geometry()

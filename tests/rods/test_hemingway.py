@@ -1,4 +1,4 @@
-"""The kernel of the published rod: derivatives, invariance, balance, and what its terms mean."""
+"""The kernel of the published rod: derivatives, invariance, balance, and the meaning of its terms."""
 
 import numpy as np
 import pytest
@@ -91,7 +91,7 @@ def test_rigid_motion_leaves_energy_and_forces_unchanged(seed, n, angle, shift):
 
 
 @given(seed=SEEDS, n=SIZES)
-def test_forces_of_a_free_rod_sum_to_zero_and_turn_nothing(seed, n):
+def test_forces_of_a_free_rod_have_no_resultant_and_no_moment(seed, n):
     rod, body = body_of(n)
     q = random_state(rod, seed)
     _, gradient, _ = assembled(body, q)
@@ -166,7 +166,7 @@ def test_curvature_of_a_regular_polygon_is_that_of_its_inscribed_circle():
 
 
 @pytest.mark.parametrize("shear", [1.6, np.pi, -1.6])
-def test_barriers_are_infinite(shear):
+def test_the_energy_is_infinite_at_the_barriers(shear):
     """Sections sheared to a right angle or beyond, and sections of no length, have infinite energy (Fig. 3.7)."""
     rod, body = body_of(5)
     geometry = rod.geometry()
@@ -176,7 +176,7 @@ def test_barriers_are_infinite(shear):
     assert assembled(body, np.hstack([0 * geometry.X, geometry.D]).ravel())[0] == np.inf
 
 
-def test_energy_grows_without_bound_towards_the_barriers():
+def test_the_energy_tends_to_infinity_at_the_barriers():
     rod, body = body_of(5)
     geometry = rod.geometry()
     for squeeze in (1e-2, 1e-4):

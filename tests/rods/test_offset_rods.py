@@ -93,7 +93,7 @@ def test_the_hessian_of_a_step_of_no_length_is_the_derivative_of_its_force(centr
 @everywhere
 @sections
 @given(st.integers(0, 1000), st.floats(-3, 3))
-def test_rigid_motions_strain_nothing_and_forces_balance(centreline, section, seed, turn):
+def test_rigid_motions_give_no_strain_and_forces_balance(centreline, section, seed, turn):
     """Also where the rod is turned from its reference, and in a step from one state to another."""
     rod = tapered(centreline, section)
     geometry = rod.geometry()
@@ -111,7 +111,7 @@ def test_rigid_motions_strain_nothing_and_forces_balance(centreline, section, se
 
 @everywhere
 @sections
-def test_counted_from_the_reference_it_is_the_same_rod(centreline, section):
+def test_displacements_from_the_reference_give_the_same_energy_and_forces(centreline, section):
     rod = tapered(centreline, section)
     geometry = rod.geometry()
     body, q = body_of(rod), random_state(rod, 1, turn=0.3)
@@ -136,7 +136,7 @@ def test_a_tapered_body_at_rest_is_not_sheared(centreline):
 
 
 @everywhere
-def test_the_axis_of_an_edge_is_where_tension_does_not_bend_it(centreline):
+def test_tension_along_the_axis_of_an_edge_causes_no_bending(centreline):
     """Half of it with an eighth of the EI: at 8/9 of the offset of this half and 1/9 of that of the other."""
     stations = [{"at": 2.5}, {"at": 2.5, "height": 0.5}]
     rod = tapered(centreline, {}, stations=stations)
@@ -152,7 +152,7 @@ def test_the_axis_of_an_edge_is_where_tension_does_not_bend_it(centreline):
 
 @everywhere
 @pytest.mark.parametrize("curvature", [0.0, 0.1, -0.1])
-def test_sections_that_narrow_cost_what_the_material_of_all_pieces_costs(centreline, curvature):
+def test_contraction_has_the_energy_of_the_material_of_all_pieces(centreline, curvature):
     """Without tension (2 mu A + Lambda A - (Lambda A)^2 / (2 mu A + Lambda A)) w^2 / 2 along the area centres."""
     heights, ratios, places = (1.0, 0.6, 1.2), (0.0, 0.3, 0.45), (0.0, 1.3, 2.0, 5.0)
     stations = [

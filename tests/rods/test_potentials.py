@@ -134,7 +134,7 @@ def test_loads_are_gradients_and_their_hessian_is_the_derivative(key, seed):
 
 
 @every_energy
-def test_the_band_is_as_wide_as_it_says(name, number):
+def test_the_half_bandwidth_is_exact(name, number):
     geometry, potential = made(name, number)
     q = strained(geometry, 1)
     gradient, band = np.zeros(q.size), np.zeros((q.size, potential.half_bandwidth + 1))
@@ -152,7 +152,7 @@ def test_the_energy_is_the_sum_of_its_named_terms(name, number, seed):
 
 
 @every_energy
-def test_every_term_is_felt_somewhere(name, number):
+def test_every_term_contributes_somewhere(name, number):
     geometry, potential = made(name, number)
     terms = np.array([potential.energy_terms(strained(geometry, seed)) for seed in range(8)])
     assert (np.abs(terms).max(axis=0) > 0).all(), potential.terms
@@ -209,7 +209,7 @@ def test_the_work_in_a_step_is_the_change_of_energy_to_third_order(name, number)
 
 
 @every_energy
-def test_a_rotation_in_a_step_strains_nothing(name, number):
+def test_a_rotation_in_a_step_gives_no_strain(name, number):
     """At the midpoint alone it would seem a compression."""
     geometry, potential = made(name, number)
     c, s = np.cos(0.5), np.sin(0.5)
@@ -227,7 +227,7 @@ def test_a_load_has_no_energy_in_the_reference(key):
 
 
 @every_load
-def test_a_linear_load_is_the_same_everywhere(key):
+def test_a_linear_load_does_not_depend_on_the_configuration(key):
     geometry, potential = load(key)
     near, far = np.zeros(geometry.q.size), np.zeros(geometry.q.size)
     potential.add_gradient(geometry.q, potential.history, near)
@@ -236,7 +236,7 @@ def test_a_linear_load_is_the_same_everywhere(key):
 
 
 @every_load
-def test_internal_variables_change_only_where_a_state_is_accepted(key):
+def test_internal_variables_change_only_at_accepted_states(key):
     geometry, potential = load(key)
     q, history = strained(geometry, 2, 0.1), potential.history.copy()
     kept, gradient = history.copy(), np.zeros(geometry.q.size)
@@ -281,5 +281,5 @@ def called(potential, q, after, strains, task):
     return found, gradient, band
 
 
-def test_tasks_are_distinct():
+def test_names_of_kernel_tasks_are_distinct():
     assert len({GRADIENT, HESSIAN, STRAINS, COMMIT}) == 4

@@ -1,4 +1,4 @@
-"""The rod that converges: gradients, invariance, exact answers and orders, large deflections, locking, speed."""
+"""The consistent rod: gradients, invariance, exact answers, orders of convergence, large deflections, locking."""
 
 import numpy as np
 import pytest
@@ -87,7 +87,7 @@ def test_forces_are_the_gradient_and_the_hessian_is_its_derivative(section, barr
 
 @pytest.mark.parametrize("offset", [0.0, -0.4])
 @given(st.integers(0, 1000), st.floats(-3, 3))
-def test_rigid_motions_cost_nothing_and_forces_balance(offset, seed, turn):
+def test_rigid_motions_have_no_energy_and_forces_balance(offset, seed, turn):
     geometry, rod = small_rod(offset=offset)
     q = strained(geometry, seed)
     c, s = np.cos(turn), np.sin(turn)
@@ -110,7 +110,7 @@ def test_the_reference_is_at_rest_also_where_it_is_curved(barrier, offset):
     assert np.abs(gradient).max() < 1e-9
 
 
-def test_counted_from_the_reference_it_is_the_same_rod():
+def test_displacements_from_the_reference_give_the_same_energy_and_forces():
     geometry, rod = small_rod(offset=0.3)
     q = strained(geometry, 1)
     _, displaced = small_rod(offset=0.3, displacements=True)
@@ -121,7 +121,7 @@ def test_counted_from_the_reference_it_is_the_same_rod():
 # ---------------------------------------------------------------- exact answers
 
 
-def test_second_order_in_every_measure_over_four_meshes(solved):
+def test_every_measure_converges_with_second_order(solved):
     data = solved["convergence"]
     orders = -np.diff(np.log(data.errors.to_numpy()), axis=1) / np.log(2)
     for name, order in zip(MEASURES, orders, strict=True):
@@ -132,7 +132,7 @@ def test_second_order_in_every_measure_over_four_meshes(solved):
 
 
 @pytest.mark.parametrize("centreline", [0.2, 0.7])
-def test_a_body_is_the_same_whichever_line_it_is_followed_by(centreline):
+def test_a_body_does_not_depend_on_the_choice_of_its_centreline(centreline):
     """Sag and frequencies of a beam do not depend on the height of its centreline."""
     middle = cosserat.case("clamped_free_consistent").problem
     off = middle.replace(rod=middle.rod.replace(centreline=centreline))
@@ -235,7 +235,7 @@ def test_the_elastica_under_a_dead_tip_load(elements, allowed, force):
     assert (sideways, shortening) == pytest.approx(rigid, abs=1.1e-4)
 
 
-def test_loads_far_beyond_that():
+def test_the_elastica_under_much_larger_loads():
     problem, bending = slender(40)
     done = problem.replace(forces=({"at": "last", "along": "E2", "force": 100 * bending},)).solve("x")
     assert done["u"][-1, 1] == pytest.approx(elastica.transverse_tip(100.0)[0], abs=2e-3)
@@ -270,7 +270,7 @@ def column(factor, elements=80, radius=1e-3, aside=0.0):
 
 @pytest.mark.parametrize("factor", [1.05, 1.5, 3.0])
 @pytest.mark.parametrize("aside", [0.0, 1e-4])
-def test_a_column_beyond_eulers_load_stands_where_the_exact_elastica_stands(factor, aside):
+def test_a_column_beyond_eulers_load_is_the_exact_elastica(factor, aside):
     x = column(factor, aside=aside).solve("x")["x"][-1]
     sideways, height = elastica.column_tip(factor * np.pi**2 / 4)
     assert abs(x[1]) == pytest.approx(sideways, abs=2e-3)
@@ -302,7 +302,7 @@ def test_the_path_leaves_the_straight_column_at_eulers_load(solved):
     assert path.load_factor[-1] == 1
 
 
-def test_a_path_that_stays_goes_on_through_the_branching_point_and_knows_that_it_is_unstable():
+def test_a_path_without_branch_switching_passes_the_bifurcation_and_is_unstable():
     straight = cosserat.run(cosserat.case("column_path").vary("stay", arc={"branch": "stay"}))
     assert np.abs(straight.x.sel(axis="E2")).max() < 1e-9
     factor = straight.load_factor.to_numpy() * 2.3132 / (np.pi**2 / 4 * 0.46875)
@@ -348,7 +348,7 @@ def test_a_path_does_not_depend_on_its_arcs_and_never_jumps(at):
         np.testing.assert_allclose(coarse, limits[-1], atol=5e-3)
 
 
-def test_a_branch_that_comes_back_to_its_beginning_says_so():
+def test_a_closed_branch_is_reported():
     """A symmetric arch: the tilting path between its two branching points is closed."""
     axis = cosserat.case("arch_path").problem.geometry.D[20]
     push = 46.875 * axis / np.hypot(*axis)
@@ -369,7 +369,7 @@ def test_a_branch_that_comes_back_to_its_beginning_says_so():
 
 
 @pytest.mark.parametrize("slenderness", [1e-3, 2e-4, 1e-4])
-def test_columns_however_thin_leave_the_straight_path(slenderness):
+def test_very_thin_columns_leave_the_straight_path(slenderness):
     euler = np.pi**2 / 4 * 1e9 * slenderness**4 / 12
     thin = cosserat.case("column_path").vary(
         "thin",
@@ -383,7 +383,7 @@ def test_columns_however_thin_leave_the_straight_path(slenderness):
     assert abs(tip[-1, 1]) == pytest.approx(elastica.column_tip(np.pi**2 / 2)[0], abs=4e-3)
 
 
-def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last_state():
+def test_without_an_equilibrium_the_error_has_the_load_reached_and_the_last_state():
     """A bar pushed by twice EA: without a barrier its edges would have to vanish half-way."""
     problem, _ = slender(20, radius=0.05)
     stiff = problem.rod.young * problem.rod.area
@@ -406,7 +406,7 @@ def test_where_no_equilibrium_is_found_the_error_says_how_far_and_keeps_the_last
     assert kept["mu_edge"].min() > 0.1
 
 
-def test_a_path_that_is_given_up_keeps_its_points_on_request(tmp_path, capsys):
+def test_an_unfinished_path_keeps_its_points_on_request(tmp_path, capsys):
     (tmp_path / "my.toml").write_text(
         '[far]\nlike = "arch_path"\narc.limit = 1.1\nforces = [{ at = 15, along = "E2", force = "46.875 N" }]\n'
     )
@@ -452,8 +452,8 @@ def test_the_period_of_the_exact_timoshenko_beam(solved):
     ("section", "poisson", "amplitude"),
     [("plane strain", 0.49, 0.1), ("plane strain", 0.4999, 0.1), ("incompressible", 0.4999, 0.01)],
 )
-def test_sections_that_hardly_change_their_volume_vibrate(section, poisson, amplitude):
-    """With the pressure at the midpoint of a step these found no solution at any sensible step."""
+def test_nearly_incompressible_sections_vibrate(section, poisson, amplitude):
+    """If the pressure is taken at the midpoint, a step has no solution at any reasonable step size."""
     case = cosserat.case("vibration_consistent").vary(
         "x",
         rod={"lateral_constraint": section, "material": {"poisson": poisson}},
@@ -524,7 +524,7 @@ def test_the_barrier_changes_nothing_in_the_limit_of_small_strains():
         ({"material": {"poisson": 0.5}}, "'rod.material.poisson' is 0.5; it must be below 0.5"),
     ],
 )
-def test_bad_input(changes, sentence):
+def test_bad_keys_of_a_rod_are_refused(changes, sentence):
     with pytest.raises(InputError, match=sentence):
         cosserat.case("elastica").vary("x", rod=changes)
 
@@ -541,7 +541,7 @@ def test_the_published_rod_has_no_section_and_no_path():
 
 
 @pytest.mark.parametrize("increments", [1, 5, 10, 20, 37])
-def test_the_end_of_the_load_comes_before_a_crossing_beyond_it(increments):
+def test_the_full_load_is_reached_before_a_crossing_beyond_it(increments):
     """A column between a clamp and a guide at twice its critical load: four quarters of a hinged elastica."""
     posed = cosserat.case("elastica").problem
     critical = 4 * np.pi**2 * posed.rod.young * posed.rod.second_moment / posed.rod.length**2
@@ -560,7 +560,7 @@ def test_the_end_of_the_load_comes_before_a_crossing_beyond_it(increments):
 
 
 @pytest.mark.parametrize("increments", [1, 10, 30])
-def test_a_tiny_load_is_not_refused_because_its_first_increment_is_tinier(increments):
+def test_a_tiny_load_is_not_refused(increments):
     """Between hinges that do not move: P L^3 / 48 EI + P L / 4 kGA, whatever the number of increments."""
     posed = cosserat.case("elastica").problem
     beam = beam_of(posed)
@@ -599,7 +599,7 @@ def test_a_million_vertices():
         ([{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}, {"at": "last", "fixed": ["x2"]}], None),
     ],
 )
-def test_hinges_and_guides_lose_no_order(supports, compliance):
+def test_hinges_and_guides_are_of_second_order(supports, compliance):
     """A force at mid-span, or at the guide; small, so that the answer is linear."""
     guided = compliance == (1 / 12, 1.0)
     tips = []
@@ -647,7 +647,7 @@ COLUMN = {"supports": [{"at": "first", "fixed": ["x3", "x2"]}, {"at": "last", "f
         ),
     ],
 )
-def test_paths_reach_their_load_bent_and_stable(changes):
+def test_paths_end_at_their_load_on_the_stable_bent_branch(changes):
     path = cosserat.run(cosserat.case("column_path").vary("x", **changes))
     assert path.load_factor[-1] == 1
     assert path.stable[-1] == 1
@@ -655,7 +655,7 @@ def test_paths_reach_their_load_bent_and_stable(changes):
     assert path.load_factor.max() <= 1.5
 
 
-def test_a_path_that_ends_early_says_so():
+def test_a_path_that_ends_early_is_reported():
     path = cosserat.run(cosserat.case("arch_path").vary("x", arc={"count": 3}))
     assert '"load_factor_reached": 0.' in path.attrs["solver"]
     from cosserat.data.dataset import effort
@@ -663,7 +663,7 @@ def test_a_path_that_ends_early_says_so():
     assert "raise 'arc.count' to continue" in effort(path)
 
 
-def test_shear_is_that_of_the_edges():
+def test_the_stored_shear_is_that_of_the_edges():
     problem, bending = slender(40, radius=0.05)
     done = problem.replace(forces=({"at": "last", "along": "E2", "force": 1e-3 * bending},)).solve("x")
     shear = 1e-3 * bending / (5 / 6 * problem.rod.young / 2 * problem.rod.area)
@@ -695,7 +695,7 @@ def test_shear_is_that_of_the_edges():
         ({"newton": {"load_increments": 10**9}}, "it must be at most 100000"),
     ],
 )
-def test_loads_that_would_be_dropped_and_sizes_that_cannot_be(changes, sentence):
+def test_loads_on_fixed_dofs_and_impossible_sizes_are_refused(changes, sentence):
     with pytest.raises(InputError, match=sentence):
         cosserat.case("elastica").vary("x", **changes)
 
@@ -704,8 +704,8 @@ def test_loads_that_would_be_dropped_and_sizes_that_cannot_be(changes, sentence)
 
 
 @pytest.mark.parametrize("method", ["rk45", "rk4"])
-def test_moved_supports_pull_by_the_mass_they_share(method):
-    """The consistent mass couples a moved vertex to its neighbour: both kinds of integrator have to know it."""
+def test_moved_supports_act_through_the_coupled_mass(method):
+    """The consistent mass couples a moved vertex to its neighbour, in explicit and implicit integrators."""
     shaken = cosserat.case("vibration_consistent").vary(
         "shaken",
         rod={"vertices": 3},
@@ -736,7 +736,7 @@ def test_moved_supports_pull_by_the_mass_they_share(method):
 @pytest.mark.parametrize(
     ("spin", "step", "allowed"), [(1.0, 1e-4, 1e-9), (1.0, 1e-3, 1e-5), (30.0, 1e-3, 1e-2)]
 )
-def test_a_rod_that_hardly_deforms_spins_on(spin, step, allowed):
+def test_a_nearly_rigid_rod_keeps_its_spin(spin, step, allowed):
     free = cosserat.case("vibration_consistent").vary(
         "free",
         rod={"vertices": 11},
@@ -753,7 +753,7 @@ def test_a_rod_that_hardly_deforms_spins_on(spin, step, allowed):
 
 
 @pytest.mark.parametrize("method", ["rk4", "rk45", "implicit"])
-def test_no_turn_is_missed_between_two_frames(method):
+def test_large_rotations_between_frames_are_counted(method):
     motor = cosserat.case("vibration_consistent").vary(
         "motor",
         rod={"vertices": 3, "material": {"young": 1e7}},
@@ -770,7 +770,7 @@ def test_no_turn_is_missed_between_two_frames(method):
     assert data.first_angle[-1] - data.first_angle[0] > 6
 
 
-def test_a_clamp_turned_through_a_whole_turn_winds_the_rod_up():
+def test_a_clamp_rotated_by_a_whole_turn_winds_up_the_rod():
     both = [*CLAMP, {"at": "last", "fixed": ["d3", "d2"]}]
     problem, bending = slender(40)
     wound = problem.replace(

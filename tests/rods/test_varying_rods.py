@@ -1,4 +1,4 @@
-"""Rods as the theory allows them: varying sections, a centreline anywhere, couples, line loads, curved references."""
+"""Rods beyond the published problems: varying sections, any centreline, couples, line loads, curved references."""
 
 import re
 from itertools import pairwise
@@ -91,7 +91,7 @@ def test_a_pulled_bar_of_two_materials_narrows_as_each_of_them():
     assert narrowed[70] == pytest.approx(-1.5 * rod.poisson * strain / 0.25, rel=1e-3)
 
 
-def test_shear_modulus_and_poissons_ratio_are_averaged_each_by_itself():
+def test_shear_modulus_and_poissons_ratio_are_averaged_separately():
     """Table 3.1: the mean of G is not G of the mean of E and nu."""
     problem = cosserat.case("necking").vary("two", rod={"stations": TWO, "vertices": 6}).problem
     rod, geometry = problem.rod, problem.geometry
@@ -104,7 +104,7 @@ def test_shear_modulus_and_poissons_ratio_are_averaged_each_by_itself():
     )
 
 
-def test_materials_that_cannot_be_are_refused():
+def test_impossible_materials_are_refused():
     with pytest.raises(cosserat.InputError, match="take Poisson's ratio from 0.3 to 0.6; keep it above"):
         cosserat.case("necking").vary("bad", rod={"stations": [{"at": 0}, {"at": 5, "poisson": 2}]})
     with pytest.raises(cosserat.InputError, match="above 0"):
@@ -304,7 +304,7 @@ def test_a_line_load_over_a_stretch_has_its_resultant_there():
     assert (force[(arc < 1.1) | (arc > 3.3)] == 0).all()
 
 
-def test_point_loads_may_stand_anywhere():
+def test_point_loads_may_act_anywhere():
     """By Maxwell and Betti: a force at A moves B as the same force at B moves A, in small displacements."""
 
     def moved(at, seen):
@@ -346,7 +346,7 @@ def test_E3_24_printed_bending_energy_does_not_let_a_curved_rod_rest():
     assert np.abs(rested.u).max() < 1e-9
 
 
-def test_a_curved_bar_bends_as_castigliano_says():
+def test_a_curved_bar_has_castiglianos_displacement():
     """A thin quarter ring pulled across its tip moves there by pi P R^3 / (4 E I).
 
     The published energy bends at interior vertices only, so the half edge at the clamp stays stiff: first order.
@@ -375,7 +375,7 @@ def test_a_curved_bar_bends_as_castigliano_says():
     assert ratios[-1] + steps[-1] == pytest.approx(1, abs=1e-3)
 
 
-def test_mass_couples_position_and_director_where_the_page_says():
+def test_mass_couples_position_and_director_as_in_3_3_43():
     problem = cosserat.case("vibration_c4_20").vary("offset", rod={"centreline": 0.3}).problem
     geometry = problem.geometry
     mass = problem.system(geometry).mass
@@ -406,7 +406,7 @@ def test_a_moved_support_stretches_a_bar_by_hooke():
 
 
 @pytest.mark.parametrize("method", ["implicit", "rk45"])
-def test_a_shaken_support_drives_the_rod_as_its_mode_answers(method):
+def test_a_shaken_support_excites_the_mode_of_the_rod(method):
     """Far below the lowest frequency f1 the tip follows the base but for its inertia and the start."""
     f1 = cosserat.case("vibration_c4_20").problem.modes(1).angular_frequency[0] / (2 * np.pi)
     shaken = cosserat.case("vibration_c4_20").vary(
@@ -451,7 +451,7 @@ def test_prescribed_motion_needs_a_support_and_statics_have_no_time():
 @pytest.mark.parametrize(
     ("energy", "angle"), [("published", 0.6), ("consistent", 0.6), ("consistent", np.pi)]
 )
-def test_a_turned_clamp_turns_the_rod_and_stretches_nothing(energy, angle):
+def test_a_rotated_clamp_rotates_the_rod_without_stretch(energy, angle):
     consistent = {"energy": "consistent", "calibration": "none"} if energy == "consistent" else {}
     turned = BEAM.vary(
         "turned", rod=consistent, gravity=None, prescribed_rotations=[{"at": "first", "by": angle}]
@@ -464,7 +464,7 @@ def test_a_turned_clamp_turns_the_rod_and_stretches_nothing(energy, angle):
     np.testing.assert_allclose(data.lam, 1, atol=1e-7)
 
 
-def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
+def test_an_oscillating_clamp_keeps_its_section_and_drives_the_rod():
     rocked = cosserat.case("vibration_consistent").vary(
         "rocked",
         start={"amplitude": 0.0},
@@ -510,6 +510,6 @@ def test_a_rocking_clamp_keeps_its_section_and_drives_the_rod():
         ),
     ],
 )
-def test_turns_that_cannot_be_are_refused(changes, sentence):
+def test_impossible_prescribed_rotations_are_refused(changes, sentence):
     with pytest.raises(InputError, match=re.escape(sentence)):
         BEAM.vary("turned", **changes)

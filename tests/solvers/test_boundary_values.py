@@ -1,4 +1,4 @@
-"""Spectral elements and the banded Newton on regions, on problems with known answers."""
+"""Spectral elements and the banded Newton method on regions, for problems with known answers."""
 
 import numpy as np
 import pytest
@@ -107,7 +107,7 @@ class Far:
         return Source(self.k**2 * (u - goal), np.full((*u.shape, 1), self.k**2), (remote,))
 
 
-def test_what_a_region_takes_from_its_junction_keeps_newton_quadratic():
+def test_junction_conditions_keep_newtons_method_quadratic():
     mesh = graded([0, 0.5, 1], 0.02, 6, 8)
     solved = solve(mesh, Far(mesh, 50.0, 0.1), np.ones((mesh.nodes, 1)), RegionSettings(), "test")
     at = solved.u[int((mesh.region == 0).sum()) * mesh.degree, 0]
@@ -129,7 +129,7 @@ class Barrier:
         return Source(self.force - 1 / u, (1 / u**2)[..., None])
 
 
-def test_newton_is_damped_where_it_has_to_be_and_refuses_what_has_no_solution():
+def test_newtons_method_is_damped_and_refuses_problems_without_a_solution():
     mesh = graded([0, 1], 0.1, 6, 6)
     solved = solve(mesh, Barrier(0.2), np.full((mesh.nodes, 1), 30.0), RegionSettings(), "test")
     np.testing.assert_allclose(solved.u, 5.0, rtol=1e-10)
@@ -138,7 +138,7 @@ def test_newton_is_damped_where_it_has_to_be_and_refuses_what_has_no_solution():
             NotConvergedError, match=r"test: no solution on the regions found: .*allowed 1e-11"
         ):
             solve(mesh, Barrier(force), np.ones((mesh.nodes, 1)), RegionSettings(), "test")
-    with pytest.raises(NotConvergedError, match="the first guess is no admissible state"):
+    with pytest.raises(NotConvergedError, match="the initial guess is not admissible"):
         solve(mesh, Barrier(0.2), -np.ones((mesh.nodes, 1)), RegionSettings(), "test")
-    with pytest.raises(NotConvergedError, match="the iterations were not enough"):
+    with pytest.raises(NotConvergedError, match="the iterations did not converge"):
         solve(mesh, Barrier(0.2), np.ones((mesh.nodes, 1)), RegionSettings(max_iterations=2), "test")

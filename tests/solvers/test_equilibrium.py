@@ -1,4 +1,4 @@
-"""Equilibria under a growing load, on springs whose answers are known and on rods; and its failures."""
+"""Equilibria under a growing load, for springs with known answers and for rods; and failures of the solver."""
 
 import numpy as np
 import pytest
@@ -49,7 +49,7 @@ def climbed(system, **settings):
     return solve_full_load(solver), solver
 
 
-def test_springs_reach_the_root_of_the_cubic():
+def test_nonlinear_springs_reach_the_root_of_their_cubic():
     point, _ = climbed(cubic([8.0, 27.0], stiffness=1.0))
     for q, load in zip(point.q, (8.0, 27.0), strict=True):
         assert q**3 + q == pytest.approx(load, rel=1e-10)
@@ -60,7 +60,7 @@ def test_springs_reach_the_root_of_the_cubic():
 @pytest.mark.parametrize("steps", [1, 3, 10])
 @pytest.mark.parametrize("nudge", [1e-1, 1e-3, 1e-6, 1e-9])
 @pytest.mark.parametrize("side", [1, -1])
-def test_a_softening_spring_goes_to_the_side_of_any_nudge(nudge, side, steps):
+def test_a_softening_spring_buckles_to_the_side_of_its_imperfection(nudge, side, steps):
     """Beyond factor 1/4.3 it has two minima, at the roots of q^3 - 3.3 q = nudge; the nudge decides from the first."""
     system = cubic([side * nudge], stiffness=1.0, softening=4.3)
     point, solver = climbed(system, load_increments=steps)
@@ -68,7 +68,7 @@ def test_a_softening_spring_goes_to_the_side_of_any_nudge(nudge, side, steps):
     assert not list(solver.warnings())
 
 
-def test_a_symmetric_spring_says_that_its_side_is_open():
+def test_a_symmetric_spring_warns_of_its_open_side():
     point, solver = climbed(cubic([0.0], stiffness=1.0, softening=4.3))
     assert abs(point.q[0]) == pytest.approx(np.sqrt(3.3), rel=1e-8)
     (remark,) = solver.warnings()
@@ -110,7 +110,7 @@ def test_too_few_iterations_raise_with_name_residual_and_remedy():
 
 
 def test_a_load_without_equilibrium_raises():
-    """A spring that pushes back with one newton at most, under two."""
+    """A spring with a largest force of one newton under a load of two."""
 
     @njit
     def weak(q, after, data, history, strains, task, gradient, band, skew, terms):
@@ -140,7 +140,7 @@ def test_a_stiffness_or_an_energy_that_is_not_finite_raises(value):
         climbed(cubic([1.0, 1.0], kernel=broken))
 
 
-def test_nothing_to_do_takes_no_iteration():
+def test_a_rod_without_loads_takes_no_iteration():
     still = cosserat.run(cosserat.case("clamped_free").vary("still", gravity={"g": 0}))
     assert cosserat.data.dataset.statistics_of(still)["iterations"] == 0
     assert np.abs(still.u).max() == 0
@@ -162,7 +162,7 @@ def test_two_hinges_are_support_enough():
     assert cosserat.run(hinged).u.sel(axis="E2").min() < 0
 
 
-def test_banded_solve_product_and_hold_agree_with_dense_algebra():
+def test_banded_operations_agree_with_dense_algebra():
     rng = np.random.default_rng(5)
     n, width = 12, 4
     band = rng.uniform(-1, 1, (n, width))

@@ -1,4 +1,4 @@
-"""The implicit method on an oscillator, which is no rod: a drag takes energy at its own rate, resolved or not."""
+"""The implicit method for an oscillator: the damping rate does not depend on the resolution of the period."""
 
 import numpy as np
 import pytest
@@ -77,7 +77,7 @@ def test_a_drag_takes_energy_at_its_rate_whether_or_not_the_step_resolves_the_pe
     assert right == pytest.approx(damping_h, rel=1e-2)
 
 
-def test_beyond_the_stated_limit_the_rate_is_another():
+def test_beyond_the_stated_limit_the_damping_rate_is_wrong():
     """c omega h^2 = 20 where 8 is the limit: the slow turning of an unresolved phase comes to a standstill."""
     found, right = rate_of_decay(2000.0, 0.01, 1.0)
     assert abs(found / right - 1) > 0.2
@@ -96,7 +96,7 @@ def test_a_resolved_damped_oscillator_is_followed_to_second_order(omega, damping
     np.testing.assert_allclose(np.diff(np.log2(errors)), -2, atol=0.1)
 
 
-def test_what_the_drag_took_is_what_is_missing():
+def test_the_dissipated_energy_is_the_loss_of_energy():
     system = oscillator(30.0, 0.5)
     state = drawn(system)
     start = system.internal.energy(state.q)

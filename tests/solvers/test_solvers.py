@@ -1,4 +1,4 @@
-"""The solvers know nothing of rods: one number, points in space and sliders, each against a closed form.
+"""The solvers do not depend on rods: one degree of freedom, points in space and sliders have their closed forms.
 
 A rod in space is in test_solvers_in_space.py.
 """
@@ -74,7 +74,7 @@ def snapping(load, **more):
 
 
 @pytest.mark.parametrize("load", [-0.7, 0.3, 1.0])
-def test_one_number_rests_at_the_root_of_its_cubic(load):
+def test_one_degree_of_freedom_has_its_equilibrium_at_the_root_of_its_cubic(load):
     """The last load is beyond the limit point: the body comes to rest on the other side."""
     solver = solver_of(snapping(load))
     point = solve_full_load(solver)
@@ -86,7 +86,7 @@ def test_one_number_rests_at_the_root_of_its_cubic(load):
     assert solver.passed_limit_load == (load > LIMIT)
 
 
-def test_a_path_passes_the_limit_point_of_one_number():
+def test_a_path_passes_the_limit_point_of_one_degree_of_freedom():
     path = followed(snapping(1.0), first=0.02, longest=0.02)
     x, factor = np.array([p.q[0] - 1 for p in path]), np.array([p.factor for p in path])
     np.testing.assert_allclose(factor, x**3 - x, atol=1e-10)
@@ -99,7 +99,7 @@ def test_a_path_passes_the_limit_point_of_one_number():
     assert factor[-1] == 1.0
 
 
-def test_the_frequency_of_one_number_is_that_of_its_curvature():
+def test_the_frequency_of_one_degree_of_freedom_follows_from_its_second_derivative():
     system = snapping(0.3, mass=2.0)
     point = solve_full_load(solver_of(system))
     right = np.sqrt((3 * (point.q[0] - 1) ** 2 - 1) / 2)
@@ -109,7 +109,7 @@ def test_the_frequency_of_one_number_is_that_of_its_curvature():
     assert highest_frequency(system, point.q) == pytest.approx(right)
 
 
-def test_one_number_moves_as_an_independent_integrator_says():
+def test_one_degree_of_freedom_moves_as_an_independent_integrator_finds():
     """From where it swings over the hill.  Energy is kept to rounding, and the implicit answer is of second order."""
     system = snapping(0.2, mass=2.0)
     start = State(np.array([-0.6]), np.array([0.5]), system.history)
@@ -135,7 +135,7 @@ def test_one_number_moves_as_an_independent_integrator_says():
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_numbers_that_only_their_mass_couples_move_as_the_exponential_says(method):
+def test_masses_coupled_by_inertia_alone_move_by_the_matrix_exponential(method):
     """The mass reaches farther than the energy, whose Hessian is diagonal."""
     n, rng = 12, np.random.default_rng(0)
     band = np.tile([2.0, 0.5, 0.0, 0.3], (n, 1))
@@ -149,8 +149,8 @@ def test_numbers_that_only_their_mass_couples_move_as_the_exponential_says(metho
     np.testing.assert_allclose(found, np.sqrt(squared), rtol=1e-12)
 
 
-def test_displacements_are_not_taken_for_positions():
-    """An origin is added by potentials in Python; compiled steps, which do not, say so."""
+def test_displacements_are_refused_as_positions():
+    """Potentials in Python add an origin; compiled steps do not and raise an error."""
     well = replace(wells((1.0, -1.0, 0.0)), origin=np.array([-1.0]))
     system, same = body(well, mass=2.0), body(wells((1.0, -1.0, 1.0)), mass=2.0)
     start = State(np.array([0.4]), np.zeros(1), system.history)
@@ -171,7 +171,7 @@ def test_displacements_are_not_taken_for_positions():
 # Points in space with springs between them.
 
 
-def test_two_hanging_links_rest_where_their_tensions_point():
+def test_two_hanging_links_are_in_equilibrium_along_their_tensions():
     """Each link lies along what hangs on it, and is longer by that over its stiffness."""
     force = np.array([[0.0, 0, 0], [0.0, 0.3, -2.0], [0.7, 0.2, -1.0]])
     k, own = np.array([50.0, 20.0]), np.array([1.0, 0.8])
@@ -202,7 +202,7 @@ def tetrahedron(space=None):
     return body(springs(rows), mass=0.7, space=space, n=12)
 
 
-def test_the_hessian_of_points_is_the_slope_of_their_gradient():
+def test_the_hessian_of_points_is_the_derivative_of_their_gradient():
     q = TETRAHEDRON.ravel() + 0.3 * np.random.default_rng(3).normal(size=12)
     np.testing.assert_allclose(hessian(tetrahedron(), q)[1], differenced(tetrahedron(), q), atol=1e-8)
 
@@ -244,8 +244,8 @@ def test_free_points_keep_energy_and_both_momenta():
     assert angular_momentum < 1e-12
 
 
-def test_a_space_without_rigid_motions_would_lose_the_momenta():
-    """So that the test above sees whether they are asked for: what meets the energy then pulls on the whole body."""
+def test_without_rigid_motions_the_momenta_are_not_conserved():
+    """So the test above checks their use: the force that conserves the energy then has a resultant."""
 
     class Mute(PointSpace):
         def rigid_motions(self, q):
@@ -279,8 +279,8 @@ def test_a_force_without_a_potential_has_a_skew_tangent_and_the_equilibrium_of_b
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_force_without_a_potential_feeds_a_motion(method):
-    """Its work is not taken for an error of the energy."""
+def test_a_force_without_a_potential_does_work_on_a_motion(method):
+    """The integrator does not correct the work of this force as an error of the energy."""
     k, p, m = CIRCULATING.values()
     s = np.emath.sqrt((-k + 1j * p) / m)
     right = np.cosh(s * 6.0) * (1 + 0.3j)
@@ -331,7 +331,7 @@ def judge_history(points):
     assert work - stored == pytest.approx(CAP * anchor, abs=1e-12)
 
 
-def test_a_slider_keeps_a_set_and_takes_the_work_of_its_cap():
+def test_a_slider_keeps_its_permanent_set_and_dissipates_energy():
     """The load steps by an eighth, and it begins to slide at five of them."""
     assert YIELD == 5 / 8
     points = loaded_and_unloaded()
@@ -425,7 +425,7 @@ def exact_slide(duration):
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("parts", [1, 3])
-def test_a_sliding_mass_comes_to_rest_where_its_anchor_is_left(method, parts):
+def test_a_sliding_mass_comes_to_rest_at_its_anchor(method, parts):
     duration = 7.0
     x, v, anchor = exact_slide(duration)
     system, state, count = slid(method, 2e-3, duration, parts)
@@ -453,19 +453,19 @@ def test_a_solver_that_reads_a_director_fails_where_there_is_none():
         faulty.EquilibriumSolver(snapping(0.3), NewtonSettings(), "x").correct(np.zeros(1), 0.0, ())
 
 
-def test_a_solver_that_commits_what_it_only_tries_is_noticed():
+def test_a_solver_that_commits_trial_states_is_noticed():
     commit = f"            history = system.committed(q, history)\n{ASSEMBLED}"
     faulty = patched(equilibrium, ASSEMBLED, commit)
     with pytest.raises(AssertionError):
         judge_history(loaded_and_unloaded(faulty.EquilibriumSolver))
 
 
-def test_an_integrator_that_commits_what_it_only_tries_is_noticed(monkeypatch):
+def test_an_integrator_that_commits_trial_states_is_noticed(monkeypatch):
     asked = "        system.add_gradient(q, self.history, gradient)\n"
     at_once = f"        self.history[1][:] = system.committed(q, self.history)[1]\n{asked}"
     monkeypatch.setattr(runge_kutta, "_Rates", patched(runge_kutta, asked, at_once)._Rates)
     with pytest.raises(AssertionError):
-        test_a_sliding_mass_comes_to_rest_where_its_anchor_is_left("rk4", 1)
+        test_a_sliding_mass_comes_to_rest_at_its_anchor("rk4", 1)
 
 
 def test_a_solver_that_forgets_the_skew_part_is_noticed(monkeypatch):

@@ -77,7 +77,7 @@ def test_energy_gradient_and_hessian_are_those_of_the_strains_written_again(rod)
     np.testing.assert_allclose(dense, dense.T)
 
 
-def test_a_rod_at_rest_has_no_energy_and_six_motions_that_cost_none():
+def test_the_reference_has_no_energy_and_six_rigid_motions():
     rod = arch(7, 0.2, TURNED)
     system, q = rod.system(), rod.at_rest.ravel()
     gradient, dense = hessian(system, q)
@@ -91,7 +91,7 @@ def test_a_rod_at_rest_has_no_energy_and_six_motions_that_cost_none():
     assert values[6] > 1e-9 * values[-1]
 
 
-def test_the_energy_does_not_see_how_the_rod_is_turned():
+def test_the_energy_does_not_depend_on_the_orientation_of_the_rod():
     rod = straight(6)
     system, q = rod.system(), shaken(rod)
     turned = q.reshape(-1, 3, 3) @ TURNED.T
@@ -150,7 +150,7 @@ def limit_of(rod, middle):
 
 
 def test_a_path_passes_the_limit_point_of_an_arch_in_space():
-    """The arch stands askew; what judges it stands upright."""
+    """The arch is rotated in space; the arch of the reference values is not."""
     shape, radii = (7, 0.05), (0.008, 0.02)
     right = limit_of(arch(*shape, np.eye(3), radii=radii), 3)
     rod = arch(*shape, TURNED, radii=radii)
@@ -192,7 +192,7 @@ def test_a_free_rod_has_six_zero_frequencies_and_those_of_a_beam_in_both_planes(
 
 
 def test_a_thin_rod_that_spins_about_a_skew_axis_keeps_energy_and_angular_momentum():
-    """20 turns of 50 steps, looked at after seven steps each time; r / L = 0.005."""
+    """20 turns of 50 steps each, checked every seven steps; r / L = 0.005."""
     rod, rate = straight(12, radii=(0.005, 0.003)), 0.1
     axis = rate * np.array([1.0, 0.3, 1.0]) / np.sqrt(2.09)
     q = rod.at_rest - [[0, 0, 0.5], [0, 0, 0], [0, 0, 0]]
@@ -231,7 +231,7 @@ def elastica(load):
 
 
 @pytest.mark.parametrize("load", [2.0, 6.0, 20.0])
-def test_a_cantilever_under_a_following_force_is_the_elastica(load):
+def test_a_cantilever_under_a_follower_force_is_the_elastica(load):
     """At the last two loads the symmetric part of the Hessian is not positive, but nothing else is near."""
     radius, tips = 3e-4, []
     for edges in (32, 64):
@@ -271,7 +271,7 @@ def bent(monkeypatch, system_class=None):
     return np.array(residuals)
 
 
-def test_the_hessian_of_a_following_force_has_a_skew_part():
+def test_the_tangent_of_a_follower_force_has_a_skew_part():
     rod = straight(4, clamped=True)
     system = rod.system(follower(0.3))
     q = shaken(rod)
@@ -306,7 +306,7 @@ def driven(load, step, duration=20.0):
 FORCE = 2e-3
 
 
-def test_the_work_of_a_following_force_is_not_taken_for_an_error():
+def test_the_integrator_does_not_correct_the_work_of_a_follower_force():
     """What the rod gains is that work, to the rounding; along the path itself, to second order."""
     rod, load = straight(5, clamped=True), follower(FORCE)
     system = rod.system(load)
@@ -321,7 +321,7 @@ def test_the_work_of_a_following_force_is_not_taken_for_an_error():
     assert abs(errors[1]) < 1e-3 * right
 
 
-def test_a_work_that_is_taken_for_an_error_is_noticed():
+def test_an_integrator_that_corrects_the_work_of_a_load_is_noticed():
     """As it would be if the force claimed a potential, which is then zero."""
     gained, work = driven(replace(follower(FORCE), symmetric=True), 0.2)
     assert gained != pytest.approx(work, rel=1e-3)

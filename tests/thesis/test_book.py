@@ -1,4 +1,4 @@
-"""The book: pages whose equations can be read, and a folder from which nothing is removed that is not of a book."""
+"""The book: pages with readable equations, and a folder in which only files of a book are replaced."""
 
 import html
 import re
@@ -82,7 +82,7 @@ def rules(book):
     }
 
 
-def test_mathematics_of_captions_and_tables_is_set_and_not_shown_as_dollars(built):
+def test_mathematics_of_captions_and_tables_is_typeset(built):
     text = (built / "index.html").read_text()
     found = re.findall(r'<span class="math notranslate nohighlight">\\\((.*?)\\\)</span>', text)
     assert found == [r"\mu_3", "a &lt; b", r"\gamma", "t_p/2"]
@@ -108,7 +108,7 @@ def test_pictures_and_animations_keep_within_the_column(built):
     assert "overflow-wrap: anywhere" in rules(built)["code .pre"]
 
 
-def test_dark_captions_stand_on_the_ground_of_the_page(built):
+def test_dark_captions_have_the_background_of_the_page(built):
     """The theme puts outputs on a pale card; its selector counts five classes and three elements."""
     (selector,) = (key for key in rules(built) if key.endswith(".output.text_html"))
     assert 'html[data-theme="dark"]' in selector
@@ -132,19 +132,19 @@ def test_a_book_replaces_a_book_and_an_empty_folder(notebooks, book, tmp_path):
 @pytest.mark.parametrize(
     "name", ["thesis.tex", "mine.html", "_static/mine.css", "sub/mine.txt", "empty/"]
 )
-def test_a_file_of_the_user_in_a_book_stays_and_is_named(notebooks, book, name, listed):
+def test_a_users_file_in_a_book_is_kept_and_named(notebooks, book, name, listed):
     if not listed:
         (book / ".cosserat-book").unlink()  # as books were before
     path = book / name
     path.parent.mkdir(exist_ok=True)
     path.mkdir() if name.endswith("/") else path.write_text("mine")
     before = contents(book)
-    with pytest.raises(InputError, match=rf"holds {name.rstrip('/')}, which is not of a book"):
+    with pytest.raises(InputError, match=rf"holds {name.rstrip('/')}, which does not belong to a book"):
         render(notebooks, book)
     assert contents(book) == before
 
 
-def test_folders_of_the_user_stay(notebooks, tmp_path, monkeypatch):
+def test_folders_of_the_user_are_kept(notebooks, tmp_path, monkeypatch):
     mine = tmp_path / "mine"
     (mine / "work" / "here").mkdir(parents=True)
     (mine / "thesis.tex").write_text("mine")
@@ -158,9 +158,9 @@ def test_folders_of_the_user_stay(notebooks, tmp_path, monkeypatch):
         (mine / "work", "holds the folder you work in"),
         (mine / "work" / "here" / "..", "holds the folder you work in"),
         (tmp_path, "holds the folder you work in"),
-        (tmp_path / "link", "link is no folder"),
-        (tmp_path / "nowhere", "nowhere is no folder"),
-        (mine / "thesis.tex", "thesis.tex is no folder"),
+        (tmp_path / "link", "link is not a folder"),
+        (tmp_path / "nowhere", "nowhere is not a folder"),
+        (mine / "thesis.tex", "thesis.tex is not a folder"),
     ]:
         with pytest.raises(InputError, match=sentence):
             render(notebooks, output)
@@ -168,12 +168,12 @@ def test_folders_of_the_user_stay(notebooks, tmp_path, monkeypatch):
         with pytest.raises(InputError, match="holds the folder you work in"):
             render(notebooks, Path(relative))
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(InputError, match="holds index.html, which is not of a book"):
+    with pytest.raises(InputError, match="holds index.html, which does not belong to a book"):
         render(notebooks, mine)
     assert contents(tmp_path) == before
 
 
-def test_a_book_that_cannot_be_built_leaves_the_old_one(notebooks, book, tmp_path):
+def test_a_failed_build_keeps_the_old_book(notebooks, book, tmp_path):
     bad = tmp_path / "index.ipynb"
     cell = nbformat.v4.new_markdown_cell("# Index\n\n[nowhere](none.md)")
     nbformat.write(nbformat.v4.new_notebook(cells=[cell]), bad)
@@ -189,7 +189,7 @@ def test_the_page_of_keys_has_every_kind_under_its_own_heading():
     assert parts == [("every case", "common_keys()"), *((kind, f'keys("{kind}")') for kind in kinds())]
 
 
-def test_the_page_of_keys_has_an_address_for_every_key_and_all_it_says():
+def test_the_page_of_keys_has_an_anchor_and_the_whole_text_of_every_key():
     shown = page.common_keys().data + "".join(page.keys(kind).data for kind in kinds())
     addresses = re.findall(r'id="([^"]+)"', shown)
     assert len(addresses) == len(set(addresses))

@@ -1,4 +1,4 @@
-"""The calibration of section 3.5 as a procedure: what it recovers, what it leaves open, and where refinement leads."""
+"""The calibration procedure of section 3.5: recovered and undetermined coefficients, and the limit of refinement."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def test_the_hanging_bar_recovers_one_half_at_every_mesh(fitted):
     np.testing.assert_allclose(fitted.hanging_bar_coefficients, 0.5, rtol=1e-4)
 
 
-def test_displacements_see_c4_and_c5_through_one_number_alone(fitted):
+def test_displacements_depend_on_c4_and_c5_through_one_number(fitted):
     """At every mesh: for any c4 some c5 gives the same displacements; near the fits the misfit has a flat direction."""
     for name in ("clamped_free", "clamped_clamped"):
         values = fitted[f"{name}_singular_values"]
@@ -42,8 +42,8 @@ def test_displacements_see_c4_and_c5_through_one_number_alone(fitted):
     assert np.abs(profile(2.01 / 3, 3.0, 1281) - fine).max() < 5e-3 * np.abs(fine).max()
 
 
-def test_both_beams_at_once_want_a_third_set(fitted):
-    """Displacements and directors of both: half the misfit of the published set, and none of its numbers."""
+def test_both_beams_together_give_a_third_set(fitted):
+    """A fit to displacements and directors of both has half the misfit of the published set, other coefficients."""
     procedure = cosserat.case("calibration").problem
     found = fitted.beams_coefficients[0].to_numpy()
     np.testing.assert_allclose(found, [1.0588, 0.9264, 1.0741], atol=2e-4)
@@ -72,8 +72,8 @@ def test_both_beams_at_once_want_a_third_set(fitted):
     assert procedure.meshes[0] == 20
 
 
-def test_the_second_beam_does_not_fortify_the_first(fitted):
-    """Alone the two ask for products of c4 and c5, all that displacements see of them, of 1.31 and 0.92."""
+def test_the_second_beam_does_not_confirm_the_first(fitted):
+    """Displacements depend on the product of c4 and c5 only: it is 1.31 for one beam and 0.92 for the other."""
     for name, expected in (("clamped_free", 1.315), ("clamped_clamped", 0.923)):
         c3, c4, c5 = fitted[f"{name}_coefficients"][0].to_numpy()
         assert c4 * c5 == pytest.approx(expected, abs=5e-3)
@@ -81,12 +81,12 @@ def test_the_second_beam_does_not_fortify_the_first(fitted):
 
 
 def test_a_calibration_without_the_published_mesh_has_no_row(fitted):
-    with pytest.raises(InputError, match=r"has meshes of \[40\.0, .*; give it the published 20 too"):
+    with pytest.raises(InputError, match=r"has meshes of \[40\.0, .*; add the published 20"):
         readouts.READOUTS["recovered_c3"](fitted.isel(mesh=slice(1, None)))
 
 
 def test_stored_directions_say_which_coefficients_move_together(fitted):
-    """Necking does not see c2, c6 and c7 grow together; the beams do not see c4 grow as c5 falls."""
+    """Necking does not change if c2, c6 and c7 grow together, and the beams do not if c4 grows as c5 falls."""
     for name, coefficients in ASSIGNED.items():
         directions = fitted[f"{name}_directions"].to_numpy()
         count = len(coefficients)
@@ -106,8 +106,8 @@ def test_stored_directions_say_which_coefficients_move_together(fitted):
     assert (abs(hinge.sel(beam_coefficient="c3")) < 1e-2).all()
 
 
-def test_a_step_along_a_direction_moves_the_misfit_as_its_sensitivity_says(fitted):
-    """And along the open one it does not move, of which forward differences would see their rounding."""
+def test_a_step_along_a_direction_changes_the_misfit_by_its_sensitivity(fitted):
+    """Along the undetermined direction it does not change; forward differences would show round-off there."""
     misfit = cosserat.case("calibration").problem.misfit("necking", 20, "trial")
     best = np.log(fitted.necking_coefficients[0].to_numpy())
     sizes, directions = (
@@ -142,7 +142,7 @@ def test_a_fit_finds_the_coefficients_that_made_its_data(monkeypatch):
     assert np.sqrt(2 * found.cost) < 1e-7  # c4 and c5 are others with the same hinge
 
 
-def test_published_coefficients_drift_with_the_mesh_as_the_notes_say(fitted):
+def test_published_coefficients_drift_with_the_mesh(fitted):
     np.testing.assert_allclose(
         fitted.clamped_free_published, [0.9955, 1.0673, 1.0996, 1.1140, 1.1208], atol=2e-4
     )
@@ -163,8 +163,8 @@ def test_the_clamped_free_tip_tends_to_bending_plus_a_hinge(fitted):
     assert tips[-1] + steps[1] == pytest.approx(predicted, abs=2e-4)
 
 
-def test_necking_wants_a_stiffer_gradient_in_the_limit(fitted):
-    """c6 = 1/2 is that of N = 20; where the layer is resolved the page's curve wants 0.82 of EI / (1 + nu), to 2 %."""
+def test_necking_needs_a_larger_c6_in_the_limit(fitted):
+    """c6 = 1/2 belongs to N = 20; with a resolved layer the page's curve needs c6 = 0.82, to 2 %."""
     found = float(fitted.necking_coefficients.sel(section_coefficient="c6")[-1])
     assert found == pytest.approx(0.82, rel=2e-2)
     problem = cosserat.case("necking").problem

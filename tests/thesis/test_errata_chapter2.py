@@ -1,4 +1,4 @@
-"""Evidence for the errata of Chapter 2: where the page prints a form that fails, the printed one beside ours."""
+"""Evidence for the errata of Chapter 2: the printed form fails, the corrected form passes."""
 
 import numpy as np
 import pytest
@@ -406,7 +406,7 @@ ONE_SPEED = (
 LITERAL = (2 * T_P / 3, T_P)  # C: 0 at t_p, as printed, and 0.5 at 2 t_p / 3
 
 
-def test_E2_15_all_readings_of_gamma_stride_alike_and_differ_in_what_they_exclude(solved):
+def test_E2_15_all_readings_of_gamma_have_one_stride_and_exclude_different_sentences(solved):
     for anchor, name in ((EARLY, "worm_early"), (LATE, "worm")):
         for times in (ONE_SPEED, LITERAL):
             case = cosserat.case("worm").vary("x", strides=1, gait=reading(anchor, *times))
@@ -440,7 +440,7 @@ def test_E2_16_where_the_robot_changes_its_anchor_decides_its_displacement(solve
     assert moved / strides(solved["soft_robot"])[-1] == pytest.approx(0.483, abs=1e-3)
 
 
-def test_E2_17_when_the_worm_changes_its_anchor_decides_its_stride_and_what_it_holds_on_with(solved):
+def test_E2_17_the_time_of_the_anchor_switch_decides_the_stride_and_the_anchoring_part(solved):
     millimetres = {
         "worm": 61.02,
         "worm_balanced": 60.69,
@@ -509,7 +509,7 @@ def test_E2_22_density_from_mass_and_length_or_from_mass_and_volume():
     assert resting_diameter(0.01) == pytest.approx(7.55e-3, rel=1e-3)
 
 
-def test_E2_23_no_doublet_has_both_no_width_and_areas_of_one():
+def test_E2_23_no_doublet_has_zero_width_and_unit_areas():
     """(2.2.2) has halves of area 1 at two points, (2.2.3) is the derivative of a delta: finite, then ever narrower."""
     xi = np.linspace(0, 1, 200_001)
     step = xi[1] - xi[0]
@@ -574,7 +574,7 @@ def test_E2_25_the_layers_are_thinner_than_the_radius(name, fraction):
     assert lengths[1].min() == pytest.approx(least[name], abs=1e-3)
 
 
-def test_E2_26_a_resting_pressure_needs_muscles_that_are_not_at_rest(solved):
+def test_E2_26_the_measured_resting_pressure_needs_active_muscles(solved):
     """Weight alone gives a ninth of what Quillin measured; 11 mN of longitudinal tone would give it."""
     case = cosserat.case("worm_at_rest")
     weight, tone = (
@@ -589,7 +589,7 @@ def test_E2_26_a_resting_pressure_needs_muscles_that_are_not_at_rest(solved):
     assert WORM.loads.anchoring / 11e-3 == pytest.approx(2.4, abs=0.05)  # of the load while it crawls
 
 
-def test_E2_27_what_was_measured_asks_for_other_parameters_than_the_page_calibrated(solved):
+def test_E2_27_the_measured_outcomes_give_other_parameters_than_those_of_the_page(solved):
     """Least squares of four measured numbers, from other starts too; and the plateaus' algebra gives the same."""
     found = {
         "worm_calibration": (1282.41, 30.3986e-3, 1117.16),
@@ -640,5 +640,5 @@ def test_the_collocation_refuses_a_system_it_cannot_solve():
         )
 
 
-def test_loads_know_their_defaults():
+def test_the_default_contact_is_the_weight():
     assert Loads(anchoring=1, advancing=1).contact == "weight"

@@ -220,7 +220,7 @@ def test_printed_force_lists_miss_the_gradient_without_each_correction(missing):
         ("E3.8", True, True),
     ],
 )
-def test_what_balance_notices_of_each_missing_correction(missing, force_left, moment_left):
+def test_balance_without_each_correction(missing, force_left, moment_left):
     """Without E3.4 or E3.6 a free rod stays balanced, without E3.5 a moment is left; the energy notices each."""
     rest = tuple(name for name in CORRECTIONS if name != missing)
     for seed in range(5):
@@ -398,7 +398,7 @@ def test_E3_16_printed_supports_leave_the_bars_free_and_the_added_ones_carry_not
     assert float(carried) == pytest.approx(250 * 5 * 9.81, rel=1e-9)
 
 
-def test_E3_19_the_printed_period_asks_for_the_section_and_density_and_hardly_for_the_rest(solved):
+def test_E3_19_the_printed_period_determines_section_and_density_and_hardly_the_rest(solved):
     def by_formula(**changes):
         return np.pi / beams.first_frequency(replace(printed.beam("vibration_c4_20"), **changes))
 

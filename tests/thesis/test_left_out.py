@@ -1,4 +1,4 @@
-"""Everything numbered in the thesis is used, or stands on the list of what is left out with a reason."""
+"""Every numbered item of the thesis is used, or is on the list of omissions with a reason."""
 
 import re
 import subprocess
@@ -91,20 +91,20 @@ def all_used():
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_all_that_is_numbered_is_used_or_left_out_with_a_reason(kind, all_used):
+def test_every_numbered_item_is_used_or_left_out_with_a_reason(kind, all_used):
     there, listed = LISTED.numbered.names(kind), LISTED.names(kind)
     assert [name for name in there if name not in all_used[kind] and name not in listed] == []
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_nothing_that_is_used_is_called_left_out(kind, all_used):
+def test_no_used_item_is_listed_as_left_out(kind, all_used):
     listed = LISTED.names(kind)
     assert [name for name in listed if name in all_used[kind]] == []
     assert len(listed) == len(set(listed))
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_nothing_is_cited_or_listed_that_the_thesis_does_not_have(kind, all_used):
+def test_only_items_of_the_thesis_are_cited_or_listed(kind, all_used):
     there = set(LISTED.numbered.names(kind))
     assert all_used[kind] - there == set()
     assert set(LISTED.names(kind)) - there == set()
@@ -142,12 +142,12 @@ def test_places_are_written_as_the_thesis_cites_them():
 
 
 @pytest.mark.parametrize("text", ["1", "1.2.9-1.2.3", "1.2.3-1.3.9", "a", "1.2.3 "])
-def test_ranges_that_are_none_are_refused(text):
+def test_bad_ranges_are_refused(text):
     with pytest.raises(InputError, match="is no number or range"):
         LeftOut(what="x", why="y", equations=(text,)).names("equations")
 
 
-def test_a_list_that_cannot_be_read_is_refused(tmp_path):
+def test_an_unreadable_list_is_refused(tmp_path):
     with pytest.raises(InputError, match="restore it from the repository"):
         read_left_out(tmp_path / "none.toml")
     (tmp_path / "list.toml").write_text("[[left_out]]\nwhat = 'x'\n")

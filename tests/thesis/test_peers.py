@@ -1,4 +1,4 @@
-"""The comparison with other packages, as far as it needs none of them."""
+"""The comparison with other packages: the part that runs without them."""
 
 import csv
 import sys
@@ -11,7 +11,7 @@ from cosserat.errors import CosseratError, InputError
 from cosserat.thesis.peers import compare
 
 
-def test_the_problems_are_the_same_for_everyone():
+def test_all_packages_solve_the_same_problems():
     problems = compare.problems()
     assert [problem.elements for problem in problems] == [19, 20, 40, 80, 20, 200, 2000]
     for problem, ours in problems.items():
@@ -51,7 +51,7 @@ def some(monkeypatch, *kept):
     monkeypatch.setattr(compare, "problems", lambda: problems)
 
 
-def test_packages_take_turns_and_the_table_says_where_it_was_measured(fakes, monkeypatch):
+def test_packages_alternate_and_the_table_names_the_machine(fakes, monkeypatch):
     some(monkeypatch, ("weight", 19), ("force", 20), ("vibration", 20))
     solve, turns, said = compare._solve, fakes / "prescribed_rotations", []
 
@@ -87,7 +87,7 @@ def test_packages_take_turns_and_the_table_says_where_it_was_measured(fakes, mon
         assert [row["package"] for row in csv.DictReader(file)] == [line.package for line in lines]
 
 
-def test_a_package_that_is_not_there_or_fails_is_said_to_be_so(fakes, monkeypatch):
+def test_a_missing_or_failing_package_is_reported(fakes, monkeypatch):
     python = Path(sys.executable)
     some(monkeypatch, ("force", 80))
     with pytest.raises(
@@ -101,7 +101,7 @@ def test_a_package_that_is_not_there_or_fails_is_said_to_be_so(fakes, monkeypatc
         list(compare.compare(Path("/none/python"), print))
 
 
-def test_the_table_that_was_measured_last_is_kept_and_whole():
+def test_the_stored_table_is_complete():
     """The chapter shows it; `snakemake peers` writes another."""
     with (ROOT / "results" / "peers.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))

@@ -1,4 +1,4 @@
-"""The rows of Chapter 2 notice what is changed: a part of `cosserat power` that is quick."""
+"""The rows of Chapter 2 notice changes: the quick part of `cosserat power`."""
 
 import pytest
 from conftest import ROOT
@@ -6,7 +6,15 @@ from conftest import ROOT
 import cosserat
 from cosserat.thesis.table import printed
 from cosserat.thesis.table.power import notices
-from cosserat.thesis.table.power_crawlers import CHANGES, FIT, READINGS, REST, ROBOT, SIZES, WORM
+from cosserat.thesis.table.power_crawlers import (
+    AT_REST,
+    BODY_MASSES,
+    CALIBRATIONS,
+    CHANGES,
+    READINGS,
+    ROBOT,
+    WORM,
+)
 from cosserat.thesis.table.tolerances import read_table
 
 ROWS = read_table(ROOT / "results/tolerances.csv")
@@ -24,7 +32,7 @@ QUICK = [
 
 
 @pytest.mark.parametrize("what", QUICK)
-def test_a_change_is_noticed_or_says_why_not(what):
+def test_a_change_of_a_crawler_is_noticed_or_has_a_reason(what):
     change = next(change for change in CHANGES if change.what == what)
     assert notices(change, ROWS).sound
 
@@ -33,7 +41,7 @@ def test_a_change_is_noticed_or_says_why_not(what):
     "case", ["soft_robot", "worm", "worm_at_rest", "worm_masses", "worm_calibration"]
 )
 def test_every_printed_number_of_a_case_is_changed_once(case):
-    """Its gait too; of a worm that is a part of a case, in the case of that worm."""
+    """This includes the gait.  The inputs of a worm within another case are changed in the case of that worm."""
     changed = {place for change in CHANGES if case in change.cases for place in change.places}
     numbers = {
         place
@@ -44,11 +52,11 @@ def test_every_printed_number_of_a_case_is_changed_once(case):
     assert numbers - changed - {"gait.at_rest"} == set()
 
 
-def test_what_is_changed_is_of_the_thesis_and_has_a_name_of_its_own():
+def test_changed_inputs_are_of_the_thesis_and_have_distinct_names():
     names = [change.what for change in CHANGES]
     assert len(set(names)) == len(names) > 50
     asked = {case for change in CHANGES for case in change.cases}
-    assert asked == {*ROBOT, *WORM, *READINGS, *REST, *SIZES, *FIT}
+    assert asked == {*ROBOT, *WORM, *READINGS, *AT_REST, *BODY_MASSES, *CALIBRATIONS}
     assert asked <= set(cosserat.published())
     for case in asked:
         assert any(row.case == case for row in ROWS)

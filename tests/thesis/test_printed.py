@@ -1,4 +1,4 @@
-"""Every case that claims to be the thesis's has the inputs that the thesis prints."""
+"""Every case of the thesis has the inputs that the thesis prints."""
 
 import re
 
@@ -17,7 +17,7 @@ CHAPTER_2, CHAPTER_3 = (
     )
     for name in ("chapter2", "chapter3")
 )
-OURS = {
+UNPRINTED_CASES = {
     "stretched": "a shape of our choice; its rod is held by the four problems that it is like",
     "sheared": "as the one before",
     "inflated": "as the one before",
@@ -85,25 +85,26 @@ def test_a_case_has_the_printed_input(name, place):
 
 
 @pytest.mark.parametrize("name", printed.PRINTED)
-def test_nothing_else_in_a_case_of_the_thesis_departs_from_its_default(name):
-    """What a case says beyond the page would be an input that nobody holds to anything."""
+def test_all_other_inputs_of_a_case_of_the_thesis_are_defaults(name):
+    """An input beyond those of the page would have no check."""
     problem = cosserat.case(name).problem
     table = plain(problem.model_dump())
     said = [
         place
         for place in flat(table, type(problem).model_fields)
-        if not place.endswith("kind") and place.removeprefix("worm.").split(".")[0] not in printed.OURS
+        if not place.endswith("kind")
+        and place.removeprefix("worm.").split(".")[0] not in printed.SOLVER_KEYS
     ]
     held = printed.PRINTED[name]
     assert [p for p in said if not any(h == p or h.startswith(f"{p}.") for h in held)] == []
 
 
-def test_every_case_of_chapter_3_is_held_or_says_why_not():
-    assert set(printed.CHAPTER_3) | set(OURS) == set(CHAPTER_3)
-    assert not set(printed.CHAPTER_3) & set(OURS)
+def test_every_case_of_chapter_3_has_printed_inputs_or_a_reason():
+    assert set(printed.CHAPTER_3) | set(UNPRINTED_CASES) == set(CHAPTER_3)
+    assert not set(printed.CHAPTER_3) & set(UNPRINTED_CASES)
 
 
-def test_every_case_of_chapter_2_is_held():
+def test_every_case_of_chapter_2_has_printed_inputs():
     assert set(printed.CHAPTER_2) == set(CHAPTER_2)
 
 
@@ -134,8 +135,8 @@ def test_inputs_of_chapter_2_follow_from_the_numbers_behind_them():
 
 
 @pytest.mark.parametrize("grams", [0.01, 1.0, 10.0])
-def test_table_2_1_is_the_pages_at_every_mass(grams):
-    """Its eight numbers, typed once more."""
+def test_table_2_1_is_that_of_the_page_at_every_mass(grams):
+    """The eight numbers of Table 2.1, written a second time."""
     mass = 1e-3 * grams
     assert earthworm.stance_time(mass) == pytest.approx(1.6 * grams**0.04)
     assert earthworm.protrusion_time(mass) == pytest.approx(2.5 * grams**0.1)
@@ -150,7 +151,7 @@ def test_the_calibration_is_of_the_four_problems_at_the_published_mesh():
     assert procedure.meshes[0] == printed.number("necking", "rod.vertices")
 
 
-def test_what_is_assumed_is_an_assumption_or_a_question_of_the_errata():
+def test_assumed_inputs_are_assumptions_or_questions_of_the_errata():
     errata = read_errata(ROOT / "results/errata.toml")
     for held in printed.PRINTED.values():
         for place, given in held.items():
@@ -160,7 +161,7 @@ def test_what_is_assumed_is_an_assumption_or_a_question_of_the_errata():
 
 
 def test_the_closed_forms_take_the_printed_rectangle():
-    """I = W H^3 / 12, typed out once more: neither the rod's own nor that of the case that was solved."""
+    """I = W H^3 / 12, written a second time: neither from the rod nor from the solved case."""
     beam = printed.beam("clamped_free")
     assert beam.second_moment == pytest.approx(0.5 * 0.5**3 / 12)
     assert beam.bending_stiffness == pytest.approx(1e9 * 0.0625 / 12)

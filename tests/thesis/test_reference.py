@@ -1,4 +1,4 @@
-"""Fresh runs against the stored references, and the comparison itself."""
+"""New runs compared with the stored references, and tests of the comparison."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ REFERENCES = ROOT / "results/reference"
 
 
 @pytest.mark.parametrize("name", list(cosserat.published()))
-def test_nothing_moved(solved, name):
+def test_results_agree_with_their_references(solved, name):
     changes = compare(solved[name], cosserat.load(REFERENCES / f"{name}.nc"))
     assert changes
     moved = [str(change) for change in changes if not change.held]
@@ -31,7 +31,7 @@ def changed(data, name, values):
     return data.assign({name: data[name].copy(data=values)})
 
 
-def test_a_moved_value_is_found_with_its_place(solved):
+def test_a_changed_value_is_reported_with_its_place(solved):
     data = solved["clamped_free"]
     values = data.u.to_numpy().copy()
     values[7, 1] += 1e-8
@@ -41,7 +41,7 @@ def test_a_moved_value_is_found_with_its_place(solved):
     assert str(change).startswith("u: 1e-08 m at vertex 7, axis 1 (allowed")
 
 
-def test_what_cannot_be_compared_is_refused(solved):
+def test_results_that_cannot_be_compared_are_refused(solved):
     data = solved["clamped_free"]
     bad = data.mu.to_numpy().copy()
     bad[3] = np.nan
@@ -61,7 +61,7 @@ def test_what_cannot_be_compared_is_refused(solved):
         compare(data.isel(vertex=slice(1, None)), data)
 
 
-def test_accepting_asks_for_a_reason_and_keeps_it(solved, tmp_path):
+def test_accepting_needs_a_reason_and_stores_it(solved, tmp_path):
     path = tmp_path / "clamped_free.nc"
     with pytest.raises(InputError, match="says too little"):
         accept(solved["clamped_free"], path, "because")

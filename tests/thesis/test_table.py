@@ -1,4 +1,4 @@
-"""The judge can fail, and the rows load: what the results table claims is what the numbers say."""
+"""The results table: every claim agrees with the numbers, a wrong number fails, and bad rows are refused."""
 
 import ast
 import inspect
@@ -65,7 +65,7 @@ def test_every_claim_of_the_table_holds(folder, tmp_path):
 
 
 @pytest.mark.parametrize("row", ATTEMPTED, ids=lambda row: row.id)
-def test_just_inside_and_just_outside_fall_on_the_right_sides(row, solved):
+def test_values_just_inside_and_just_outside_are_judged_right(row, solved):
     expected = judge(row, solved).expected
     if row.claim == "within":
         middle, allowed = expected, row.tolerance * (abs(expected) if row.tolerance_kind == "rel" else 1)
@@ -83,8 +83,8 @@ def test_just_inside_and_just_outside_fall_on_the_right_sides(row, solved):
 
 
 @pytest.mark.parametrize("row", ATTEMPTED, ids=lambda row: row.id)
-def test_no_row_holds_at_numbers_far_from_it(row, solved):
-    """Nothing that is claimed to miss is met by anything that misses."""
+def test_no_row_accepts_a_distant_number(row, solved):
+    """A number that lies outside its tolerance does not lie within the tolerance of the value found."""
     expected = judge(row, solved).expected
     for measured in (0.0, -1.0, 1e6, 2 * (row.found or expected), (row.found or expected) / 2):
         if row.claim == "outside" or measured != expected:
@@ -92,7 +92,7 @@ def test_no_row_holds_at_numbers_far_from_it(row, solved):
 
 
 @pytest.mark.parametrize("row", ATTEMPTED, ids=lambda row: row.id)
-def test_what_is_found_outside_is_outside(row, solved):
+def test_values_found_outside_are_outside(row, solved):
     """No number that meets the published tolerance is also near enough to what we say is found."""
     if row.claim == "within":
         return
@@ -112,8 +112,8 @@ def test_no_two_rows_of_one_case_measure_the_same_number(solved):
         assert twin == row.id or item.error == 0, f"{row.id} measures what {twin} measures"
 
 
-def test_arithmetic_solves_nothing_and_counts_as_nothing_more():
-    """Its functions take no Dataset, its rows name no case, and none stands as 'reproduced'."""
+def test_arithmetic_rows_solve_nothing_and_are_only_recomputed():
+    """The functions take no Dataset, the rows name no case, and none has the standing 'reproduced'."""
     rows = [row for row in ATTEMPTED if row.kind == "arithmetic"]
     assert {row.readout for row in rows} == set(ARITHMETIC)
     for row in rows:
@@ -126,7 +126,7 @@ def test_arithmetic_solves_nothing_and_counts_as_nothing_more():
 
 @pytest.mark.parametrize("measured", [float("nan"), float("inf"), None])
 @pytest.mark.parametrize("claim", ["within", "outside"])
-def test_a_number_that_is_no_number_makes_no_claim_true(measured, claim):
+def test_nan_makes_no_claim_true(measured, claim):
     found = {"found": 3e-3, "found_tolerance": 1e-4} if claim == "outside" else {}
     item = judged(measured, claim=claim, standing="assumption", erratum="E1", **found)
     assert not item.holds
@@ -145,7 +145,7 @@ def test_published_texts_are_read_with_their_units():
         _ = a_row(published="about two").expected
 
 
-def test_only_the_pages_own_numbers_are_of_kind_printed():
+def test_only_numbers_of_the_page_are_of_kind_printed():
     """Ours (C-...) and those of the page's sources come from a closed form or a source, and say so."""
     for row in ATTEMPTED:
         ours, cited = row.id.startswith("C-"), "reference [" in row.where
@@ -157,8 +157,8 @@ def test_only_the_pages_own_numbers_are_of_kind_printed():
         )
 
 
-def test_every_row_knows_what_is_expected_from_one_side_only(solved):
-    """A printed number or the read-out's, never both and never neither."""
+def test_every_row_has_one_source_of_its_expected_number(solved):
+    """The expected number is either printed or from the read-out, never both and never neither."""
     for row in ATTEMPTED:
         if row.kind == "arithmetic":
             assert row.expected is not None
@@ -188,7 +188,7 @@ ALIKE = {
 """Literals that are not the published number that they equal."""
 
 
-def test_published_numbers_are_typed_in_the_table_alone():
+def test_published_numbers_are_written_in_the_table_alone():
     """No number of a read-out, a figure or a chapter is one that the page prints; `printed.py` is the second copy."""
     published = set().union(*(unusual(row) for row in ROWS if row.expected is not None))
     assert {0.0386, 38.6, 0.75, 23.88, 0.59686} <= published
@@ -224,7 +224,7 @@ def test_published_numbers_are_typed_in_the_table_alone():
         ({"kind": "arithmetic", "readout": "first_root"}, "leave 'case' empty"),
         (
             {"kind": "arithmetic", "readout": "first_root", "case": None},
-            "stands as 'reproduced'; rows of kind 'arithmetic', and they alone, stand as 'recomputed'",
+            "stands as 'reproduced'; only rows of kind 'arithmetic', and all of them, have the standing 'recomputed'",
         ),
         ({"standing": "recomputed"}, "is of kind 'printed' and stands as 'recomputed'"),
         ({"tolerence": "1"}, "did you mean 'tolerance'"),
@@ -242,7 +242,7 @@ def test_incomplete_rows_do_not_load(change, sentence):
         Row.read({**known, **kept}, "row")
 
 
-def test_an_id_that_stands_twice_is_refused(tmp_path):
+def test_a_repeated_id_is_refused(tmp_path):
     lines = TABLE.read_text().splitlines()
     (tmp_path / "t.csv").write_text("\n".join([*lines, lines[1]]))
     with pytest.raises(InputError, match="the id 2.7-displacement occurs more than once"):
@@ -302,7 +302,7 @@ def test_every_row_names_a_known_case_and_entry_of_the_errata():
             assert errata[row.erratum].standing in ("assumption", "question"), row.id
 
 
-def test_every_row_is_attempted_and_the_readme_says_what_came_of_it(folder, tmp_path):
+def test_every_row_is_attempted_and_the_readme_has_the_summary(folder, tmp_path):
     readme = " ".join((ROOT / "README.md").read_text().split())
     write_report(measure(ROWS, folder), tmp_path / "report.csv")
     assert sentence(read_report(tmp_path / "report.csv")) in readme
@@ -314,7 +314,7 @@ def test_every_read_out_is_used():
     assert {row.readout for row in ATTEMPTED} == set(READOUTS) | set(ARITHMETIC)
 
 
-def test_another_reading_is_of_a_number_that_the_table_has(tmp_path):
+def test_another_reading_refers_to_a_number_of_the_table(tmp_path):
     text = TABLE.read_text()
     for wrong in ("2.8-strid", "T2.1-ts"):
         (tmp_path / "t.csv").write_text(re.sub(r",2\.8-stride\n", f",{wrong}\n", text))
@@ -358,10 +358,10 @@ def test_a_summary_counts_numbers_by_their_best_reading_and_names_what_is_missed
     )
     assert "Missed, in the nearest reading by: c 20 %, d 3 %\n" in text
     assert (
-        "Other readings of the same numbers: 2 rows; without them 2 of 4 numbers that something is solved for are met."
+        "Other readings of the same numbers: 2 rows; the first readings meet 2 of 4 computed numbers."
         in text
     )
-    assert "Measurements of its sources: 1 rows, 0 of them met." in text
+    assert "Measurements of its sources: 1 rows, 0 within their tolerance." in text
 
 
 def test_midspan_of_even_and_odd_rods():

@@ -1,4 +1,4 @@
-"""A long run killed at random moments: every file left is whole, and the run goes on to the same bytes."""
+"""A long run killed at random moments: every file is complete, and the run continues to the same bytes."""
 
 import os
 import signal
@@ -70,7 +70,7 @@ def test_six_kills_leave_whole_files_and_the_same_bytes(tmp_path):
 
 
 @pytest.mark.workflow
-def test_ctrl_c_says_how_to_go_on(tmp_path):
+def test_ctrl_c_says_how_to_continue(tmp_path):
     (tmp_path / "long.toml").write_text(LONG.replace("0.4 s", "4 s"))
     running = start(tmp_path, "cut.nc")
     while running.poll() is None and not (tmp_path / "cut.nc.parts").exists():

@@ -1,4 +1,4 @@
-"""Snakemake on a copy of the repository: what reruns after which change, and what a failing claim leaves behind."""
+"""Snakemake on a copy of the repository: the jobs that rerun after a change, and the effect of a failing claim."""
 
 import base64
 import csv
@@ -125,11 +125,11 @@ def edited(checkout):
         file.write_text(text)
 
 
-def test_nothing_is_left_to_do(checkout):
+def test_a_finished_workflow_has_nothing_to_rerun(checkout):
     assert planned(checkout) == (set(), set())
 
 
-def test_one_case_edited_reruns_its_batch_and_their_descendants_only(checkout, edited):
+def test_an_edited_case_reruns_only_its_batch_and_what_depends_on_it(checkout, edited):
     key = 'rod.poisson_coupling = "printed"'
     edited("cosserat/thesis/cases/chapter3.toml", key, f"{key}\nrod.material.poisson = 0.31")
     rules, outputs = planned(checkout)
@@ -142,7 +142,7 @@ def test_one_case_edited_reruns_its_batch_and_their_descendants_only(checkout, e
     assert len(solved) < len(KEPT)
 
 
-def test_the_solver_edited_reruns_every_simulation(checkout, edited):
+def test_an_edited_solver_reruns_every_simulation(checkout, edited):
     edited(
         "cosserat/solvers/equilibrium.py",
         "_DECISIVE_ROUND_OFF_RATIO = 5.0",
@@ -154,8 +154,8 @@ def test_the_solver_edited_reruns_every_simulation(checkout, edited):
 
 
 @pytest.mark.parametrize("name", ["beams", "elastica"])
-def test_a_formula_edited_reruns_what_stands_on_it(checkout, edited, name):
-    """Models start from closed forms, rows and figures are judged by them."""
+def test_an_edited_formula_reruns_what_depends_on_it(checkout, edited, name):
+    """Models start from closed forms, and rows and figures are compared with them."""
     file = f"cosserat/exact/{name}.py"
     edited(file, "import annotations", "import annotations  # edited")
     rules, outputs = planned(checkout)
@@ -163,12 +163,12 @@ def test_a_formula_edited_reruns_what_stands_on_it(checkout, edited, name):
     assert {f"cases/{case}.nc" for case in KEPT} <= outputs
 
 
-def test_plotting_edited_reruns_no_simulation(checkout, edited):
+def test_edited_plotting_reruns_no_simulation(checkout, edited):
     edited("cosserat/figures/style.py", '"font.size": 9', '"font.size": 10')
     assert planned(checkout) == ({"figure"}, {f"figures/{name}.svg" for name in DRAWN})
 
 
-def test_a_tolerance_edited_measures_again_and_solves_nothing(checkout, edited):
+def test_an_edited_tolerance_reruns_the_measurement_and_no_simulation(checkout, edited):
     edited("results/tolerances.csv", ',1e-4,abs,within,,,"lumped', ',2e-4,abs,within,,,"lumped')
     assert planned(checkout)[0] == {"measure", "check"}
 
@@ -181,8 +181,8 @@ def test_a_claim_that_fails_stops_the_workflow_and_leaves_the_report(checkout, e
     assert "FAILS" in (checkout / "results/report.csv").read_text()
 
 
-def test_a_reason_edited_is_read_in_the_book(checkout, edited):
-    """Only report.csv changes with it, not the summary of the check: a page has to follow what it reads."""
+def test_an_edited_reason_appears_in_the_book(checkout, edited):
+    """The reason changes report.csv and not the summary of the check: a page reruns when its input changes."""
     page, summaries = "results/notebooks/results_table.ipynb", set()
     for reason in ("lumped weights give", "weights that are lumped give"):
         edited("results/tolerances.csv", "lumped weights give", reason)
@@ -242,8 +242,8 @@ def read_until(process, words):
     return "".join(seen)
 
 
-def test_the_same_command_goes_on_after_a_kill_at_any_moment(checkout):
-    """Of the whole group, or of Snakemake alone, whose job then lives on and is waited for."""
+def test_the_same_command_continues_after_a_kill_at_any_moment(checkout):
+    """The kill is of the whole process group, or of Snakemake alone; its job then continues and is waited for."""
     code, text = snakemake(checkout, *AGAIN)
     assert code == 0, text
     before = {name: (checkout / name).read_bytes() for name in AGAIN}
@@ -257,8 +257,8 @@ def test_the_same_command_goes_on_after_a_kill_at_any_moment(checkout):
         assert {name: (checkout / name).read_bytes() for name in AGAIN} == before
 
 
-def test_what_was_cut_short_is_made_again(checkout):
-    """Snakemake marks what a job is making; here the job was cut after its file stood and before that was noted."""
+def test_an_incomplete_output_is_made_again(checkout):
+    """The job is killed after its file is complete and before Snakemake has recorded that."""
     code, text = snakemake(checkout, AGAIN[0])
     assert code == 0, text
     marker = checkout / ".snakemake/incomplete" / base64.urlsafe_b64encode(AGAIN[0].encode()).decode()
@@ -269,7 +269,7 @@ def test_what_was_cut_short_is_made_again(checkout):
     assert not marker.exists()
 
 
-def test_a_run_whose_owner_lives_is_waited_for(checkout):
+def test_a_run_of_a_live_process_is_waited_for(checkout):
     left = checkout / ".snakemake/locks/0.output.lock"
     held = (checkout / ".snakemake/held").open()
     fcntl.flock(held, fcntl.LOCK_SH)  # as a running job holds it
@@ -294,7 +294,7 @@ def test_every_rule_has_a_log_and_a_benchmark():
         assert ("benchmark:" in rule) != measured_anew, rule
 
 
-def test_lint_has_no_complaint_but_the_missing_conda_environments(checkout):
+def test_lint_complains_only_of_missing_conda_environments(checkout):
     _, text = call(checkout, "snakemake", "--lint")
     complaints = [line for line in text.splitlines() if line.startswith("    * ")]
     assert [line for line in complaints if "Specify a conda environment" not in line] == []
@@ -307,7 +307,7 @@ def test_lint_has_no_complaint_but_the_missing_conda_environments(checkout):
         ('case "$2" in *ensurepip*) exit 1;; esac', "apt-get install python3-venv"),
     ],
 )
-def test_make_says_what_the_machine_lacks(checkout, tmp_path, stub, sentence):
+def test_make_names_what_the_machine_lacks(checkout, tmp_path, stub, sentence):
     python = tmp_path / "python3"
     python.write_text(f"#!/bin/sh\n{stub}\n")
     python.chmod(0o755)

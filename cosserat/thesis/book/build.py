@@ -13,10 +13,10 @@ from pathlib import Path
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
 
-_WRITTEN = ".cosserat-book"
+_FILE_LIST = ".cosserat-book"
 """File that lists the files of a book."""
 
-_CONF = """
+_SPHINX_CONFIGURATION = """
 project = "cosserat"
 author = "The cosserat project"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "cosserat.thesis.book.api"]
@@ -109,12 +109,12 @@ def render(notebooks: list[Path], output: Path) -> Path:
         (pages / "_static").mkdir(parents=True)
         for path in notebooks:
             shutil.copy(path, pages / path.name)
-        (pages / "conf.py").write_text(_CONF, encoding="utf-8")
+        (pages / "conf.py").write_text(_SPHINX_CONFIGURATION, encoding="utf-8")
         style = resources.files("cosserat.thesis.book") / "book.css"
         (pages / "_static" / "book.css").write_text(style.read_text(encoding="utf-8"), encoding="utf-8")
         _copy_mathjax(pages / "_static" / "mathjax")
         _sphinx(pages, built, Path(scratch) / "doctrees")
-        (built / _WRITTEN).write_text("\n".join([_WRITTEN, *_files(built)]), encoding="utf-8")
+        (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")
         _check_destination(output, set(_files(built)))
         if output.exists():
             output.rename(Path(scratch) / "old")
@@ -129,14 +129,14 @@ def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
     """
     remedy = "choose another with --output"
     if output.is_symlink() or (output.exists() and not output.is_dir()):
-        raise InputError(f"{output} is no folder; {remedy}")
+        raise InputError(f"{output} is not a folder; {remedy}")
     if Path.cwd().is_relative_to(output.resolve()):
         raise InputError(f"{output} holds the folder you work in; {remedy}")
     if not output.is_dir():
         return
-    found, list_of_ours = _files(output), output / _WRITTEN
-    if list_of_ours.is_file():
-        ours = set(list_of_ours.read_text(encoding="utf-8").splitlines())
+    found, file_list = _files(output), output / _FILE_LIST
+    if file_list.is_file():
+        ours = set(file_list.read_text(encoding="utf-8").splitlines())
     elif (output / "_static" / "book.css").is_file():  # a book from before there was a list
         ours = of_a_book or {file for file in found if _looks_built(Path(file))}
     else:
@@ -144,7 +144,7 @@ def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
     others = [file for file in found if file not in ours]
     if others:
         raise InputError(
-            f"{output} holds {others[0]}, which is not of a book that cosserat wrote; move it away or {remedy}"
+            f"{output} holds {others[0]}, which does not belong to a book of cosserat; move it away or {remedy}"
         )
 
 

@@ -1,4 +1,4 @@
-"""The "right" coefficients, and the error at the published ones, over the number of vertices."""
+"""The fitted coefficients, and the error at the published ones, over the number of vertices."""
 
 from __future__ import annotations
 

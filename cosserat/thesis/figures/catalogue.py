@@ -167,7 +167,7 @@ def draw_all(names: Sequence[str], folder: Path, output: Path) -> Iterator[Path]
     InputError : as `draw_to`, or there are several figures and no such folder.
     """
     if len(names) > 1 and not output.is_dir():
-        raise InputError(f"{output} is no folder, which several figures need; make it first")
+        raise InputError(f"{output} is not a folder; make a folder for several figures first")
     for name in names:
         path = output / f"{name}.svg" if output.is_dir() else output
         draw_to(name, folder, path)

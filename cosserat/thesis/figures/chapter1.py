@@ -16,7 +16,7 @@ from cosserat.problems.crawl import CrawlerProblem
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_CLEAR = {
+_WHITE_BOX = {
     "facecolor": PAPER,
     "edgecolor": "none",
     "pad": 1.0,
@@ -59,7 +59,7 @@ def fig_directed_rod(data: Data) -> Figure:
             ax.annotate("", tuple(head), tuple(foot), arrowprops=arrow)
             if k == 2:
                 ax.annotate(
-                    rf"$R\,\mathbf{{d}}_{number}$", tuple(head + 0.2), color=VARIANT, bbox=_CLEAR
+                    rf"$R\,\mathbf{{d}}_{number}$", tuple(head + 0.2), color=VARIANT, bbox=_WHITE_BOX
                 )
     ax.annotate(r"$\mathbf{r}$", tuple(_oblique(r[-1:])[0] + [1.0, 0.0]), color=INK)
     ax.set_aspect("equal")

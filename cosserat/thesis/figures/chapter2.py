@@ -29,7 +29,7 @@ from cosserat.thesis.table.crawl_readouts import (
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_TALL = 3.0  # magnification of heights in Fig. 2.1
+_HEIGHT_MAGNIFICATION = 3.0  # magnification of heights in Fig. 2.1
 
 
 def fig_2_1(data: Data) -> Figure:
@@ -44,8 +44,11 @@ def fig_2_1(data: Data) -> Figure:
         for k, (p, name) in enumerate(zip(phases, names, strict=True), start=1)
     ]
     figure, (ax,) = canvas(7.2, 5.4)
-    crawlers.draw_snapshots(ax, run, indices, labels, mark=SEGMENT_50, tall=_TALL)
-    lane, height = crawlers.lane_height(run, _TALL), 2e2 * _TALL * problem_of(run, Crawl).crawler.radius
+    crawlers.draw_snapshots(ax, run, indices, labels, mark=SEGMENT_50, tall=_HEIGHT_MAGNIFICATION)
+    lane, height = (
+        crawlers.lane_height(run, _HEIGHT_MAGNIFICATION),
+        2e2 * _HEIGHT_MAGNIFICATION * problem_of(run, Crawl).crawler.radius,
+    )
     for number, p in enumerate(phases):
         state = printed.isel(time=crawlers.nearest(printed, gait.time(p)))
         along, top = 1e2 * state.along.to_numpy(), height * state.mu_1.to_numpy() - lane * number
@@ -57,7 +60,7 @@ def fig_2_1(data: Data) -> Figure:
             linewidth=1.2,
         )
     reach = 1e2 * np.array([run.along[indices], printed.along[indices]])
-    ax.set(xlim=(reach.min() - 0.5, reach.max() + 0.5), title=f"heights × {_TALL:g}")
+    ax.set(xlim=(reach.min() - 0.5, reach.max() + 0.5), title=f"heights × {_HEIGHT_MAGNIFICATION:g}")
     looks = [
         *crawlers.legend_of_bodies(),
         Patch(facecolor="black", label="segment 50"),

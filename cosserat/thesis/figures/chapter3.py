@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
 _ALONG = r"arc length $\xi$ [m]"
-_FINE = 401  # points of a closed form's curve
+_CURVE_POINTS = 401  # points of a closed form's curve
 
 
 def fig_3_8(data: Data) -> Figure:
@@ -238,4 +238,4 @@ def _at_surface(ax: Axes, reach: float) -> None:
 
 
 def _fine(data: xr.Dataset) -> Array:
-    return np.linspace(0.0, problem_of(data, RodProblem).rod.length, _FINE)
+    return np.linspace(0.0, problem_of(data, RodProblem).rod.length, _CURVE_POINTS)

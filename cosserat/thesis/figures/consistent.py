@@ -1,4 +1,4 @@
-"""The rod that converges: its errors, its large deflections and its paths."""
+"""The consistent rod: its errors, its large deflections and its paths."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def fig_convergence(data: Data) -> Figure:
 
 
 def fig_far(data: Data) -> Figure:
-    """Shapes: a dead force across the tip, a couple that rolls the rod up, a buckled column, a snapping arch."""
+    """Shapes under a lateral dead force and under a couple at the tip, of a buckled column and of a snapping arch."""
     figure, axes = canvas(7.2, 5.2, 2, 2)
     titles = (
         ("elastica", "(a) dead force, $PL^2/EI = 10$"),

@@ -20,7 +20,7 @@ from cosserat.thesis.table.printed import number
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_PAUSE = "#ececec"
+_PAUSE_COLOUR = "#ececec"
 
 
 def fig_2_7(data: Data) -> Figure:
@@ -86,7 +86,7 @@ def _pauses(ax: Axes, problem: Crawl) -> None:
     gait = problem.gait
     for stride in range(problem.strides):
         begin = stride * gait.duration
-        ax.axvspan(begin, begin + gait.phases[0], color=_PAUSE, linewidth=0)
+        ax.axvspan(begin, begin + gait.phases[0], color=_PAUSE_COLOUR, linewidth=0)
         middle = (begin + gait.phases[0] / 2, 0.5)
         ax.annotate("$t_{pause}$", middle, ha="center", va="center", rotation=90)
 

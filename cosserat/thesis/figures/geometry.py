@@ -306,7 +306,7 @@ def fig_3_6(data: Data) -> Figure:
 
 
 def fig_3_7(_: Data) -> Figure:
-    """The two nonlinear energy characteristics, with their quadratic approximations."""
+    """The two nonlinear characteristics of the energy, with their quadratic approximations."""
     figure, (left, right) = canvas(7.2, 3.0, 1, 2)
     mu = np.linspace(0.08, 3.0, 400)
     left.plot(mu, [stretching(s)[0] for s in mu], color=COMPUTED, label=r"$\mu^2 - \mu + \mu^{-1} - 1$")

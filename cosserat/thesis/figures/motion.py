@@ -21,7 +21,7 @@ from cosserat.studies.calibration import beam_of
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_SHOWN_MODE = 0.06  # largest displacement of a mode shape in a picture, in lengths of the rod
+_MODE_AMPLITUDE = 0.06  # largest displacement of a mode shape in a picture, in lengths of the rod
 _WIDTH, _HEIGHT, _MARGIN = 640, 200, 12  # of an animation, in pixels
 
 
@@ -73,7 +73,7 @@ def fig_modes(data: Data) -> Figure:
     for ax, frequency, shape, letter in zip(
         axes, found.angular_frequency, found.shape, "abcd", strict=True
     ):
-        field = _SHOWN_MODE * problem.rod.length * shape / np.abs(shape).max()
+        field = _MODE_AMPLITUDE * problem.rod.length * shape / np.abs(shape).max()
         x, d = np.split(field.reshape(-1, len(PLANAR.dofs)), 2, axis=1)
         for sign, colours in (
             (-1, {"facecolor": "none", "edgecolor": EXACT, "linestyle": ":"}),

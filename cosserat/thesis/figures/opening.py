@@ -24,13 +24,13 @@ from cosserat.rods.problem import RodProblem
 Array = NDArray[np.float64]
 
 _FRACTIONS = (0, 1 / 4, 1 / 2, 3 / 4)  # of the second stride
-_TALL = 3.0  # magnification of heights of the worm
-_THICK = 3.0  # magnification of the slender rods
-_LANE = 1.5  # from one worm to the next, in its own height at rest
+_HEIGHT_MAGNIFICATION = 3.0  # magnification of heights of the worm
+_THICKNESS_MAGNIFICATION = 3.0  # magnification of the slender rods
+_WORM_DISTANCE = 1.5  # from one worm to the next, in its own height at rest
 _SECTIONS = 84  # of a drawn worm; every second one has a line
-_LEVELS = 8  # of colour, from the thinnest section to the fattest
+_COLOUR_LEVELS = 8  # of colour, from the thinnest section to the fattest
 _COLOURS = LinearSegmentedColormap.from_list("sections", ["#eaa552", "#f6e8d3", "#9cc1e2"])
-_SWAP = np.array([[0.0, 1.0], [1.0, 0.0]])  # E2 to the right, E3 up
+_E2_TO_THE_RIGHT = np.array([[0.0, 1.0], [1.0, 0.0]])  # E2 to the right, E3 up
 
 
 def fig_opening(data: Mapping[str, xr.Dataset]) -> Figure:
@@ -43,9 +43,15 @@ def fig_opening(data: Mapping[str, xr.Dataset]) -> Figure:
     _draw_worm(figure.add_subplot(grid[0, :]), data["worm"])
     for place, (name, title, shown, thick, turn) in enumerate(
         (
-            ("column_path", "A column buckles", (0, 6, 8, 10, 12, 15), _THICK, _SWAP),
-            ("arch_path", "An arch snaps through", (0, 12, 20, 28, 35), _THICK, level),
-            ("tumbling", "A rod is thrown and tumbles", (0, 20, 40, 60, 80, 100), 1.0, _SWAP),
+            (
+                "column_path",
+                "A column buckles",
+                (0, 6, 8, 10, 12, 15),
+                _THICKNESS_MAGNIFICATION,
+                _E2_TO_THE_RIGHT,
+            ),
+            ("arch_path", "An arch snaps through", (0, 12, 20, 28, 35), _THICKNESS_MAGNIFICATION, level),
+            ("tumbling", "A rod is thrown and tumbles", (0, 20, 40, 60, 80, 100), 1.0, _E2_TO_THE_RIGHT),
         )
     ):
         ax = figure.add_subplot(grid[1, place])
@@ -57,7 +63,7 @@ def fig_opening(data: Mapping[str, xr.Dataset]) -> Figure:
 def _draw_worm(ax: Axes, run: xr.Dataset) -> None:
     """Four times of a stride below each other, heights magnified: sections by colour, and lines equidistant at rest."""
     problem = problem_of(run, Crawl)
-    height = 2e2 * _TALL * problem.crawler.radius
+    height = 2e2 * _HEIGHT_MAGNIFICATION * problem.crawler.radius
     least, most = float(run.mu_1.min()), float(run.mu_1.max())
     drawn = np.linspace(0, run.sizes["section"] - 1, _SECTIONS).round().astype(int)
     indices = [nearest(run, (1 + fraction) * problem.gait.duration) for fraction in _FRACTIONS]
@@ -65,12 +71,12 @@ def _draw_worm(ax: Axes, run: xr.Dataset) -> None:
     for number, index in enumerate(indices):
         state = run.isel(time=index, section=drawn)
         z, mu = 1e2 * state.along.to_numpy(), state.mu_1.to_numpy()
-        base = -_LANE * height * number
+        base = -_WORM_DISTANCE * height * number
         top = base + height * mu
-        levels = np.round(_LEVELS * (mu - least) / (most - least))
+        levels = np.round(_COLOUR_LEVELS * (mu - least) / (most - least))
         for part in np.split(np.arange(z.size), np.flatnonzero(np.diff(levels)) + 1):
             strip = slice(part[0], part[-1] + 2)
-            colour = _COLOURS(levels[part[0]] / _LEVELS)
+            colour = _COLOURS(levels[part[0]] / _COLOUR_LEVELS)
             ax.fill_between(z[strip], base, top[strip], color=colour, linewidth=0.3)
         low = np.full_like(z, base)
         _draw_lines(ax, np.c_[z, low][::2], np.c_[z, top][::2], INK, 0.3)
@@ -88,10 +94,10 @@ def _draw_worm(ax: Axes, run: xr.Dataset) -> None:
         ax.plot([foot], [base], marker="^", color=ANCHOR, markersize=7, clip_on=False, zorder=5)
     ax.set(
         title="An earthworm crawls: thin sections grow long, fat ones grow short and hold on",
-        xlabel=f"along the ground [cm], heights × {_TALL:g}",
+        xlabel=f"along the ground [cm], heights × {_HEIGHT_MAGNIFICATION:g}",
         yticks=[],
         xlim=(float(reach.min()) - 2, float(reach.max()) + 3.5),
-        ylim=(-_LANE * height * (len(_FRACTIONS) - 1) - 0.3 * height, 1.2 * height),
+        ylim=(-_WORM_DISTANCE * height * (len(_FRACTIONS) - 1) - 0.3 * height, 1.2 * height),
     )
     ax.set_aspect("equal")
     ax.grid(visible=False)

@@ -221,7 +221,7 @@ class _Peer:
     @classmethod
     @contextlib.contextmanager
     def started(cls, name: str, python: Path, script: str, problem: Problem) -> Iterator[Self]:
-        """The package, ready to run; without versions where the problem is too large for it."""
+        """The package, ready to run; without versions if the problem is too large for it."""
         command = [str(python), str(Path(__file__).parent / script), json.dumps(asdict(problem))]
         with (
             tempfile.TemporaryFile("w+", encoding="utf-8") as complaints,

@@ -23,7 +23,7 @@ from exudyn.itemInterface import (
     SensorNode,
 )
 
-_DENSE = 25  # elements up to which its dense solver is faster
+_MAX_DENSE_ELEMENTS = 25  # elements up to which its dense solver is faster
 
 
 def shape(problem, x):
@@ -83,7 +83,7 @@ def settings(problem):
     chosen = exu.SimulationSettings()
     chosen.solution.file.write = False
     sparse, dense = exu.LinearSolverType.EigenSparse, exu.LinearSolverType.EXUdense
-    chosen.linearSolver.solverType = dense if problem["elements"] <= _DENSE else sparse
+    chosen.linearSolver.solverType = dense if problem["elements"] <= _MAX_DENSE_ELEMENTS else sparse
     chosen.staticSolver.numberOfLoadSteps = 5 if problem["kind"] == "force" else 1
     chosen.staticSolver.newton.relativeTolerance = 1e-9
     chosen.staticSolver.newton.maxIterations = 50

@@ -15,7 +15,7 @@ from importlib.metadata import version
 import elastica as ea
 import numpy as np
 
-_MOST_ELEMENTS = 200  # of a motion: with 2000, 0.2 s take 440 000 steps
+_MAX_ELEMENTS = 200  # of a motion: with 2000, 0.2 s take 440 000 steps
 
 
 class World(ea.BaseSystemCollection, ea.Constraints, ea.Forcing, ea.Damping):
@@ -136,7 +136,7 @@ def solve(problem, steps=None):
 def main():
     """Print the versions, or {} for a problem that would take too long; then run once for every line of input."""
     problem = json.loads(sys.argv[1])
-    if problem["kind"] == "vibration" and problem["elements"] > _MOST_ELEMENTS:
+    if problem["kind"] == "vibration" and problem["elements"] > _MAX_ELEMENTS:
         print("{}")
         return
     solve(problem, steps=2)

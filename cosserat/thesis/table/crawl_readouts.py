@@ -72,7 +72,7 @@ def _slope(variable: str) -> Callable[[xr.Dataset], Measurement]:
 
 
 def _strain_slope(number: int) -> Callable[[xr.Dataset], Measurement]:
-    """The exponent of a strain as in section 2.8, between circular and longitudinal contraction; constant: zero."""
+    """The exponent of a strain of section 2.8, between circular and longitudinal contraction; expected is zero."""
 
     def read(data: xr.Dataset) -> Measurement:
         circular, longitudinal = ("least", "most") if number == 1 else ("most", "least")
@@ -87,9 +87,9 @@ def _rest_pressure(data: xr.Dataset) -> Measurement:
 
 
 def _cycle_displacement(data: xr.Dataset) -> Measurement:
-    """Displacement of the soft robot in the cycle farthest from the closed form, and that form for the printed robot.
+    """Displacement of the soft robot in the cycle with the largest error, and the closed form of the printed robot.
 
-    The front advances until a fraction T of the body is left for gamma, and then holds.
+    The front end advances until a fraction T of the body is left for gamma, and is then anchored.
     """
     rod = push_pull_rod()
     expected = rod.stretched_length(number("soft_robot", "T") * rod.length) - rod.stretched_length(

@@ -1,4 +1,4 @@
-"""The errata table: where the page is wrong, silent or doubtful, our replacement, and the test of it."""
+"""The errata table: places where the page is wrong, silent or doubtful, with the replacement and its test."""
 
 from __future__ import annotations
 

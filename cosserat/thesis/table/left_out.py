@@ -66,7 +66,7 @@ class LeftOutList(Parameters):
         return [name for item in self.left_out for name in item.names(kind)]
 
     def kept(self, kind: str) -> tuple[int, int]:
-        """How many of a kind are included, and how many there are."""
+        """The number of included items of a kind, and the number of all."""
         total = len(self.numbered.names(kind))
         return total - len(self.names(kind)), total
 

@@ -32,7 +32,7 @@ def measure(rows: list[Row], folder: Path) -> list[Judged]:
 
 
 def judge(row: Row, datasets: Mapping[str, xr.Dataset]) -> Judged:
-    """One row beside its measured number."""
+    """One row with its measured number."""
     if row.standing == "not attempted":
         return Judged(row=row, expected=row.expected)
     if row.kind == "arithmetic":
@@ -43,7 +43,7 @@ def judge(row: Row, datasets: Mapping[str, xr.Dataset]) -> Judged:
     return Judged.model_construct(row=row, expected=expected, measured=measured)
 
 
-_STANDINGS = {
+_OUTCOME_WORDS = {
     "reproduced": "reproduced as printed",
     "erratum": "only with a misprint that the errata name",
     "assumption": "only under an assumption",
@@ -59,13 +59,13 @@ def outcomes(report: Sequence[Mapping[str, str]]) -> dict[str, str]:
 
     report : the rows of a report of the thesis's own numbers, as texts.
     """
-    order = list(_STANDINGS)
+    order = list(_OUTCOME_WORDS)
     best: dict[str, str] = {}
     for row in report:
         number = row["reading_of"] or row["id"]
         missed = row["claim"] == "outside" and row["standing"] != "recomputed"
-        came = "missed" if missed else row["standing"]
-        best[number] = min(came, best.get(number, came), key=order.index)
+        outcome = "missed" if missed else row["standing"]
+        best[number] = min(outcome, best.get(number, outcome), key=order.index)
     return best
 
 
@@ -88,11 +88,11 @@ def summary(report: Sequence[Mapping[str, str]]) -> str:
     solved = [row for row in of_thesis if row["standing"] not in ("recomputed", "not attempted")]
     first = [row for row in solved if not row["reading_of"]]
     lines.append(
-        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows; without them "
-        f"{_met(first)} of {len(first)} numbers that something is solved for are met."
+        f"Other readings of the same numbers: {len(of_thesis) - len(outcomes(of_thesis))} rows; the first readings "
+        f"meet {_count_within(first)} of {len(first)} computed numbers."
     )
     lines.append(
-        _within("Measurements of its sources", [r for r in report if r["kind"] == "literature"])
+        _counted("Measurements of its sources", [r for r in report if r["kind"] == "literature"])
     )
     failed = sum(row["verdict"] == "FAILS" for row in report)
     lines.append(f"{len(report)} rows; {failed} claims fail")
@@ -101,15 +101,17 @@ def summary(report: Sequence[Mapping[str, str]]) -> str:
 
 def sentence(report: Sequence[Mapping[str, str]]) -> str:
     """The sentence of the README."""
-    came = list(outcomes(_of_thesis(report)).values())
-    parts = [f"{came.count(name)} {words}" for name, words in _STANDINGS.items() if name in came]
+    outcome = list(outcomes(_of_thesis(report)).values())
+    parts = [
+        f"{outcome.count(name)} {words}" for name, words in _OUTCOME_WORDS.items() if name in outcome
+    ]
     missed = list(_missed(report).items())
     if missed:
         number, fraction = missed[0]
         worst = f"missed (the worst, {number}, by {100 * fraction:.2g} %)"
         parts = [part.replace("missed", worst) for part in parts]
-    sums = [row for row in _of_thesis(report) if row["standing"] == "recomputed"]
-    others = len(sums) - _met(sums)
+    recomputed = [row for row in _of_thesis(report) if row["standing"] == "recomputed"]
+    others = len(recomputed) - _count_within(recomputed)
     if others:
         parts = [
             f"{part} ({others} of them not as printed)" if "arithmetic" in part else part
@@ -117,8 +119,8 @@ def sentence(report: Sequence[Mapping[str, str]]) -> str:
         ]
     own = [row for row in report if row["id"].startswith("C-")]
     return (
-        f"Of the thesis's {len(came)} numbers, curves and statements: {', '.join(parts)}. "
-        f"Of {len(own)} exact answers that judge our own rod it meets {_met(own)}."
+        f"Of the thesis's {len(outcome)} numbers, curves and statements: {', '.join(parts)}. "
+        f"Of {len(own)} exact answers that judge our own rod it meets {_count_within(own)}."
     )
 
 
@@ -127,26 +129,26 @@ def _of_thesis(report: Sequence[Mapping[str, str]]) -> list[Mapping[str, str]]:
 
 
 def _missed(report: Sequence[Mapping[str, str]]) -> dict[str, float]:
-    """Numbers that no reading meets, with the error of the nearest reading, worst first."""
+    """Numbers outside their tolerance in every reading, with the error of the nearest reading, largest first."""
     rows = _of_thesis(report)
-    far = {
+    errors = {
         number: min(distance(row) for row in rows if number in (row["id"], row["reading_of"]))
-        for number, came in outcomes(rows).items()
-        if came == "missed"
+        for number, outcome in outcomes(rows).items()
+        if outcome == "missed"
     }
-    return dict(sorted(far.items(), key=lambda item: item[1], reverse=True))
+    return dict(sorted(errors.items(), key=lambda item: item[1], reverse=True))
 
 
-def _within(what: str, rows: Sequence[Mapping[str, str]]) -> str:
-    return f"{what}: {len(rows)} rows, {_met(rows)} of them met."
+def _counted(what: str, rows: Sequence[Mapping[str, str]]) -> str:
+    return f"{what}: {len(rows)} rows, {_count_within(rows)} within their tolerance."
 
 
-def _met(rows: Sequence[Mapping[str, str]]) -> int:
+def _count_within(rows: Sequence[Mapping[str, str]]) -> int:
     return sum(row["claim"] == "within" for row in rows)
 
 
 def check(report: list[dict[str, str]]) -> str:
-    """A summary of a report whose claims all hold.
+    """The summary of a report in which every claim holds.
 
     Raises
     ------

@@ -20,17 +20,17 @@ from cosserat.thesis.table.tolerances import Judged, Row
 
 Physics = Callable[[], AbstractContextManager[object]]
 Edit = Callable[[Any], Any]
-_SHOWN = 3  # rows that a line names
+_MAX_SHOWN_ROWS = 3  # rows that a line names
 
 
 @dataclass(frozen=True)
 class Change:
     """One change of some cases.
 
-    what : in a few words.  cases : whose rows are judged.
+    what : a short description.  cases : the cases whose rows are judged.
     places, edit : the changed inputs of the cases, such as "rod.material.young", and the change.
     physics : a context with different mechanics.
-    unseen : why no printed number can see the change.
+    unseen : the reason why no printed number depends on the change.
     """
 
     what: str
@@ -51,13 +51,13 @@ class Noticed:
     def __str__(self) -> str:
         if not self.rows:
             return f"{self.change.what:<52} none: {self.change.unseen or 'NO REASON GIVEN'}"
-        rest = len(self.rows) - _SHOWN
+        rest = len(self.rows) - _MAX_SHOWN_ROWS
         more = f" and {rest} more" if rest > 0 else ""
-        return f"{self.change.what:<52} {', '.join(self.rows[:_SHOWN])}{more}"
+        return f"{self.change.what:<52} {', '.join(self.rows[:_MAX_SHOWN_ROWS])}{more}"
 
     @property
     def sound(self) -> bool:
-        """Whether a row notices, or a reason says that none can."""
+        """Whether either a row notices or the change has a reason why no row can."""
         return bool(self.rows) != bool(self.change.unseen)
 
 
@@ -92,15 +92,15 @@ def notices(change: Change, rows: Sequence[Row]) -> Noticed:
     found: list[str] = []
     with change.physics():
         for name in change.cases:
-            asked = [row for row in rows if row.case == name]
+            rows_of_case = [row for row in rows if row.case == name]
             try:
                 data = {name: run(edited(find(name), change))}
             except InputError:
                 raise
             except CosseratError as error:
-                found += [f"{row.id} (no answer: {type(error).__name__})" for row in asked]
+                found += [f"{row.id} (no answer: {type(error).__name__})" for row in rows_of_case]
                 continue
-            found += [_named(item) for row in asked if not (item := judge(row, data)).holds]
+            found += [_named(item) for row in rows_of_case if not (item := judge(row, data)).holds]
     return Noticed(change, tuple(found))
 
 
@@ -119,7 +119,7 @@ def table(rows: Sequence[Row], words: Sequence[str] = ()) -> Iterator[Noticed]:
 
     Raises
     ------
-    OutOfToleranceError : after the last, if no row notices a change without a reason, or one notices in spite of it.
+    OutOfToleranceError : after the last change, if one has neither a row that notices nor a reason, or both.
     """
     wrong = []
     for change in changes():
@@ -131,5 +131,6 @@ def table(rows: Sequence[Row], words: Sequence[str] = ()) -> Iterator[Noticed]:
         yield noticed
     if wrong:
         raise OutOfToleranceError(
-            f"changes that no row notices without a reason, or that one notices in spite of it: {'; '.join(wrong)}"
+            "changes that no row notices and that have no reason, or that a row notices although they have one: "
+            + "; ".join(wrong)
         )

@@ -30,16 +30,16 @@ READINGS = (
     "worm_early",
     "worm_clipped",
 )
-REST = ("worm_at_rest",)
-SIZES = ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip")
-FIT = ("worm_calibration_printed", "worm_calibration")
+AT_REST = ("worm_at_rest",)
+BODY_MASSES = ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip")
+CALIBRATIONS = ("worm_calibration_printed", "worm_calibration")
 
-_QUASISTATIC = "every instant is in equilibrium, and what is printed depends on their order alone"
-_HOLDS = "from where eta begins the head holds, whatever its speed is"
-_UNTIL_HALF = "the head goes on until gamma is at 0.5, whatever its speed was"
-_START = "the fit starts there and ends where it does from any start"
-_OWN_SIZE = "each worm has its own mass, and its length by Table 2.1"
-_PLATEAUS = "both contractions are plateaus, and what is printed is the same along each"
+_QUASISTATIC = "every instant is in equilibrium, and the printed numbers depend on their order alone"
+_HEAD_ANCHORED = "the head is anchored from the start of eta on, and its speed does not matter"
+_TIME_OF_HALF_ALONE = "the head advances until gamma is at 0.5, and the speed of gamma does not matter"
+_FIT_INDEPENDENT_OF_START = "it is the start of the fit, and the fit does not depend on its start"
+_SIZE_FROM_TABLE_2_1 = "each worm has its own mass, and its length by Table 2.1"
+_UNIFORM_PLATEAUS = "both contractions are plateaus, and the printed numbers are uniform along each"
 
 
 def _times(factor: float) -> Callable[[float], float]:
@@ -61,11 +61,11 @@ def _inputs(
         ROBOT: "robot",
         WORM: "worm",
         READINGS: "other readings of the worm",
-        REST: "worm at rest",
-        SIZES: "sizes",
-        FIT: "calibration of the worm",
+        AT_REST: "worm at rest",
+        BODY_MASSES: "sizes",
+        CALIBRATIONS: "calibration of the worm",
     }
-    inner = {SIZES: "worm.", FIT: "worm."}
+    inner = {BODY_MASSES: "worm.", CALIBRATIONS: "worm."}
     return [
         Change(f"{names[group]}: {what}", group, (inner.get(group, "") + place,), edit, unseen=unseen)
         for group in groups
@@ -109,7 +109,7 @@ def _without_tilt() -> contextlib.AbstractContextManager[object]:
 
 
 def _pressure(of: Callable[[Crawl, Array, Array], Array]) -> Physics:
-    """Another pressure than (2.8.8): of the problem, mu_1 and mu_2, and the reactive force lambda_c [N]."""
+    """A pressure other than (2.8.8), from the problem, mu_1 and mu_2, and the reactive force lambda_c [N]."""
 
     def pressure(self: Crawl, mu: Array, multiplier: Array) -> Array:
         _, k_g = self.crawler.incompressible_stiffnesses
@@ -146,7 +146,7 @@ def _segment_at(place: float) -> Physics:
 
 
 def _moved(track: int, point: int, to: float) -> Callable[[Any], Any]:
-    """Tracks of a front, one point of one of them at another place."""
+    """Change the place of one point of one track of a front."""
 
     def edit(tracks: Any) -> Any:
         moved = [[list(point) for point in track] for track in tracks]
@@ -157,44 +157,54 @@ def _moved(track: int, point: int, to: float) -> Callable[[Any], Any]:
 
 
 _EARLY: Any = PRINTED["worm_early"]["gait.anchor"].value
-_BETWEEN = [[_EARLY[0][0], [0.4, 0.45]], [[0.4, 0], [1, 0]], _EARLY[2]]
+_INTERMEDIATE = [[_EARLY[0][0], [0.4, 0.45]], [[0.4, 0], [1, 0]], _EARLY[2]]
 _ROBOT_EARLY = [[[0, 0], [1.9, 0]], [[1.9, 1], [4, 1]]]
 
 
 def _two_tracks(to: float) -> Callable[[Any], Any]:
-    """eta of the worm from another place: where its first track begins its last one ends."""
+    """Change the place at which the first track of the worm's eta begins and the last one ends."""
     return lambda tracks: _moved(1, 1, to)(_moved(0, 0, to)(tracks))
 
 
 CHANGES: tuple[Change, ...] = (
-    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), ROBOT, WORM, READINGS, REST, SIZES),
+    *_inputs(
+        "E x 1.01", "crawler.material.young", _times(1.01), ROBOT, WORM, READINGS, AT_REST, BODY_MASSES
+    ),
     *_inputs("nu = 0.301", "crawler.material.poisson", _to(0.301), ROBOT),
-    *_inputs("E x 1.01", "crawler.material.young", _times(1.01), FIT, unseen=_START),
-    *_inputs("R x 1.01", "crawler.radius", _times(1.01), ROBOT, WORM, REST, SIZES, FIT),
-    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), ROBOT, WORM, REST, FIT),
-    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), SIZES, unseen=_OWN_SIZE),
+    *_inputs(
+        "E x 1.01",
+        "crawler.material.young",
+        _times(1.01),
+        CALIBRATIONS,
+        unseen=_FIT_INDEPENDENT_OF_START,
+    ),
+    *_inputs(
+        "R x 1.01", "crawler.radius", _times(1.01), ROBOT, WORM, AT_REST, BODY_MASSES, CALIBRATIONS
+    ),
+    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), ROBOT, WORM, AT_REST, CALIBRATIONS),
+    *_inputs("l_0 x 1.01", "crawler.length", _times(1.01), BODY_MASSES, unseen=_SIZE_FROM_TABLE_2_1),
     *_inputs("rho_0* x 1.01", "crawler.density", _times(1.01), ROBOT),
-    *_inputs("m x 1.01", "crawler.mass", _times(1.01), WORM, REST, FIT),
-    *_inputs("m x 1.01", "crawler.mass", _times(1.01), SIZES, unseen=_OWN_SIZE),
-    *_inputs("g x 1.01", "loads.gravity", _times(1.01), ROBOT, WORM, REST, SIZES, FIT),
+    *_inputs("m x 1.01", "crawler.mass", _times(1.01), WORM, AT_REST, CALIBRATIONS),
+    *_inputs("m x 1.01", "crawler.mass", _times(1.01), BODY_MASSES, unseen=_SIZE_FROM_TABLE_2_1),
+    *_inputs("g x 1.01", "loads.gravity", _times(1.01), ROBOT, WORM, AT_REST, BODY_MASSES, CALIBRATIONS),
     *_inputs("D x 1.01", "loads.anchoring", _times(1.01), ROBOT, WORM, READINGS),
     *_inputs("p x 1.01", "loads.advancing", _times(1.01), ROBOT, WORM, READINGS),
-    *_inputs("D x 1.1", "loads.anchoring", _times(1.1), SIZES),
-    *_inputs("p x 1.1", "loads.advancing", _times(1.1), SIZES),
-    *_inputs("D x 1.1", "loads.anchoring", _times(1.1), FIT, unseen=_START),
-    *_inputs("p x 1.1", "loads.advancing", _times(1.1), FIT, unseen=_START),
+    *_inputs("D x 1.1", "loads.anchoring", _times(1.1), BODY_MASSES),
+    *_inputs("p x 1.1", "loads.advancing", _times(1.1), BODY_MASSES),
+    *_inputs("D x 1.1", "loads.anchoring", _times(1.1), CALIBRATIONS, unseen=_FIT_INDEPENDENT_OF_START),
+    *_inputs("p x 1.1", "loads.advancing", _times(1.1), CALIBRATIONS, unseen=_FIT_INDEPENDENT_OF_START),
     *_inputs("a pause of 6 s", "gait.phases", _to([6, 7.5, 2.5, 7.5]), ROBOT, unseen=_QUASISTATIC),
     *_inputs("v x 2", "gait.phases", _to([5, 3.75, 1.25, 3.75]), ROBOT, unseen=_QUASISTATIC),
     *_inputs("t_p, t_s x 2", "gait.phases", _to([6.3, 3.5]), WORM, unseen=_QUASISTATIC),
     *_inputs("T = 0.3", "gait.gamma", _moved(0, 1, 0.3), ROBOT),
-    *_inputs("eta slower first", "gait.eta", _moved(0, 1, 0.9), ROBOT, unseen=_HOLDS),
+    *_inputs("eta slower first", "gait.eta", _moved(0, 1, 0.9), ROBOT, unseen=_HEAD_ANCHORED),
     *_inputs("front anchor a tenth of a phase early", "gait.anchor", _to(_ROBOT_EARLY), ROBOT),
     *_inputs("rear anchor from t_p/3 on", "gait.anchor", _to(_EARLY), WORM),
-    *_inputs("another rear anchor", "gait.anchor", _to(_BETWEEN), READINGS),
-    *_inputs("gamma = 0.8 at t_p/2", "gait.gamma", _moved(0, 1, 0.8), WORM, unseen=_UNTIL_HALF),
+    *_inputs("another rear anchor", "gait.anchor", _to(_INTERMEDIATE), READINGS),
+    *_inputs("gamma = 0.8 at t_p/2", "gait.gamma", _moved(0, 1, 0.8), WORM, unseen=_TIME_OF_HALF_ALONE),
     *_inputs("gamma = 0.45 at t_p", "gait.gamma", _moved(0, 2, 0.45), WORM),
     *_inputs("eta from 0.55", "gait.eta", _two_tracks(0.55), WORM),
-    Change("worm: segment 50 in the middle", WORM, physics=_segment_at(0.5), unseen=_PLATEAUS),
+    Change("worm: segment 50 in the middle", WORM, physics=_segment_at(0.5), unseen=_UNIFORM_PLATEAUS),
     Change("robot: (2.2.20) as printed", ROBOT, ("loads.contact",), _to("printed")),
     Change("worm: (2.2.20) as printed", ("worm",), ("loads.contact",), _to("printed")),
     Change("worm: (2.2.20) corrected", ("worm_printed",), ("loads.contact",), _to("weight")),
@@ -213,12 +223,12 @@ CHANGES: tuple[Change, ...] = (
     Change("worm: p_coelom per deformed area", WORM, physics=_pressure(_per_deformed_area)),
     Change("worm: p_coelom without k_I of (2.8.9)", WORM, physics=_pressure(_without_the_passive_part)),
     *(
-        Change(f"sizes: a power of {name} + 0.01", SIZES, physics=_power_of_mass(name, 0.01))
+        Change(f"sizes: a power of {name} + 0.01", BODY_MASSES, physics=_power_of_mass(name, 0.01))
         for name in ("resting_length", "resting_diameter", "protrusion_time", "stance_time")
     ),
     *(
-        Change(f"calibration of the worm: {name} x 1.01", FIT, (name,), _times(1.01))
+        Change(f"calibration of the worm: {name} x 1.01", CALIBRATIONS, (name,), _times(1.01))
         for name in ("mu_1_ratio", "mu_3_ratio", "p_longitudinal", "p_circular")
     ),
 )
-"""Inputs, gaits and mechanics, one at a time."""
+"""Changes of inputs, gaits and mechanics, each tried separately."""

@@ -20,13 +20,13 @@ from cosserat.thesis.table.power import Change, Physics
 Array = NDArray[Any]
 BAR = ("hanging_bar",)
 _READINGS = ("", "_ends_halved", "_k_1", "_k_1_ends_halved")
-FREE = tuple(f"clamped_free{reading}" for reading in _READINGS)
-BOTH = tuple(f"clamped_clamped{reading}" for reading in _READINGS)
-BEAMS = FREE + BOTH
+CLAMPED_FREE = tuple(f"clamped_free{reading}" for reading in _READINGS)
+CLAMPED_CLAMPED = tuple(f"clamped_clamped{reading}" for reading in _READINGS)
+BEAMS = CLAMPED_FREE + CLAMPED_CLAMPED
 NECKING = ("necking", "necking_printed")
-LARGE = ("stretched", "sheared", "inflated")
+LARGE_STRAINS = ("stretched", "sheared", "inflated")
 VIBRATION = ("vibration_c4_2", "vibration_c4_20")
-OWN = (
+CONSISTENT = (
     "hanging_bar_consistent",
     "clamped_free_consistent",
     "clamped_clamped_consistent",
@@ -38,21 +38,21 @@ _GROUPS = {
     "hanging bar": BAR,
     "beams": BEAMS,
     "necking": NECKING,
-    "large strains": LARGE,
+    "large strains": LARGE_STRAINS,
     "vibration": VIBRATION,
 }
 
 INFLATION = 1.5
 """Stretch of the edges of the case "inflated"."""
 
-_FOUR = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
-_PURE_NUMBERS = (
-    "a rod and the closed form of the same rod scale alike with it: what is fitted are pure numbers; "
-    "the four problems are those of the rows before, which notice"
+_CALIBRATED = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
+_SCALE_INVARIANT = (
+    "the rod and its closed form scale equally with it, and the fitted coefficients are dimensionless; "
+    "rows of the four problems notice the change"
 )
 _NO_SHEAR = "nothing shears"
-_AT_REST = "it has no weight and is at rest"
-_EXACT = "weights lumped at the vertices give the linear bar exactly at every N"
+_NO_WEIGHT = "the rod has no weight and is at rest"
+_EXACT_AT_EVERY_MESH = "weights lumped at the vertices give the linear bar exactly at every N"
 
 
 def _times(factor: float) -> Callable[[float], float]:
@@ -84,7 +84,7 @@ def _calibration(
     what: str,
     place: str,
     edit: Callable[[float], float] | None = None,
-    problems: tuple[str, ...] = _FOUR,
+    problems: tuple[str, ...] = _CALIBRATED,
     physics: Physics = contextlib.nullcontext,
     unseen: str = "",
 ) -> Change:
@@ -176,7 +176,7 @@ CHANGES: tuple[Change, ...] = (
         "rho_0 x 1.2",
         "rod.material.line_density",
         _times(1.2),
-        unseen={"necking": _AT_REST, "large strains": _AT_REST},
+        unseen={"necking": _NO_WEIGHT, "large strains": _NO_WEIGHT},
     ),
     *_inputs("L x 1.02", "rod.length", _times(1.02)),
     *_inputs("H x 1.02", "rod.section.height", _times(1.02)),
@@ -186,14 +186,14 @@ CHANGES: tuple[Change, ...] = (
         "rod.vertices",
         lambda _: 19,
         ("hanging bar", "beams", "necking", "vibration"),
-        {"hanging bar": _EXACT},
+        {"hanging bar": _EXACT_AT_EVERY_MESH},
     ),
     *_inputs(
         "N = 21",
         "rod.vertices",
         lambda _: 21,
         ("hanging bar", "beams", "necking", "vibration"),
-        {"hanging bar": _EXACT},
+        {"hanging bar": _EXACT_AT_EVERY_MESH},
     ),
     *_inputs("nu + 0.05", "rod.material.poisson", _plus(0.05)),
     *_inputs(
@@ -245,20 +245,20 @@ CHANGES: tuple[Change, ...] = (
         _calibration(f"{letter} of the model x 1.04", "", physics=scaled(name, 1.04))
         for letter, name in (("I", "second_moment"), ("A", "area"))
     ],
-    _calibration("E x 1.1", "rod.material.young", _times(1.1), unseen=_PURE_NUMBERS),
-    _calibration("rho_0 x 1.2", "rod.material.line_density", _times(1.2), unseen=_PURE_NUMBERS),
-    _calibration("g x 2", "gravity.g", _times(2.0), _FOUR[:3], unseen=_PURE_NUMBERS),
-    _calibration("n x 1.1", "forces.1.force", _times(1.1), _FOUR[3:], unseen=_PURE_NUMBERS),
+    _calibration("E x 1.1", "rod.material.young", _times(1.1), unseen=_SCALE_INVARIANT),
+    _calibration("rho_0 x 1.2", "rod.material.line_density", _times(1.2), unseen=_SCALE_INVARIANT),
+    _calibration("g x 2", "gravity.g", _times(2.0), _CALIBRATED[:3], unseen=_SCALE_INVARIANT),
+    _calibration("n x 1.1", "forces.1.force", _times(1.1), _CALIBRATED[3:], unseen=_SCALE_INVARIANT),
     _calibration("L x 1.02", "rod.length", _times(1.02)),
     _calibration("H x 1.02", "rod.section.height", _times(1.02)),
     _calibration("W x 1.02", "rod.section.width", _times(1.02)),
     _calibration("k x 1.02", "rod.section.shear_factor", _times(1.02)),
     _calibration("nu + 0.05", "rod.material.poisson", _plus(0.05)),
-    Change("large strains: wells of (3.4.11) made quadratic", LARGE, physics=quadratic_wells),
-    Change("large strains: tan^2 made the square", LARGE, physics=square_of_the_angle),
-    Change("large strains: mu kappa made kappa", LARGE[2:], physics=current_curvature),
+    Change("large strains: wells of (3.4.11) made quadratic", LARGE_STRAINS, physics=quadratic_wells),
+    Change("large strains: tan^2 made the square", LARGE_STRAINS, physics=square_of_the_angle),
+    Change("large strains: mu kappa made kappa", LARGE_STRAINS[2:], physics=current_curvature),
     *[
-        Change(f"own rod: {what}", OWN, (place,), edit)
+        Change(f"own rod: {what}", CONSISTENT, (place,), edit)
         for what, place, edit in (
             ("E x 1.1", "rod.material.young", _times(1.1)),
             ("rho_0 x 1.2", "rod.material.line_density", _times(1.2)),
@@ -269,7 +269,7 @@ CHANGES: tuple[Change, ...] = (
             ("nu + 0.05", "rod.material.poisson", _plus(0.05)),
         )
     ],
-    Change("own rod: Y22 x 5", OWN[-1:], physics=scaled("Y22", 5.0)),
+    Change("own rod: Y22 x 5", CONSISTENT[-1:], physics=scaled("Y22", 5.0)),
     Change("own slender rods: E x 1.1", SLENDER, ("rod.material.young",), _times(1.1)),
     Change("own slender rods: L x 1.02", SLENDER, ("rod.length",), _times(1.02)),
     Change("elastica: load x 0.9", SLENDER[:1], ("forces.0.force",), _times(0.9)),
@@ -290,4 +290,4 @@ CHANGES: tuple[Change, ...] = (
         )
     ],
 )
-"""Changes of the rods, each tried by itself."""
+"""Changes of the rods, each tried separately."""

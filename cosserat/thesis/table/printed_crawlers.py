@@ -6,26 +6,26 @@ from collections.abc import Mapping
 
 from cosserat.thesis.table.given import Input, Inputs
 
-_ROBOT_S = "eq. (2.7.3)"
+_ROBOT_INPUTS = "eq. (2.7.3)"
 _PUSH_PULL = "eqs. (2.7.1), (2.7.2)"
-_RESULTS = "section 2.8, Results"
-_MEASURED = "section 2.8, Anticipated outcomes"
+_IN_RESULTS = "section 2.8, Results"
+_IN_ANTICIPATED_OUTCOMES = "section 2.8, Anticipated outcomes"
 
 _G_2 = Input("9.81 m/s^2", "section 3.5; Chapter 2 gives none", "m/s^2", "E2.22")
 
 _ROBOT: Inputs = {
-    "crawler.length": Input("25.4 cm", _ROBOT_S, "m"),
-    "crawler.radius": Input("2.54 cm", _ROBOT_S, "m"),
-    "crawler.density": Input("1 g/cm^3", _ROBOT_S, "kg/m^3"),
-    "crawler.mass": Input(None, _ROBOT_S),
+    "crawler.length": Input("25.4 cm", _ROBOT_INPUTS, "m"),
+    "crawler.radius": Input("2.54 cm", _ROBOT_INPUTS, "m"),
+    "crawler.density": Input("1 g/cm^3", _ROBOT_INPUTS, "kg/m^3"),
+    "crawler.mass": Input(None, _ROBOT_INPUTS),
     "crawler.material.kind": Input(
         "compressible", "section 2.7, 'the equations developed in Section 2.3'"
     ),
-    "crawler.material.young": Input("10 kPa", _ROBOT_S, "Pa"),
-    "crawler.material.poisson": Input("0.3", _ROBOT_S, "1"),
-    "crawler.material.bulk": Input(None, _ROBOT_S),
-    "loads.anchoring": Input("1 N", _ROBOT_S, "N"),
-    "loads.advancing": Input("6.89 kPa", _ROBOT_S, "Pa"),
+    "crawler.material.young": Input("10 kPa", _ROBOT_INPUTS, "Pa"),
+    "crawler.material.poisson": Input("0.3", _ROBOT_INPUTS, "1"),
+    "crawler.material.bulk": Input(None, _ROBOT_INPUTS),
+    "loads.anchoring": Input("1 N", _ROBOT_INPUTS, "N"),
+    "loads.advancing": Input("6.89 kPa", _ROBOT_INPUTS, "Pa"),
     "loads.gravity": _G_2,
     "loads.contact": Input("weight", "eq. (2.2.20), corrected"),
     "loads.advancing_force": Input(None, "eq. (2.3.7)"),
@@ -41,9 +41,9 @@ _WORM: Inputs = {
     "crawler.mass": Input("10 g", "section 2.8", "kg"),
     "crawler.density": Input(None, "section 2.8", assumed="E2.22"),
     "crawler.material.kind": Input("incompressible", "section 2.8, eq. (2.8.8)"),
-    "crawler.material.young": Input("2 kPa", _RESULTS, "Pa"),
-    "loads.anchoring": Input("26.16 mN", f"{_RESULTS}, 0.6 of (2.8.3)", "N"),
-    "loads.advancing": Input("1356.6 Pa", f"{_RESULTS}, 0.238 of (2.8.2)", "Pa"),
+    "crawler.material.young": Input("2 kPa", _IN_RESULTS, "Pa"),
+    "loads.anchoring": Input("26.16 mN", f"{_IN_RESULTS}, 0.6 of (2.8.3)", "N"),
+    "loads.advancing": Input("1356.6 Pa", f"{_IN_RESULTS}, 0.238 of (2.8.2)", "Pa"),
     "loads.gravity": _G_2,
     "loads.contact": Input("weight", "eq. (2.2.20), corrected"),
     "loads.multiplier": Input("balanced", "eq. (2.4.18), corrected"),
@@ -55,14 +55,14 @@ _WORM: Inputs = {
         [[[0, 0.75], [0.5, 0.375]], [[0.5, 0], [1, 0]], [[1, 1], [2, 1]]], "section 2.8", assumed="E2.17"
     ),
 }
-_EARLY: Inputs = {
+_EARLY_SWITCH: Inputs = {
     "gait.anchor": Input(
         [[[0, 0.75], [1 / 3, 0.5]], [[1 / 3, 0], [1, 0]], [[1, 1], [2, 1]]], "Fig. 2.1", assumed="E2.17"
     )
 }
-_CONTACT: Inputs = {"loads.contact": Input("printed", "eq. (2.2.20)")}
-_AS_PRINTED: Inputs = {**_CONTACT, "loads.multiplier": Input("printed", "eq. (2.4.18)")}
-_CLIPPED: Inputs = {
+_PRINTED_CONTACT: Inputs = {"loads.contact": Input("printed", "eq. (2.2.20)")}
+_PRINTED_EQUATIONS: Inputs = {**_PRINTED_CONTACT, "loads.multiplier": Input("printed", "eq. (2.4.18)")}
+_STOPPED_FRONTS: Inputs = {
     "gait.gamma": Input(
         [[[0, 0.98], [0.04, 0.98], [0.5, 0.75], [1, 0.5], [1.96, 0.02], [2, 0.02]]],
         "section 2.8 and after eq. (2.5.9)",
@@ -78,10 +78,10 @@ _CLIPPED: Inputs = {
 _AT_REST: Inputs = {
     **{place: given for place, given in _WORM.items() if place.startswith("crawler")},
     "loads.anchoring": Input(
-        "0 N", f"{_MEASURED}, 'under the deformation of the worm's own weight'", "N"
+        "0 N", f"{_IN_ANTICIPATED_OUTCOMES}, 'under the deformation of the worm's own weight'", "N"
     ),
     "loads.advancing": Input(
-        "0 Pa", f"{_MEASURED}, 'under the deformation of the worm's own weight'", "Pa"
+        "0 Pa", f"{_IN_ANTICIPATED_OUTCOMES}, 'under the deformation of the worm's own weight'", "Pa"
     ),
     "loads.gravity": _G_2,
     "regions": Input([{"begin": 0, "end": 1, "load": "anchoring"}], "one region, without a load"),
@@ -89,7 +89,7 @@ _AT_REST: Inputs = {
 
 
 def _as_worm(worm: Inputs) -> Inputs:
-    """Inputs of a worm that is a part of another case."""
+    """Inputs of a worm within another case."""
     return {f"worm.{place}": given for place, given in worm.items()}
 
 
@@ -100,28 +100,28 @@ _MASSES: Inputs = {
     ),
     "muscles": Input("constant stress", "section 2.8, 'irrespective of body mass'", assumed="E2.13"),
 }
-_TARGETS: Inputs = {
+_CALIBRATION_TARGETS: Inputs = {
     "mu_1_ratio": Input("0.75", "eq. (2.8.6)", "1"),
     "mu_3_ratio": Input("1.60", "eq. (2.8.6)", "1"),
-    "p_longitudinal": Input("0.3 kPa", _MEASURED, "Pa"),
-    "p_circular": Input("0.8 kPa", _MEASURED, "Pa"),
+    "p_longitudinal": Input("0.3 kPa", _IN_ANTICIPATED_OUTCOMES, "Pa"),
+    "p_circular": Input("0.8 kPa", _IN_ANTICIPATED_OUTCOMES, "Pa"),
 }
 
 CHAPTER_2: Mapping[str, Inputs] = {
     "soft_robot": _ROBOT,
-    "soft_robot_printed_contact": {**_ROBOT, **_CONTACT},
+    "soft_robot_printed_contact": {**_ROBOT, **_PRINTED_CONTACT},
     "soft_robot_reference": _ROBOT,
     "soft_robot_held": {
         **_ROBOT,
         "loads.advancing_force": Input("continuous", "eq. (2.4.14)", assumed="E2.10"),
     },
     "worm": _WORM,
-    "worm_early": {**_WORM, **_EARLY},
-    "worm_printed": {**_WORM, **_AS_PRINTED},
-    "worm_printed_early": {**_WORM, **_AS_PRINTED, **_EARLY},
-    "worm_balanced": {**_WORM, **_CONTACT},
-    "worm_balanced_early": {**_WORM, **_CONTACT, **_EARLY},
-    "worm_clipped": {**_WORM, **_CLIPPED},
+    "worm_early": {**_WORM, **_EARLY_SWITCH},
+    "worm_printed": {**_WORM, **_PRINTED_EQUATIONS},
+    "worm_printed_early": {**_WORM, **_PRINTED_EQUATIONS, **_EARLY_SWITCH},
+    "worm_balanced": {**_WORM, **_PRINTED_CONTACT},
+    "worm_balanced_early": {**_WORM, **_PRINTED_CONTACT, **_EARLY_SWITCH},
+    "worm_clipped": {**_WORM, **_STOPPED_FRONTS},
     "worm_released": {**_WORM, "loads.advancing_force": Input("none", "eq. (2.3.7)", assumed="E2.10")},
     "worm_reference": _WORM,
     "worm_at_rest": _AT_REST,
@@ -135,15 +135,15 @@ CHAPTER_2: Mapping[str, Inputs] = {
         "masses": Input([2e-3, 3e-3, 5e-3, 7e-3, 1e-2], "where the worm can stay on the ground"),
         "muscles": Input("strip tension", "eqs. (2.8.1), (2.8.3)", assumed="E2.13"),
     },
-    "worm_calibration": {**_as_worm(_WORM), **_TARGETS},
-    "worm_calibration_printed": {**_as_worm({**_WORM, **_AS_PRINTED}), **_TARGETS},
+    "worm_calibration": {**_as_worm(_WORM), **_CALIBRATION_TARGETS},
+    "worm_calibration_printed": {**_as_worm({**_WORM, **_PRINTED_EQUATIONS}), **_CALIBRATION_TARGETS},
 }
-"""Inputs of the cases of Chapter 2, all of which are the thesis's, by case."""
+"""Inputs of the cases of Chapter 2 by case; all cases are those of the thesis."""
 
-BEHIND: Mapping[str, Inputs] = {
+INPUT_SOURCES: Mapping[str, Inputs] = {
     "soft_robot": {
         "l_0 in inches": Input("10 in", "Fig. 2.8", "m"),
-        "p in psi": Input("1 psi", _ROBOT_S, "Pa"),
+        "p in psi": Input("1 psi", _ROBOT_INPUTS, "Pa"),
         "v": Input("2.54 cm/s", "Fig. 2.8", "m/s"),
         "t_pause": Input("5 s", "Fig. 2.8", "s"),
         "t_step": Input("0.01 s", "Fig. 2.8", "s"),
@@ -154,12 +154,12 @@ BEHIND: Mapping[str, Inputs] = {
         "circumference": Input("23.88 mm", "before eq. (2.8.2)", "m"),
         "D_peak": Input("43.6 mN", "eq. (2.8.3)", "N"),
         "p_peak": Input("5.7 kPa", "eq. (2.8.2)", "Pa"),
-        "share of D_peak": Input("0.6", _RESULTS, "1"),
-        "share of p_peak": Input("0.238", _RESULTS, "1"),
+        "share of D_peak": Input("0.6", _IN_RESULTS, "1"),
+        "share of p_peak": Input("0.238", _IN_RESULTS, "1"),
         "T_long": Input("0.186", "eq. (2.8.1), in gram-force", "1"),
         "T_circ": Input("0.3", "eq. (2.8.1), in gram-force", "1"),
         "strip": Input("1 mm", "before eq. (2.8.1)", "m"),
         "segment 50": Input("2/5", "after eq. (2.8.6), from the anterior end", "1"),
     },
 }
-"""Printed numbers that are not inputs of a case themselves, but sources of inputs."""
+"""Printed numbers from which inputs of a case follow."""

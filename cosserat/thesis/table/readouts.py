@@ -1,4 +1,4 @@
-"""Named read-outs: a Dataset in, one measured number and, where a closed form judges it, the number expected.
+"""Named read-outs: from a Dataset one measured number and, if there is a closed form, the expected number.
 
 A row of `results/tolerances.csv` names its read-out here.  Relative deviations of a curve are the largest over the
 vertices divided by the largest ordinate of the closed form.  Closed forms take their beam and loads from
@@ -23,7 +23,7 @@ from cosserat.thesis.table.reading import Measurement
 
 Array = NDArray[np.float64]
 
-THIN = 0.005
+SLENDERNESS = 0.005
 """Radius over length of our slender rods; their square sections have the bending stiffness of a circle."""
 
 
@@ -57,7 +57,7 @@ def half_height(beam: beams.Beam) -> float:
 def _under_weight(
     data: xr.Dataset, case: str, curve: beams.BeamCurve, beam: beams.Beam | None
 ) -> tuple[beams.Beam, Array]:
-    """The beam, printed unless another is given, and a closed form of it under the printed g."""
+    """The printed beam, unless another is given, and its closed form under the printed g."""
     beam = beam or printed.beam(case)
     return beam, curve(beam, printed.number(case, "gravity.g"), vertices_of(data, beam))
 
@@ -160,7 +160,7 @@ def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Measure
         published = printed.number("clamped_free", "rod.vertices")
         if published not in meshes:
             raise InputError(
-                f"the calibration has meshes of {meshes} vertices; give it the published {published:g} too"
+                f"the calibration has meshes of {meshes} vertices; add the published {published:g}"
             )
         fitted = data[f"{problem}_coefficients"].isel(mesh=meshes.index(published))
         (dim,) = fitted.dims
@@ -239,7 +239,7 @@ def buckling_ratio(data: xr.Dataset) -> Array:
 
 def _elastica_tip(data: xr.Dataset) -> Measurement:
     """Lateral displacement of the tip of a rod of one metre, and that of Reissner's with P L^2 / EI = 10."""
-    axial = 4 / THIN**2  # EA L^2 / EI
+    axial = 4 / SLENDERNESS**2  # EA L^2 / EI
     exact, _ = elastica.shearable_tip(10.0, axial, 5 / 6 / 2 * axial)
     return Measurement(float(data.u.sel(axis="E2")[-1]), exact)
 

@@ -15,7 +15,7 @@ from cosserat.errors import InputError
 RELATIVE = 1e-9
 """Change allowed in a variable, relative to its largest stored value; the variable's round-off floor is added."""
 
-_MAY_DIFFER = (
+_IGNORED_ATTRIBUTES = (
     "source",
     "environment",
     "solver",
@@ -66,7 +66,7 @@ def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
         raise InputError(
             f"variables differ: {sorted(map(str, set(fresh.variables) ^ set(stored.variables)))}"
         )
-    for key in sorted((set(fresh.attrs) | set(stored.attrs)) - set(_MAY_DIFFER)):
+    for key in sorted((set(fresh.attrs) | set(stored.attrs)) - set(_IGNORED_ATTRIBUTES)):
         if key == "parameters" and case_of(fresh) == case_of(stored):
             continue  # also equal if a new parameter has its default
         if fresh.attrs.get(key) != stored.attrs.get(key):

@@ -23,7 +23,7 @@ from cosserat.units import to_si
 Standing = Literal["reproduced", "erratum", "assumption", "recomputed", "not attempted"]
 Kind = Literal["printed", "analytic", "in words", "literature", "arithmetic"]
 
-_PRINTED = ("printed", "arithmetic")  # kinds whose published text is the expected number
+_PRINTED_KINDS = ("printed", "arithmetic")  # kinds whose published text is the expected number
 _LOOSE_RATIO = 1e-3  # ratio of error to tolerance below which the tolerance is loose
 
 
@@ -67,24 +67,30 @@ class Row(Parameters):
     def _complete(self) -> Self:
         if self.standing == "not attempted":
             return self
-        sum_alone = self.kind == "arithmetic"
-        needed = ["readout", "tolerance", "tolerance_kind", "claim", *([] if sum_alone else ["case"])]
+        is_arithmetic = self.kind == "arithmetic"
+        needed = [
+            "readout",
+            "tolerance",
+            "tolerance_kind",
+            "claim",
+            *([] if is_arithmetic else ["case"]),
+        ]
         missing = [name for name in needed if not getattr(self, name)]
         if missing:
             raise PydanticCustomError(
                 "incomplete", f"needs {', '.join(missing)} unless it is 'not attempted'"
             )
-        if self.readout not in (ARITHMETIC if sum_alone else READOUTS):
+        if self.readout not in (ARITHMETIC if is_arithmetic else READOUTS):
             raise PydanticCustomError("readout", f"names the unknown read-out '{self.readout}'")
-        if sum_alone and self.case:
+        if is_arithmetic and self.case:
             raise PydanticCustomError(
                 "case", f"is of kind 'arithmetic' but reads the case '{self.case}'; leave 'case' empty"
             )
-        if sum_alone != (self.standing == "recomputed"):
+        if is_arithmetic != (self.standing == "recomputed"):
             raise PydanticCustomError(
                 "standing",
                 f"is of kind '{self.kind}' and stands as '{self.standing}'; "
-                "rows of kind 'arithmetic', and they alone, stand as 'recomputed'",
+                "only rows of kind 'arithmetic', and all of them, have the standing 'recomputed'",
             )
         return self
 
@@ -114,13 +120,13 @@ class Row(Parameters):
     @property
     def expected(self) -> float | None:
         """The published text as a number in the row's unit; None if the read-out gives the expected number."""
-        if self.kind not in _PRINTED:
+        if self.kind not in _PRINTED_KINDS:
             return None
         return to_si(self.published, self.units, unit_required=False)
 
     @property
     def ours(self) -> bool:
-        """Whether it belongs to the project's own rod and not to the thesis."""
+        """Whether the row is about the consistent rod and not about the thesis."""
         return self.id.startswith("C-")
 
 
@@ -228,9 +234,9 @@ def _check_readings(rows: list[Row], path: Path) -> None:
 
 
 def _published_by(wanted: str, lines: list[dict[str, str]], name: str) -> float:
-    """The published number of the line with that id, in its SI unit; `name` : the row that refers to it."""
+    """The published number of the row with that id, in its SI unit; `name` : the row that refers to it."""
     for line in lines:
-        if line.get("id") == wanted and line.get("kind") in _PRINTED:
+        if line.get("id") == wanted and line.get("kind") in _PRINTED_KINDS:
             return to_si(line["published"], line["units"], unit_required=False)
     raise InputError(f"{name}: 'against' is '{wanted}'; give the id of a row that prints a number")
 
