@@ -376,7 +376,7 @@ class Led:
 
     def __init__(self, index, radius, angle):
         self.index, self.radius, self.angle = index, radius, angle
-        self.frequency = self.rotation = 0.0
+        self.time_function, self.rotation = None, 0.0
 
     def place(self, fraction):
         a = fraction * self.angle

@@ -47,12 +47,11 @@ class LoadedRod:
         return np.zeros((self.rod.vertices, self.rod.kinematics.per_vertex))
 
     @property
-    def held_vertices(self) -> NDArray[np.bool_]:
-        """Vertices whose position and director do not move, shape (N,)."""
+    def held_components(self) -> NDArray[np.bool_]:
+        """Components in which neither the position nor the director of a vertex moves, shape (N, 2)."""
         if self.held is None:
-            return np.zeros(self.rod.vertices, dtype=np.bool_)
-        fixed = self.rod.kinematics.split(self.held)[:, :2].all(axis=(1, 2))
-        return np.asarray(fixed)
+            return np.zeros((self.rod.vertices, 2), dtype=np.bool_)
+        return np.asarray(self.rod.kinematics.split(self.held)[:, :2].all(axis=1))
 
     def shared(self, at: str | int) -> tuple[tuple[int, float], ...]:
         """The vertices beside a place, with their weights in linear interpolation."""

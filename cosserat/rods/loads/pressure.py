@@ -3,8 +3,8 @@
 derived: the surface is the polygon of s = x + r d, with r = 1 above and r = -below / above beneath.  On the part of an
 edge from a to b, fractions of it, the force is p W (b - a) Q (s2 - s1), Q a quarter turn into the body, at the
 middle m = (a + b) / 2: s1 carries 1 - m of it and s2 carries m.  Between whole edges of one width the skew parts of
-the tangent cancel.  If also the ends of the loaded part do not move, the load has a potential, -p W times the area that
-the surface passes over.
+the tangent cancel.  If also the ends of the surface can only move along one axis, the load has a potential: -p W times
+the area between the surface and its reference, closed by straight lines between their ends.
 """
 
 from __future__ import annotations
@@ -28,7 +28,11 @@ _EDGE = np.dtype(
         ("load", "f8"),  # p W (b - a), positive where it turns E3 towards -E2 [N/m]
         ("middle", "f8"),  # m
         ("reach", "f8"),  # r
-        ("swept", "f8"),  # of the reference, subtracted from the energy [m^2]
+        ("swept", "f8"),  # area of the reference, which is subtracted [m^2]
+        ("from3", "f8"),  # S1 of the reference where the edge begins the loaded part, else zero [m]
+        ("from2", "f8"),
+        ("to3", "f8"),  # S2 of the reference where the edge ends it, else zero [m]
+        ("to2", "f8"),
         ("dof", "i8"),  # the first of its first vertex
         ("next", "i8"),  # the first of its second vertex
         ("conserves", "i8"),  # whether there is a potential
@@ -75,17 +79,19 @@ class Pressure(Stretch):
         edges["middle"] = ((a + b) / 2)[loaded]
         edges["reach"] = reach
         edges["swept"] = (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])[loaded] / 2
+        edges["from3"][0], edges["from2"][0] = first[loaded[0]]
+        edges["to3"][-1], edges["to2"][-1] = second[loaded[-1]]
         edges["dof"] = rod.kinematics.per_vertex * loaded
         edges["next"] = rod.kinematics.per_vertex * (loaded + 1)
         return edges
 
     def _conserves(self, body: LoadedRod) -> bool:
-        """Whether the ends of its surface are held, it covers whole edges, and these have one width."""
+        """Whether the ends of its surface have one free component, it covers whole edges, and these have one width."""
         arc, (start, end) = body.geometry.arc_length, self.ends(body.rod)
         near = [int(np.abs(arc - place).argmin()) for place in (start, end)]
         whole = bool(np.allclose(arc[near], [start, end], rtol=0, atol=1e-9 * arc[-1]))
         one_width = all(station.width == body.rod.stations[0].width for station in body.rod.stations)
-        return whole and one_width and bool(body.held_vertices[near].all())
+        return whole and one_width and bool(body.held_components[near].any(axis=1).all())
 
 
 @njit(cache=True)
@@ -113,7 +119,8 @@ def _push(
         if edges[k].conserves:
             s0, s1 = ends[x] + r * ends[x + 2], ends[x + 1] + r * ends[x + 3]
             t0, t1 = ends[y] + r * ends[y + 2], ends[y + 1] + r * ends[y + 3]
-            terms[0] -= p * ((s0 * t1 - s1 * t0) / 2 - edges[k].swept)
+            closing = edges[k].from3 * s1 - edges[k].from2 * s0 + t0 * edges[k].to2 - t1 * edges[k].to3
+            terms[0] -= p * ((s0 * t1 - s1 * t0 + closing) / 2 - edges[k].swept)
         if task in (GRADIENT, HESSIAN):
             f0 = p * (q[y + 1] + r * q[y + 3] - q[x + 1] - r * q[x + 3])
             f1 = -p * (q[y] + r * q[y + 2] - q[x] - r * q[x + 2])
