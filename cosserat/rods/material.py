@@ -41,29 +41,38 @@ class Material(Parameters):
 
     @model_validator(mode="after")
     def _determined(self) -> Self:
-        if len(given := self._given) != 2:
+        if len(given := self.given) not in (0, 2):
             raise PydanticCustomError(
                 "moduli",
-                f"has {' and '.join(map(repr, given)) or 'no modulus'}; give two of {', '.join(MODULI)} "
+                f"has {' and '.join(map(repr, given))}; give two of {', '.join(MODULI)} "
                 "('none' removes an inherited one)",
             )
-        if not -1 < self.moduli[1] < 0.5:
+        if given and not -1 < self.moduli[1] < 0.5:
             raise PydanticCustomError(
                 "moduli",
                 f"has {' and '.join(map(repr, given))} of a Poisson's ratio {self.moduli[1]:g}; "
                 "it must be above -1 and below 0.5",
             )
         if (self.density is None) == (self.line_density is None):
-            fault = "has neither" if self.density is None else "has both"
+            fault = "has neither {} nor {}" if self.density is None else "has both {} and {}"
             raise PydanticCustomError(
                 "mass",
-                f"{fault} a 'density' and a 'line_density'; give one of them ('none' removes an inherited one)",
+                fault.format("a 'density'", "a 'line_density'")
+                + "; give one of them ('none' removes an inherited one)",
             )
         return self
 
     @property
-    def _given(self) -> list[str]:
+    def given(self) -> list[str]:
+        """Keys of the given moduli: two, or none for a section whose stiffnesses are given."""
         return [name for name in MODULI if getattr(self, name) is not None]
+
+    def check_moduli(self) -> None:
+        """Raise PydanticCustomError if there are none."""
+        if not self.given:
+            raise PydanticCustomError(
+                "moduli", f"has a 'material' with no modulus; give two of {', '.join(MODULI)}"
+            )
 
     @property
     def moduli(self) -> tuple[float, float]:

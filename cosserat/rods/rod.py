@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
+from cosserat.errors import InputError
 from cosserat.parameters import NONE_BY_WORD, Count, OneOf, Parameters, Quantity
+from cosserat.rods.elasticity import Elastic, LateralConstraint
 from cosserat.rods.energies import ENERGIES, energy_named
-from cosserat.rods.energies.compliance import LateralConstraint
 from cosserat.rods.energies.energy import Energy
 from cosserat.rods.energies.hemingway_stiffness import (
     Calibration,
@@ -25,7 +26,8 @@ from cosserat.rods.naming import DofName
 from cosserat.rods.places import vertex_at
 from cosserat.rods.reference import Geometry
 from cosserat.rods.sections import AnySection
-from cosserat.rods.variation import Station, mass_scale, mean, scale_at, vertex_cuts
+from cosserat.rods.sections.section import Homogeneous
+from cosserat.rods.variation import NOMINAL, Station, mass_scale, mean, scale_at, vertex_cuts
 
 Array = NDArray[np.float64]
 
@@ -41,8 +43,8 @@ class Rod(Parameters):
     """Length of the centreline in the reference configuration."""
     section: AnySection
     """Cross-section of the rod."""
-    material: Material
-    """Material of the rod."""
+    material: Annotated[Material | None, NONE_BY_WORD] = None
+    """Material of the rod; layers have their own."""
     stations: tuple[Station, ...] = ()
     """Variation of width, height, modulus, Poisson's ratio and density along the rod."""
     centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
@@ -75,8 +77,10 @@ class Rod(Parameters):
                     f"has {' and '.join(map(repr, given))}, which only energy = '{other}' takes; "
                     "leave it out (calibration = 'none' removes an inherited one)",
                 )
+        self.section.check(self.material, self.lateral_constraint)
+        self.section.check_stations(self.stations)
         ratios = self.poisson_ratios
-        if not -1 < min(ratios) <= max(ratios) < 0.5:
+        if ratios and not -1 < min(ratios) <= max(ratios) < 0.5:
             raise PydanticCustomError(
                 "range",
                 f"'stations' take Poisson's ratio from {min(ratios):g} to {max(ratios):g}; "
@@ -112,7 +116,9 @@ class Rod(Parameters):
 
     @property
     def poisson_ratios(self) -> list[float]:
-        """Poisson's ratio at its stations; at least one."""
+        """Poisson's ratio at its stations, at least one; none for a section without a single material."""
+        if not isinstance(self.section, Homogeneous):
+            return []
         return [self.poisson * station.poisson for station in self.stations] or [self.poisson]
 
     @property
@@ -123,47 +129,73 @@ class Rod(Parameters):
     @property
     def width(self) -> float:
         """Nominal width of the section, across the plane of motion [m]."""
-        return self.section.width
+        width = getattr(self.section, "width", None)
+        if width is None:
+            raise InputError(
+                f"a section with shape = '{self.section.shape}' has no 'width'; take another shape"
+            )
+        return float(width)
+
+    @property
+    def homogeneous(self) -> tuple[Homogeneous, float, float]:
+        """The section, E [Pa] and nu.
+
+        Raises
+        ------
+        InputError : the section has no single material.
+        """
+        if not isinstance(self.section, Homogeneous):
+            raise InputError(
+                f"a section with shape = '{self.section.shape}' has no single area and modulus; take another shape"
+            )
+        assert self.material is not None  # checked
+        return (self.section, *self.material.moduli)
 
     @property
     def young(self) -> float:
-        """Nominal Young's modulus [Pa]."""
-        return self.material.moduli[0]
+        """Nominal Young's modulus [Pa], of a section of one material."""
+        return self.homogeneous[1]
 
     @property
     def poisson(self) -> float:
-        """Nominal Poisson's ratio [1]."""
-        return self.material.moduli[1]
+        """Nominal Poisson's ratio [1], of a section of one material."""
+        return self.homogeneous[2]
+
+    @property
+    def shear_correction(self) -> float:
+        """Factor k of the shear stiffness k mu A [1], of a section of one material."""
+        return float(self.homogeneous[0].shear_factor_for(self.poisson))
+
+    @property
+    def area(self) -> float:
+        """Nominal area of the section A [m^2], of a section of one material."""
+        return self.homogeneous[0].area
+
+    @property
+    def second_moment(self) -> float:
+        """Nominal second moment of area about E1 through the centreline, I [m^4], of a section of one material."""
+        spread = 1 / self.homogeneous[0].thinness
+        return self.area * self.height**2 * (spread + (0.5 - self.centreline) ** 2)
 
     @property
     def line_density(self) -> float:
         """Nominal mass per length of the reference configuration [kg/m]."""
-        return self.material.mass_per_length(self.section.area)
+        return self.section.line_density(self.material)
 
     @property
-    def shear_correction(self) -> float:
-        """Factor k of the shear stiffness k mu A [1]."""
-        return self.section.shear_factor
-
-    @property
-    def area(self) -> float:
-        """Nominal area of the section A [m^2]."""
-        return self.section.area
-
-    @property
-    def second_moment(self) -> float:
-        """Nominal second moment of area about E1 through the centreline, I [m^4]."""
-        return self.area * self.height**2 * (1 / self.section.thinness + (0.5 - self.centreline) ** 2)
-
-    @property
-    def central_second_moment(self) -> float:
-        """Nominal second moment of area about E1 through the area centre [m^4]."""
-        return self.area * self.height**2 / self.section.thinness
+    def elastic(self) -> Elastic:
+        """Nominal stiffnesses about the elastic centre, of any section [N, N m^2]."""
+        return self.section.along(self.material, self.lateral_constraint)(NOMINAL)
 
     @property
     def Y02(self) -> float:
-        """Y02 of eq. (3.3.28): mean of y / |D| over the section, y counted from the centreline [1]."""
-        return (0.5 - self.centreline) / (1 - self.centreline)
+        """Y02 of eq. (3.3.28): mean of y / |D| over the mass of the section, y counted from the centreline [1]."""
+        return (self.section.mass_centre - self.centreline) / (1 - self.centreline)
+
+    @property
+    def elastic_offset(self) -> float:
+        """Distance of the elastic centre from the centreline over that of the upper surface [1]."""
+        return (self.section.centre - self.centreline) / (1 - self.centreline)
 
     @property
     def below(self) -> float:
@@ -172,8 +204,9 @@ class Rod(Parameters):
 
     @property
     def Y22(self) -> float:
-        """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the section [1]."""
-        return (1 / self.section.thinness + (0.5 - self.centreline) ** 2) / (1 - self.centreline) ** 2
+        """Y22 of eq. (3.3.28): mean of (y / |D|)^2 over the mass of the section [1]."""
+        away = self.section.mass_centre - self.centreline
+        return (self.section.mass_spread + away**2) / (1 - self.centreline) ** 2
 
     def geometry(self, arc: Array | None = None) -> Geometry:
         """Its reference configuration; the directors reach the upper surface.

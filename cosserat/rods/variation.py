@@ -55,6 +55,9 @@ _ONE = _gauss(np.array([0.0, 1.0]))
 _NOMINAL = Scales(*(np.ones_like(_ONE[0]) for _ in Scales._fields))
 """Of a uniform rod: nodes and weights of one interval, and the scale factors there."""
 
+NOMINAL = Scales(*(np.ones(()) for _ in Scales._fields))
+"""Scale factors of the nominal section, at one place."""
+
 Property = Callable[[Scales, Array], Array]
 
 

@@ -219,12 +219,12 @@ _FORMULAS: dict[str, tuple[int, Callable[[beams.Beam, float, Array], Array]]] = 
 
 
 def beam_of(problem: RodProblem) -> beams.Beam:
-    """The beam for the closed forms: A = W H and I = W H^3 / 12, not the averages of the rod."""
-    rod = problem.rod
+    """The beam for the closed forms: A and I of the section itself, not the averages of the rod."""
+    rod, section = problem.rod, problem.rod.homogeneous[0]
     return beams.Beam(
         length=rod.length,
-        area=rod.width * rod.height,
-        second_moment=rod.width * rod.height**3 / 12,
+        area=section.area,
+        second_moment=section.second_moment,
         young=rod.young,
         poisson=rod.poisson,
         line_density=rod.line_density,

@@ -13,6 +13,7 @@ from cosserat.cli import main
 from cosserat.errors import InputError
 from cosserat.exact import beams, elastica
 from cosserat.problems.static import RodStatics
+from cosserat.rods.elasticity import of_one_material
 from cosserat.rods.energies import reissner
 from cosserat.rods.energies.compliance import stiffnesses
 from cosserat.rods.kinematics import PLANAR
@@ -32,12 +33,7 @@ def small_rod(section="free", barrier=False, poisson=0.3, offset=0.0, displaceme
     stiffness = stiffnesses(
         (),
         geometry.arc_length,
-        area=0.01,
-        second_moment=8e-6,
-        young=1e6,
-        poisson=poisson,
-        shear_correction=5 / 6,
-        lateral_constraint=section,
+        of_one_material(0.01, 8e-6, 1e6, poisson, lambda _: 5 / 6, section),
     )
     return geometry, reissner.potential(
         geometry,

@@ -1,13 +1,13 @@
 """Stiffnesses of the consistent rod where its section or material varies within an edge: compliances add up along it.
 
 derived: along an edge the tension and, in a mesh that resolves the layers of the section stretch, that stretch w are
-nearly constant, while the axial strain is not.  With a(s) = 2 mu A, b(s) = Lambda A and c = a + b, the energy per
-length, least over all axial strains of the mean e, is
+nearly constant, while the axial strain is not.  With a(s) = 2 mu A, b(s) = Lambda A and c = a + b, and q(s) of the
+section, 2 mu A too if it is of one material, the energy per length, least over all axial strains of the mean e, is
 
-    alpha/2 e^2 + alpha <b/c> e w + (<b> + <2 mu A> - <b^2/c> + alpha <b/c>^2) w^2 / 2,      1/alpha = <1/c>,
+    alpha/2 e^2 + alpha <b/c> e w + (<b> + <q> - <b^2/c> + alpha <b/c>^2) w^2 / 2,      1/alpha = <1/c>,
 
 which is that of an edge with 2 mu A = alpha <a/c> and Lambda A = alpha <b/c> whose vertices have <a b/c> - alpha <a/c>
-<b/c> more than their own 2 mu A.  Shearing and bending add up their compliances alike.
+<b/c> more than their own q.  Shearing and bending add up their compliances alike.
 
 If the height varies and the centreline is not in the middle, the area centres lie off it by e(s).  The moment about
 an axis at E is nearly constant along the edge, m say, and the curvature is (m + n (e - E)) / EI under the tension n.
@@ -24,22 +24,15 @@ centreline.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cosserat.rods.elasticity import Along
 from cosserat.rods.variation import Scales, Station, mean, vertex_cuts
 
 Array = NDArray[np.float64]
-
-LateralConstraint = Literal["free", "plane strain", "incompressible"]
-"""Lateral constraint of the section in E1: free contraction, none, or (in plane strain) constant area."""
-
-PENALTY = 1e5
-"""Lambda over 2 mu of an incompressible section."""
-INCOMPRESSIBLE = 0.49
-"""Least Poisson's ratio of an incompressible section."""
 
 
 class EdgeStiffnesses(NamedTuple):
@@ -62,27 +55,16 @@ class EdgeStiffnesses(NamedTuple):
 def stiffnesses(
     stations: Sequence[Station],
     arc: Array,
+    along: Along,
     *,
-    area: float,
-    second_moment: float,
-    young: float,
-    poisson: float,
-    shear_correction: float,
-    lateral_constraint: LateralConstraint,
     offset: float = 0.0,
     curvature: float = 0.0,
 ) -> EdgeStiffnesses:
     """Stiffnesses of a rod whose nominal section and material vary along its stations.
 
-    arc : (N,) arc length of the vertices [m].  second_moment : about the area centres [m^4].
+    arc : (N,) arc length of the vertices [m].  along : stiffnesses at places, about the area centres.
     offset : of the nominal area centre from the centreline [m].  curvature : of the reference [1/m].
     """
-
-    def along(s: Scales) -> tuple[Array, Array, Array, Array, Array]:
-        """2 mu A, Lambda A, k mu A, EI and mu I at places."""
-        here, bending = area * s.width * s.height, second_moment * s.width * s.height**3
-        mu, first, plane = moduli(young * s.young, poisson * s.poisson, lateral_constraint)
-        return 2 * mu * here, first * here, shear_correction * mu * here, plane * bending, mu * bending
 
     def centres(s: Scales) -> Array:
         """Length of the line of the area centres per length of the centreline."""
@@ -91,7 +73,7 @@ def stiffnesses(
     first_height = stations[0].height if stations else 1.0
 
     def on_edges(s: Scales, _: Array) -> Array:
-        axial, volume, shear, bending, gradient = along(s)
+        axial, volume, _, shear, bending, gradient = along(s)
         both, higher, line = axial + volume, s.height - first_height, centres(s)
         ratios = [1 / both, axial / both, volume / both, axial * volume / both]
         sums = [line * ratio for ratio in (*ratios, 1 / shear, 1 / bending, 1 / gradient)]
@@ -105,25 +87,8 @@ def stiffnesses(
     axis = first_height + lever / bending
     more = (product - alpha * axial * volume) * length * np.diff(arc) / 2
     cuts = vertex_cuts(arc)
-    own = mean(stations, lambda s, _: centres(s) * along(s)[0], cuts)
+    own = mean(stations, lambda s, _: centres(s) * along(s).section, cuts)
     section = own + (np.append(more, 0.0) + np.insert(more, 0, 0.0)) / np.diff(cuts)
     return EdgeStiffnesses(
         alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, section, axis, length
-    )
-
-
-def moduli(
-    young: Array, poisson: Array, lateral_constraint: LateralConstraint
-) -> tuple[Array, Array, Array]:
-    """mu, Lambda and the modulus of bending [Pa]."""
-    if lateral_constraint == "incompressible":
-        shear = young / 3
-        return shear, PENALTY * 2 * shear, young / 0.75
-    shear = young / (2 * (1 + poisson))
-    if lateral_constraint == "free":
-        return shear, young * poisson / (1 - poisson**2), young
-    return (
-        shear,
-        young * poisson / ((1 + poisson) * (1 - 2 * poisson)),
-        young / (1 - poisson**2),
     )

@@ -29,7 +29,13 @@ class Hemingway(Energy):
     options = ("calibration", "end_sections", "poisson_coupling", "intrinsic_curvature")
 
     def check(self, rod: Rod) -> None:
-        """Require a calibration."""
+        """Require a calibration and a section of one material."""
+        if not rod.section.of_one_material:
+            raise PydanticCustomError(
+                "section",
+                f"has shape = '{rod.section.shape}', whose stiffnesses energy = 'published' cannot take; take "
+                "energy = 'consistent' (with calibration = 'none')",
+            )
         if rod.calibration is None:
             raise PydanticCustomError(
                 "calibration",
@@ -51,7 +57,7 @@ class Hemingway(Energy):
             geometry,
             vertex,
             edge,
-            rod.shear_correction,
+            rod.homogeneous[0].shear_factor_for(vertex.poisson),
             rod.calibration,
             rod.end_sections,
             rod.poisson_coupling,

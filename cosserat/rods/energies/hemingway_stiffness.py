@@ -62,7 +62,7 @@ def stiffnesses(
     geometry: Geometry,
     vertex: Lumped,
     edge: Lumped,
-    shear_correction: float,
+    shear_correction: Array | float,
     c: Calibration,
     end_sections: EndSections,
     poisson_coupling: PoissonCoupling,

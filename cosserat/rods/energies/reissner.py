@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
+from cosserat.rods.elasticity import INCOMPRESSIBLE, LateralConstraint
 from cosserat.rods.energies import compliance, reissner_kernel
-from cosserat.rods.energies.compliance import EdgeStiffnesses, LateralConstraint
+from cosserat.rods.energies.compliance import EdgeStiffnesses
 from cosserat.rods.energies.energy import Energy
 from cosserat.rods.energies.reissner_kernel import TERMS, VERTEX
 from cosserat.rods.reference import Geometry, edge_shear, unwrapped_angles
@@ -33,12 +34,12 @@ class Reissner(Energy):
 
     def check(self, rod: Rod) -> None:
         """Require a Poisson's ratio near one half of an incompressible section."""
-        least = min(rod.poisson_ratios)
-        if rod.lateral_constraint == "incompressible" and least < compliance.INCOMPRESSIBLE:
+        least = min(rod.poisson_ratios, default=0.0)
+        if rod.lateral_constraint == "incompressible" and least < INCOMPRESSIBLE:
             raise PydanticCustomError(
                 "section",
                 f"has lateral_constraint = 'incompressible' and 'poisson' = {least:g}; it must be "
-                f"{compliance.INCOMPRESSIBLE} or more",
+                f"{INCOMPRESSIBLE} or more",
             )
 
     def potential(self, rod: Rod, geometry: Geometry, *, displacements: bool = False) -> Potential:
@@ -46,13 +47,8 @@ class Reissner(Energy):
         stiffness = compliance.stiffnesses(
             rod.stations,
             geometry.arc_length,
-            area=rod.area,
-            second_moment=rod.central_second_moment,
-            young=rod.young,
-            poisson=rod.poisson,
-            shear_correction=rod.shear_correction,
-            lateral_constraint=rod.lateral_constraint,
-            offset=(0.5 - rod.centreline) * rod.height,
+            rod.section.along(rod.material, rod.lateral_constraint),
+            offset=(rod.section.centre - rod.centreline) * rod.height,
             curvature=rod.curvature,
         )
         heights = rod.height_fractions(geometry.arc_length)
@@ -61,7 +57,7 @@ class Reissner(Energy):
             stiffness,
             barrier=rod.barrier,
             product=rod.lateral_constraint == "incompressible",
-            offsets=rod.Y02 * (stiffness.axis / np.stack([heights[:-1], heights[1:]])),
+            offsets=rod.elastic_offset * (stiffness.axis / np.stack([heights[:-1], heights[1:]])),
             displacements=displacements,
         )
 

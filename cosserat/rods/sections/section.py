@@ -1,35 +1,180 @@
-"""The interface of the cross-sections of a rod."""
+"""The interface of the cross-sections of a rod, and sections of one material."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Annotated
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from cosserat.parameters import Parameters, Quantity
+import numpy as np
+from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError, core_schema
+
+from cosserat.parameters import Parameters, Quantity, Reader
+from cosserat.rods.elasticity import Along, LateralConstraint, of_one_material
+from cosserat.rods.material import Material
+from cosserat.rods.variation import Station
+from cosserat.units import to_si
+
+Array = NDArray[np.float64]
 
 
 class Section(Parameters):
     """A cross-section, symmetric about the plane of motion; y runs along E2, in the direction of its height.
 
-    Each class has its own `shape` and lengths.  `height`, along E2, and `width`, along E1, are those of the rectangle
+    Each class has its own `shape` and lengths.  `height` along E2 and `width` along E1 are those of the rectangle
     round it.
     """
 
-    shear_factor: Annotated[float, Quantity("1", "k", "3.4.13", above=0)]
-    """Factor of the shear stiffness k mu A; 5/6 for a rectangle."""
+    of_one_material: ClassVar[bool] = True
+    """Whether it has one isotropic material, an area and a second moment; the published energy needs them."""
+    shape: str
+
+    if TYPE_CHECKING:  # a key or a property of each class
+
+        @property
+        def height(self) -> float:
+            """Height along E2 [m]."""
+
+    @abstractmethod
+    def check(self, material: Material | None, lateral_constraint: LateralConstraint) -> None:
+        """Raise PydanticCustomError if it cannot be made of a material, or with a lateral constraint."""
+
+    def check_stations(self, stations: Sequence[Station]) -> None:
+        """Raise PydanticCustomError if it cannot vary like this along a rod."""
+
+    @abstractmethod
+    def along(self, material: Material | None, lateral_constraint: LateralConstraint) -> Along:
+        """Its stiffnesses at places of a rod, about its elastic centre."""
+
+    @abstractmethod
+    def line_density(self, material: Material | None) -> float:
+        """Mass per length [kg/m]."""
+
+    @property
+    def centre(self) -> float:
+        """Height of the elastic centre above the lower surface, over that of the section [1]."""
+        return 0.5
+
+    @property
+    def mass_centre(self) -> float:
+        """Height of the centre of mass above the lower surface, over that of the section [1]."""
+        return 0.5
 
     @property
     @abstractmethod
-    def area(self) -> float:
-        """Area A [m^2]."""
+    def mass_spread(self) -> float:
+        """Mean over the mass of the squared distance from its centre along E2, over the squared height [1]."""
+
+
+@dataclass(frozen=True)
+class ShearFactor(Reader):
+    """Annotation: a factor of the shear stiffness, or a word for one that follows from the section."""
+
+    word: str
 
     @property
-    @abstractmethod
-    def second_moment(self) -> float:
-        """Second moment of area about E1 through the area centre, I [m^4]."""
+    def alternatives(self) -> Any:
+        """A number or the word."""
+        return Annotated[float, Quantity("1", "k", "3.4.13", above=0)] | Literal[self.word]
+
+    @property
+    def said(self) -> str:
+        """In words."""
+        return f'a number above 0, such as 0.9 or "5/6", or "{self.word}"'
+
+    def check(self, value: object, info: core_schema.ValidationInfo) -> float | str:
+        """Read one factor."""
+        if value == self.word:
+            return self.word
+        try:
+            number = to_si(value, "1", unit_required=False)
+        except PydanticCustomError:
+            raise PydanticCustomError("type", f"is {value!r}; it must be {self.said}") from None
+        if number <= 0:
+            raise PydanticCustomError("range", f"is {number:g}; it must be above 0")
+        return number
+
+
+class Homogeneous(Section):
+    """A section of one material."""
+
+    stays_in_proportion: ClassVar[bool] = False
+    """Whether its height and its width can only grow together."""
+    proportions_in_cowper: ClassVar[bool] = True
+    """Whether Cowper's factor depends on the ratio of its lengths."""
+    shear_factor: Annotated[float | str, ShearFactor("cowper")]
+    """Factor k of the shear stiffness k mu A: a number, 5/6 for a rectangle, or "cowper".
+
+    Cowper's factors depend on Poisson's ratio and the shape: J. Appl. Mech. 33 (1966) 335-340.
+    """
+
+    if TYPE_CHECKING:  # a key or a property of each class
+
+        @property
+        def area(self) -> float:
+            """Area A [m^2]."""
+
+        @property
+        def second_moment(self) -> float:
+            """Second moment of area about E1 through the area centre, I [m^4]."""
 
     @property
     def thinness(self) -> float:
         """A H^2 / I, with H the height: 12 for a rectangle [1]."""
-        height: float = self.height  # type: ignore[attr-defined] # of each class
-        return self.area * height**2 / self.second_moment
+        return self.area * self.height**2 / self.second_moment
+
+    @property
+    def mass_spread(self) -> float:
+        """I / (A H^2) [1]."""
+        return 1 / self.thinness
+
+    @abstractmethod
+    def cowper(self, poisson: Any) -> Any:
+        """Cowper's shear factor for Poisson's ratio, a number or an array [1].
+
+        Raises
+        ------
+        PydanticCustomError : there is none for this shape.
+        """
+
+    def shear_factor_for(self, poisson: Any) -> Any:
+        """The shear factor k for Poisson's ratio, a number or an array [1]."""
+        return self.cowper(poisson) if isinstance(self.shear_factor, str) else self.shear_factor
+
+    def check(self, material: Material | None, lateral_constraint: LateralConstraint) -> None:
+        """Require a material with moduli and a mass."""
+        if material is None:
+            raise PydanticCustomError(
+                "material",
+                f"has no 'material'; write a table with two of its moduli and a density for a {self.shape}",
+            )
+        material.check_moduli()
+        self.shear_factor_for(material.moduli[1])
+
+    def check_stations(self, stations: Sequence[Station]) -> None:
+        """Require that shapes keep their proportions where they must."""
+        by_cowper = self.shear_factor == "cowper" and self.proportions_in_cowper
+        for station in stations:
+            if station.height != station.width and (self.stays_in_proportion or by_cowper):
+                why = f"a {self.shape}" if self.stays_in_proportion else "a shear_factor of 'cowper'"
+                raise PydanticCustomError(
+                    "stations",
+                    f"'stations' has height = {station.height:g} and width = {station.width:g} at {station.at:g} m, "
+                    f"but {why} keeps its proportions; give both the same factor",
+                )
+
+    def along(self, material: Material | None, lateral_constraint: LateralConstraint) -> Along:
+        """2 mu A, Lambda A, k mu A, EI and mu I."""
+        assert material is not None
+        second_moment = self.area * self.height**2 / self.thinness
+        young, poisson = material.moduli
+        return of_one_material(
+            self.area, second_moment, young, poisson, self.shear_factor_for, lateral_constraint
+        )
+
+    def line_density(self, material: Material | None) -> float:
+        """Mass per length, given or from that per volume [kg/m]."""
+        assert material is not None
+        return material.mass_per_length(self.area)
