@@ -6,8 +6,6 @@ from collections.abc import Mapping
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import model_validator
-from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
@@ -37,7 +35,8 @@ class SearchSettings(Parameters):
     count: Annotated[int, Count(at_least=1, at_most=100_000)] = 500
     """Most arcs."""
     limit: Annotated[float, Quantity("1", above=0)] = 3.0
-    """Where the search ends: a multiple of the lowest load of the linear criterion, or of the loads if it has none."""
+    """Where the search ends: a multiple of the lowest load of the linear criterion; of the loads themselves if it has
+    none, or if a load has no potential."""
 
 
 class RodCriticalLoads(RodProblem):
@@ -55,19 +54,9 @@ class RodCriticalLoads(RodProblem):
     search: SearchSettings = SearchSettings()
     """The search for the true one."""
 
-    @model_validator(mode="after")
-    def _rests(self) -> Self:
-        if self.oscillates:
-            raise PydanticCustomError(
-                "static",
-                "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but a critical load has no "
-                "time; leave it out",
-            )
-        return self
-
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
-        """The critical loads of the rod of another problem."""
+        """The critical loads of the rod of another problem; those of a motion have no time function."""
         given = {name: getattr(problem, name) for name in RodProblem.model_fields}
         return cls(**given, newton=getattr(problem, "newton", NewtonSettings()), count=count)
 
@@ -80,14 +69,17 @@ class RodCriticalLoads(RodProblem):
         UnstableError : the unloaded rod is unstable.
         NotConvergedError : the path cannot be followed to its first special point.
         """
-        geometry = self.rod.geometry()
+        geometry = self.geometry
         system = self.system(geometry)
         check_supports(self.rod, geometry, system.constrained, name)
         solver = EquilibriumSolver(system, self.newton, name)
         solver.remedy = "take a smaller 'search.first' and 'search.longest', or check supports and loads"
         solver.limit_remedy = "check supports and loads"
         linear = linear_criterion(solver, self.count)
-        unit = float(linear.factor[0]) if linear.factor.size else 1.0
+        lowest = float(linear.factor[0]) if linear.factor.size else 1.0
+        unit = (
+            lowest if system.symmetric else 1.0
+        )  # without a potential the first to come may be flutter
         arc = ArcLengthSettings(
             self.search.first,
             self.search.longest,
@@ -100,7 +92,7 @@ class RodCriticalLoads(RodProblem):
         found = [] if true is None else [true]
         special, labels, statistics = special_fields(self.rod, geometry, found)
         if linear.factor.size:
-            statistics["linear_load_factor"] = unit
+            statistics["linear_load_factor"] = lowest
         statistics |= {"load_factor_reached": float(reached), "iterations": solver.iterations}
         fields = {**_reference(geometry), **_linear(self.rod, linear), **special}
         words = {"axis": self.rod.kinematics.axes, "special": labels}

@@ -8,8 +8,6 @@ from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import model_validator
-from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Run
@@ -26,6 +24,7 @@ from cosserat.solvers.modes import SmallMotions, small_motions
 from cosserat.solvers.system import History, MechanicalSystem
 
 Array = NDArray[np.float64]
+_MOVED = ("prescribed_displacements", "prescribed_rotations")  # keys of constraints that move supports
 _GROWS = 1e-7  # growth per radian of oscillation below which it is round-off
 
 
@@ -59,23 +58,15 @@ class RodModes(RodProblem):
     branch: Literal["leave", "stay"] = "leave"
     """At a bifurcation of the growing load, whether to leave to a stable equilibrium or to stay on the path."""
 
-    @model_validator(mode="after")
-    def _rests(self) -> Self:
-        if self.about == "equilibrium" and self.oscillates:
-            raise PydanticCustomError(
-                "static",
-                "'prescribed_displacements' or 'prescribed_rotations' has a 'frequency', but an equilibrium has no "
-                "time; leave it out, or take about = 'reference'",
-            )
-        return self
-
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
-        """The modes of the rod of another problem: about its equilibrium, or about the reference if it moves."""
-        given = {name: getattr(problem, name) for name in RodProblem.model_fields}
+        """The modes of the rod of another problem: about its equilibrium, or about the reference if it is a motion."""
+        left = {*LOADS, *_MOVED} if problem.in_time else set()
+        given = {name: getattr(problem, name) for name in RodProblem.model_fields if name not in left}
         newton = getattr(problem, "newton", NewtonSettings())
-        about = "equilibrium" if problem.in_increments else "reference"
-        return cls(**given, newton=newton, count=count, about=about)
+        return cls(
+            **given, newton=newton, count=count, about="reference" if problem.in_time else "equilibrium"
+        )
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """The lowest modes; `name` : name of the case in errors.
@@ -86,7 +77,7 @@ class RodModes(RodProblem):
         NotConvergedError : the loads lead to no equilibrium.
         CrossingError : neighbouring sections of the equilibrium cross.
         """
-        geometry = self.rod.geometry()
+        geometry = self.geometry
         rest = self._rest(geometry, name)
         check_crossing(geometry, rest.fields["x"][1], rest.fields["d"][1], self.rod.below, name)
         found = small_motions(

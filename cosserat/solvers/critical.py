@@ -8,7 +8,7 @@ True: K(f) itself is singular, at the first bifurcation or limit point of the pa
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -33,7 +33,7 @@ Fields = NDArray[np.float64]
 _LARGEST_RATE = 2.0**-4  # rotation [rad] or stretch of a part in the longest difference
 _LEVELS = 4  # of Richardson's extrapolation, each half the step of the one before
 _NEGLIGIBLE = 1e-9  # of the largest inverse factor, below which one is round-off
-_REAL = 1e-9  # of the modulus, up to which an imaginary part is round-off
+_BESIDE = 1e-6  # of a factor, at which the determinant is compared on both sides
 
 
 @dataclass(frozen=True)
@@ -88,8 +88,22 @@ def _inverse_factors(
         inverse, vectors = eigh(geometric.toarray(), stiffness.toarray())
         return inverse, vectors
     values, vectors = eig(geometric.toarray(), stiffness.toarray())
-    real = np.abs(values.imag) <= _REAL * np.abs(values)
+    real = [
+        i for i in np.flatnonzero(values.imag == 0) if _crosses(geometric, stiffness, values.real[i])
+    ]
     return values.real[real], vectors.real[:, real]
+
+
+def _crosses(geometric: dia_array, stiffness: dia_array, inverse: float) -> bool:
+    """Whether the determinant of K(0) + f K'(0) changes its sign at a factor, as it does where it is a single root.
+
+    Under a load without a potential a multiple root of none, as of Beck's column, splits into many by round-off.
+    """
+    signs = [
+        np.linalg.slogdet((inverse * (1 + away) * stiffness - geometric).toarray())[0]
+        for away in (-_BESIDE, _BESIDE)
+    ]
+    return bool(signs[0] != signs[1])
 
 
 def _hessian(system: MechanicalSystem, q: Vector, history: History, factor: float) -> dia_array:
@@ -124,15 +138,8 @@ class ScaledSystem(MechanicalSystem):
     @classmethod
     def of(cls, system: MechanicalSystem, scale: float) -> ScaledSystem:
         """A body with another unit of its load."""
-        return cls(
-            system.internal,
-            system.external,
-            system.constraints,
-            system.space,
-            system.mass,
-            system.damping_rate,
-            scale,
-        )
+        own = {field.name: getattr(system, field.name) for field in fields(MechanicalSystem)}
+        return cls(**own, scale=scale)
 
     @cached_property
     def load_sizes(self) -> tuple[float, float]:

@@ -21,6 +21,9 @@ Dense = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 MOST_DENSE = 1200
 """Free DOFs up to which all eigenvalues are found by dense methods; beyond, a few by sparse ones."""
+_SHIFT = (
+    100.0  # of the round-off of squared frequencies, from which those of a free body are first sought
+)
 _ROUND_OFF_FRACTION = 16 * float(np.finfo(float).eps)  # of the largest squared frequency
 
 
@@ -174,7 +177,9 @@ def _symmetric(
 ) -> tuple[Vector, Dense]:
     """The lowest eigenvalues k and their v, v . M v = 1, as columns; zero where they are round-off."""
     if mass.shape[0] > MOST_DENSE:
-        return _sparse(stiffness, mass, count + negative * supported, supported=supported)
+        more = count + negative * supported  # those nearest zero, on both sides
+        squared, vectors = _sparse(stiffness, mass, more, supported=supported)
+        return squared[:count], vectors[:, :count]
     if not supported:
         K, M = stiffness.toarray(), mass.toarray()
         squared, vectors = eigh(K, M)
@@ -228,6 +233,12 @@ def _sparse(
     start = np.ones(mass.shape[0])
     (most,) = eigsh(stiffness, 1, mass, which="LM", v0=start, return_eigenvectors=False)
     rounding = 0.0 if supported else _ROUND_OFF_FRACTION * abs(most)
-    squared, vectors = eigsh(stiffness, count, mass, sigma=-16 * rounding, v0=start)
+    shift = -_SHIFT * rounding
+    squared, vectors = eigsh(stiffness, count, mass, sigma=shift, v0=start)
+    elastic = squared[squared > -shift]
+    if (
+        not supported and elastic.size
+    ):  # so near to zero the matrix that is solved with is hardly regular
+        squared, vectors = eigsh(stiffness, count, mass, sigma=-elastic.min(), v0=start)
     order = np.argsort(squared)
     return np.where(np.abs(squared) > rounding, squared, 0.0)[order], vectors[:, order]
