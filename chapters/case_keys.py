@@ -45,6 +45,18 @@ page.keys("rod motion")
 page.keys("rod path")
 
 # %% [markdown]
+# ## modes
+
+# %% tags=["remove-input"]
+page.keys("modes")
+
+# %% [markdown]
+# ## critical loads
+
+# %% tags=["remove-input"]
+page.keys("critical loads")
+
+# %% [markdown]
 # ## calibration
 
 # %% tags=["remove-input"]

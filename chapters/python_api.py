@@ -82,6 +82,12 @@
 # .. autoclass:: cosserat.problems.path.RodPath
 #    :members:
 #
+# .. autoclass:: cosserat.problems.modes.RodModes
+#    :members:
+#
+# .. autoclass:: cosserat.problems.critical.RodCriticalLoads
+#    :members:
+#
 # .. autoclass:: cosserat.problems.crawl.Posture
 #    :members:
 #
@@ -163,6 +169,23 @@
 #    :members:
 #
 # .. autofunction:: cosserat.solvers.integrate.integrate
+#
+# .. autofunction:: cosserat.solvers.special.special_points
+#
+# .. autoclass:: cosserat.solvers.special.SpecialPoint
+#    :members:
+#
+# .. autofunction:: cosserat.solvers.critical.linear_criterion
+#
+# .. autoclass:: cosserat.solvers.critical.LinearCriterion
+#    :members:
+#
+# .. autofunction:: cosserat.solvers.critical.first_special_point
+#
+# .. autofunction:: cosserat.solvers.modes.small_motions
+#
+# .. autoclass:: cosserat.solvers.modes.SmallMotions
+#    :members:
 #
 # .. autofunction:: cosserat.solvers.modes.modes
 #

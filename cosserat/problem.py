@@ -46,7 +46,7 @@ class Problem(Parameters, ABC):
     if TYPE_CHECKING:
         kind: str  # each class names its own
     thinned: ClassVar[Mapping[str, int]] = {}
-    """Dimensions thinned in a stored reference, with the approximate number of values kept."""
+    """Dimensions thinned in a stored reference, with the approximate number of values kept; 0 keeps nothing."""
 
     @abstractmethod
     def solve(self, name: str, run: Run = ALONE) -> Solution:

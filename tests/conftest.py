@@ -21,6 +21,13 @@ settings.load_profile("project")
 ROOT = Path(__file__).parents[1]
 
 
+def examples():
+    """Cases of kinds that no publication has a case of, by name."""
+    import cosserat
+
+    return cosserat.load_cases(ROOT / "tests" / "examples.toml")
+
+
 def make_rod(**changes):
     """The rod of section 3.5 with changes."""
     import cosserat
@@ -70,7 +77,7 @@ def differentiated(potential, q):
 
 @pytest.fixture(scope="session")
 def solved(tmp_path_factory):
-    """Every published case by name, solved when it is first asked for, once for all processes of a run."""
+    """Every published case and example by name, solved when it is first asked for, once for all processes of a run."""
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
     return Solved(shared / "solved")
@@ -91,7 +98,7 @@ class Solved(Mapping):
             with (self.folder / f"{name}.lock").open("w") as lock:
                 fcntl.flock(lock, fcntl.LOCK_EX)
                 if not path.exists():
-                    cosserat.save(cosserat.run(name), path)
+                    cosserat.save(cosserat.run(examples().get(name, name)), path)
             self.known[name] = cosserat.load(path)
         return self.known[name]
 

@@ -14,6 +14,7 @@ LABELS = {
     "part": "part of the energy of the consistent rod",
     "measure": "what is compared with an exact answer",
     "term": "term of the strain energy, eq. (3.4.11)",
+    "special": "kind of a special point of a path of equilibria",
 }
 """Meaning of the dimensions whose values are names, not numbers."""
 
@@ -146,6 +147,107 @@ VARIABLES: dict[str, Variable] = {
     ),
     "potential": Variable(
         ("point",), "J", "strain energy of the rod less the work of its couples", "", "3.4.11", 1e-9
+    ),
+    "natural_frequency": Variable(("mode",), "Hz", "natural frequency, without damping", "", "", 1e-9),
+    "growth_rate": Variable(
+        ("mode",), "s-1", "rate of growth of a mode, positive if it is unstable", "", "", 1e-9
+    ),
+    "mode_u": Variable(
+        ("mode", "vertex", "axis"),
+        "kg-0.5",
+        "centreline displacement of a mode of unit modal mass, its largest component positive",
+        "",
+        "",
+        1e-7,
+    ),
+    "mode_delta": Variable(
+        ("mode", "vertex", "axis"),
+        "kg-0.5",
+        "director displacement of a mode of unit modal mass",
+        "",
+        "",
+        1e-7,
+    ),
+    "mode_u_imaginary": Variable(
+        ("mode", "vertex", "axis"),
+        "kg-0.5",
+        "imaginary part of the centreline displacement of a mode, a quarter of a period before the real one",
+        "",
+        "",
+        1e-7,
+    ),
+    "mode_delta_imaginary": Variable(
+        ("mode", "vertex", "axis"),
+        "kg-0.5",
+        "imaginary part of the director displacement of a mode, a quarter of a period before the real one",
+        "",
+        "",
+        1e-7,
+    ),
+    "effective_mass": Variable(
+        ("mode", "axis"), "kg", "effective mass of a mode in translation along an axis", "", "", 1e-9
+    ),
+    "effective_inertia": Variable(
+        ("mode",),
+        "kg m2",
+        "effective moment of inertia of a mode in rotation about the first vertex",
+        "",
+        "",
+        1e-9,
+    ),
+    "total_mass": Variable(("axis",), "kg", "mass of the whole rod, in translation", "", "", 1e-12),
+    "total_inertia": Variable((), "kg m2", "moment of inertia about the first vertex", "", "", 1e-12),
+    "linear_load_factor": Variable(
+        ("mode",), "1", "critical load by the linear criterion, as a fraction of the loads", "", "", 1e-9
+    ),
+    "linear_u": Variable(
+        ("mode", "vertex", "axis"),
+        "1",
+        "centreline displacement of a mode of the linear criterion, the largest component one",
+        "",
+        "",
+        1e-7,
+    ),
+    "linear_delta": Variable(
+        ("mode", "vertex", "axis"),
+        "1",
+        "director displacement of a mode of the linear criterion",
+        "",
+        "",
+        1e-7,
+    ),
+    "special_load_factor": Variable(
+        ("special",),
+        "1",
+        "load at a limit point or a bifurcation, as a fraction of the loads",
+        "",
+        "",
+        1e-9,
+    ),
+    "special_after": Variable(
+        ("special",), "1", "index of the point of the path before a special point", "", "", 1e-9
+    ),
+    "special_x": Variable(
+        ("special", "vertex", "axis"), "m", "centreline position at a special point", "", "", 1e-9
+    ),
+    "special_d": Variable(
+        ("special", "vertex", "axis"), "m", "director at a special point", "", "", 1e-9
+    ),
+    "special_u": Variable(
+        ("special", "vertex", "axis"),
+        "1",
+        "centreline displacement of the mode that costs no energy there, the largest component one",
+        "",
+        "",
+        1e-7,
+    ),
+    "special_delta": Variable(
+        ("special", "vertex", "axis"),
+        "1",
+        "director displacement of the mode that costs no energy there",
+        "",
+        "",
+        1e-7,
     ),
     "vertices": Variable(("mesh",), "1", "number of vertices", "N", "3.3.1", 1e-9),
     "beams_coefficients": Variable(

@@ -23,7 +23,9 @@ def picture(data: xr.Dataset) -> Figure:
     )
     moved = np.linalg.norm(data.x.to_numpy() - data.x_ref.to_numpy(), axis=2).max(axis=1)
     draw_path(right, moved, data.load_factor.to_numpy(), data)
+    draw_special(right, data)
     right.set(xlabel="largest displacement [m]", ylabel="load / full load [1]")
+    right.legend()
     return figure
 
 
@@ -49,3 +51,23 @@ def draw_path(ax: Axes, across: Array, load: Array, run: xr.Dataset) -> None:
             across[~stable], load[~stable], "o", markerfacecolor="none", color=VARIANT, label="unstable"
         )
     ax.legend()
+
+
+def draw_special(ax: Axes, run: xr.Dataset) -> None:
+    """Mark limit points and bifurcations on the load over the largest displacement, each with its load."""
+    if "special" not in run.sizes:
+        return
+    moved = np.linalg.norm(run.special_x.to_numpy() - run.x_ref.to_numpy(), axis=2).max(axis=1)
+    for across, load, kind in zip(
+        moved, run.special_load_factor.to_numpy(), run.special.to_numpy(), strict=True
+    ):
+        ax.plot(
+            [across],
+            [load],
+            linestyle="none",
+            marker="^" if "limit" in kind else "D",
+            markersize=6,
+            color=INK,
+            zorder=5,
+            label=f"{kind} at {load:.4g}",
+        )

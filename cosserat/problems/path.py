@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Literal, Self
+from dataclasses import replace
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from pydantic_core import PydanticCustomError
 from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
+from cosserat.problems.special import special_fields
 from cosserat.problems.static import check_supports
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
@@ -22,6 +24,7 @@ from cosserat.solution import Field, Solution
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.incremental import unloaded
+from cosserat.solvers.special import SpecialPoint, special_points
 
 Array = NDArray[np.float64]
 
@@ -44,10 +47,12 @@ class ArcSettings(Parameters):
 class RodPath(RodProblem):
     """Equilibria along a path, as all loads grow together from zero.
 
-    The path ends when they reach their full size, or after the last arc.
+    The path ends when they reach their full size, or after the last arc.  Limit points, bifurcations and the first
+    instability are located between its points to round-off.
     """
 
     kind: Literal["rod path"] = "rod path"
+    thinned: ClassVar[Mapping[str, int]] = {"special": 0}
     newton: NewtonSettings = NewtonSettings()
     arc: ArcSettings = ArcSettings()
 
@@ -92,17 +97,49 @@ class RodPath(RodProblem):
             if points:
                 error.reached = _solution(self.rod, geometry, points, solver)
             raise
-        return _solution(self.rod, geometry, points, solver)
+        return _with_special_points(
+            _solution(self.rod, geometry, points, solver), self.rod, geometry, points, solver
+        )
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
         """Number of points, and the load reached."""
         reached = statistics["load_factor_reached"]
         end = "" if reached == 1 else "; that was the last arc, raise 'arc.count' to continue"
+        special = [
+            f"{count} {word}{'s' * (count > 1)}"
+            for word in ("limit point", "bifurcation")
+            if (count := int(statistics.get(f"{word.replace(' ', '_')}s", 0)))
+        ]
+        if "first_instability_load_factor" in statistics:
+            first = statistics["first_instability_load_factor"]
+            special.append(f"first unstable at {first:.8g} of the load")
+        end = "".join(f", {words}" for words in special) + end
         return (
             f"{statistics['points']} points, {statistics['unstable_points']} of them unstable, up to {reached:.4g} of "
             f"the load, {statistics['iterations']} Newton iterations{end}"
         )
+
+
+def _with_special_points(
+    found: Solution, rod: Rod, geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver
+) -> Solution:
+    """A path with its limit points and bifurcations."""
+    special: list[SpecialPoint] = []
+    after: list[int] = []
+    for before, beyond in solver.crossings:
+        within = special_points(solver.system, solver.name, before, beyond)
+        special += within
+        after += len(within) * [next(k for k, point in enumerate(points) if point is before)]
+    fields, labels, statistics = special_fields(rod, geometry, special)
+    if special:
+        fields["special_after"] = (("special",), np.array(after, float))
+    return replace(
+        found,
+        fields={**found.fields, **fields},
+        statistics={**found.statistics, **statistics},
+        labels={**found.labels, "special": labels},
+    )
 
 
 def _placed(rod: Rod, geometry: Geometry, point: Equilibrium) -> tuple[Array, Array]:

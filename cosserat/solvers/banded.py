@@ -6,10 +6,15 @@ A band is an array of shape (n, w + 1): row j holds column j of the lower triang
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dpbsv
+
+if TYPE_CHECKING:
+    from scipy.sparse import dia_array
 
 Vector = NDArray[np.float64]
 Band = NDArray[np.float64]
@@ -117,3 +122,17 @@ def to_dense(band: Band) -> NDArray[np.float64]:
         j = np.arange(n - k)
         dense[j + k, j] = dense[j, j + k] = band[: n - k, k]
     return dense
+
+
+def to_sparse(band: Band, skew: Band = NO_BAND) -> dia_array:
+    """The full matrix, sparse, (n, n); skew : as in `skew_product`, without rows there is none."""
+    from scipy.sparse import dia_array, tril
+
+    n, width = band.shape
+    below = range(min(width, n))
+    lower = dia_array((band.T[: len(below)], [-k for k in below]), shape=(n, n)).tocsr()
+    full = lower + tril(lower, -1).T
+    if not skew.size:
+        return full
+    lower = dia_array((skew.T[: len(below)], [-k for k in below]), shape=(n, n)).tocsr()
+    return full + tril(lower, -1) - tril(lower, -1).T

@@ -61,7 +61,8 @@ def trace_path(
     """
     yield point
     space, origin, went_away, left = solver.system.space, None, False, 0
-    direction = _tangent(solver, point, None)
+    direction = path_tangent(solver, point, None)
+    turned: bool | None
     ds = arc.first
     for _ in range(arc.count):
         before = solver.iterations
@@ -72,10 +73,11 @@ def trace_path(
         ):
             ds /= 2
             continue
-        effort = solver.iterations - before
+        effort, turned = solver.iterations - before, direction[1] * ahead[1] < 0
         if across is not None:
             motion, decided = solver.buckling_direction(*across)
             if decided or left < arc.branches:
+                solver.note_crossing(*across)
                 solver.branch_switches += 1
                 if not decided:
                     left += 1
@@ -84,12 +86,13 @@ def trace_path(
                     yield across[0]
                 origin = point = across[0]
                 found, direction, ds = _switch_branch(solver, point, motion, arc)
-                ahead = _tangent(solver, found, direction)
+                ahead, turned = path_tangent(solver, found, direction), None
         if (found.factor - arc.until) * (point.factor - arc.until) <= 0:
             last = _at_end(solver, point, found, arc.until)
             if last.negative != point.negative and ds > _BISECTION_TOLERANCE * arc.first:
                 ds /= 2  # the point lies beyond a limit point
                 continue
+            solver.note_crossing(point, last, turned=turned)
             yield last
             return
         _check_limit(solver, point, found, arc)
@@ -98,12 +101,17 @@ def trace_path(
             went_away = went_away or distance > _RETURN_DISTANCE * arc.first
             if went_away and distance < ds:
                 raise _returned(solver, origin, point)
+        solver.note_crossing(point, found, turned=turned)
         yield found
         point, direction = found, ahead
-        if effort <= _TARGET_ITERATIONS:
-            ds = min(arc.longest, 2 * ds)
-        elif effort > _MAX_TARGET_ITERATIONS:
-            ds /= 2
+        ds = _next_arc(ds, effort, arc)
+
+
+def _next_arc(ds: float, iterations: int, arc: ArcLengthSettings) -> float:
+    """The length of the next arc, after one that took so many iterations."""
+    if iterations <= _TARGET_ITERATIONS:
+        return min(arc.longest, 2 * ds)
+    return ds / 2 if iterations > _MAX_TARGET_ITERATIONS else ds
 
 
 def _returned(solver: EquilibriumSolver, origin: Equilibrium, last: Equilibrium) -> NotConvergedError:
@@ -177,9 +185,9 @@ def _next(
 ) -> tuple[Equilibrium, tuple[Vector, float], float] | None:
     """The next point along a direction, its direction and its arc; None if there is none."""
     while ds > SMALLEST * arc.first:
-        found = _corrected(solver, point, *direction, ds, _TANGENT_TOLERANCE * ds)
+        found = corrected(solver, point, *direction, ds, _TANGENT_TOLERANCE * ds)
         if found is not None:
-            ahead = _tangent(solver, found, direction)
+            ahead = path_tangent(solver, found, direction)
             if _cosine(direction, ahead) > _LEAST_COSINE:
                 return found, ahead, ds
         ds /= 2
@@ -238,7 +246,7 @@ def _locate_bifurcation(
         _wide(before, after) and high - low > _FINEST_BISECTION * arc.first
     ):
         middle = high if after is None else (low + high) / 2
-        found = _corrected(solver, point, *direction, middle, _TANGENT_TOLERANCE * ds)
+        found = corrected(solver, point, *direction, middle, _TANGENT_TOLERANCE * ds)
         if found is not None and found.negative != point.negative:
             high, after = middle, found
         elif after is None:
@@ -260,10 +268,10 @@ def _wide(before: Equilibrium, after: Equilibrium | None) -> bool:
 def _goes_on(solver: EquilibriumSolver, before: Equilibrium, found: Equilibrium) -> bool:
     """Whether a point lies ahead of the one before it."""
     chord = found.q - before.q, found.factor - before.factor
-    return _cosine(_tangent(solver, before, chord), chord) > _LEAST_COSINE
+    return _cosine(path_tangent(solver, before, chord), chord) > _LEAST_COSINE
 
 
-def _norm(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
+def step_size(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
     """Length of a step, in step limits."""
     fraction = space.max_step_fraction(q, step)
     return 1 / fraction if np.isfinite(fraction) else 0.0
@@ -271,7 +279,7 @@ def _norm(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
 
 def _distance(space: ConfigurationSpace, one: Equilibrium, other: Equilibrium) -> float:
     """Distance of two points, in step limits and load factors."""
-    return float(np.hypot(_norm(space, one.q, other.q - one.q), other.factor - one.factor))
+    return float(np.hypot(step_size(space, one.q, other.q - one.q), other.factor - one.factor))
 
 
 def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | None:
@@ -287,7 +295,7 @@ def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | No
     return np.where(system.constrained, system.prescribed_rate(point.factor), change)
 
 
-def _tangent(
+def path_tangent(
     solver: EquilibriumSolver, point: Equilibrium, before: tuple[Vector, float] | None
 ) -> tuple[Vector, float]:
     """Direction of the path at a point: changes of DOFs and factor, of unit length, forward from the point before."""
@@ -296,7 +304,7 @@ def _tangent(
         change = np.where(
             system.constrained, system.prescribed_rate(point.factor), np.zeros_like(point.q)
         )
-    size = np.hypot(_norm(system.space, point.q, change), 1.0)
+    size = np.hypot(step_size(system.space, point.q, change), 1.0)
     change, slope = change / size, 1.0 / size
     if before is not None and float(change @ before[0]) + slope * before[1] * _weight(before[0]) < 0:
         change, slope = -change, -slope
@@ -308,7 +316,7 @@ def _weight(tangent: Vector) -> float:
     return float(tangent @ tangent) or 1.0
 
 
-def _corrected(
+def corrected(
     solver: EquilibriumSolver,
     point: Equilibrium,
     direction: Vector,
@@ -333,7 +341,7 @@ def _corrected(
         tangent.constrain(constrained)
         if residual <= tolerance or stalled(residual, last, rounding):
             strayed = np.hypot(
-                _norm(space, q, q - point.q - ds * direction), factor - point.factor - ds * slope
+                step_size(space, q, q - point.q - ds * direction), factor - point.factor - ds * slope
             )
             if strayed > stray:
                 return None  # an equilibrium of another path
@@ -366,8 +374,8 @@ def _switch_branch(
     """
     space, ds = solver.system.space, arc.first
     while ds > SMALLEST * arc.first:
-        found = _corrected(solver, point, motion, 0.0, ds, arc.first)
-        if found is not None and _norm(space, point.q, found.q - point.q) > ds / 4:
+        found = corrected(solver, point, motion, 0.0, ds, arc.first)
+        if found is not None and step_size(space, point.q, found.q - point.q) > ds / 4:
             size = _distance(space, found, point)
             away = (found.q - point.q) / size, (found.factor - point.factor) / size
             return found, away, ds

@@ -72,6 +72,7 @@ class EquilibriumSolver:
     branch_switches : how often the solver moved to another path at a bifurcation.
     undecided_factors : load factors at which symmetry leaves the side of buckling open.
     passed_limit_load : whether the load had to fall before it could grow.
+    crossings : equilibria on both sides of each limit point and each bifurcation of a traced path, in its order.
     """
 
     def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
@@ -80,6 +81,7 @@ class EquilibriumSolver:
         self.iterations = self.cutbacks = self.branch_switches = 0
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
+        self.crossings: list[tuple[Equilibrium, Equilibrium]] = []
         self.residual = self.tolerance = np.inf  # of the last attempt
         self.limit_remedy = (
             "the body jumps to a state that no path reaches; reduce the load, or use kind = 'rod path'"
@@ -245,6 +247,16 @@ class EquilibriumSolver:
         if decided and pull < 0:
             motion = -motion
         return space.max_step_fraction(q, motion) * motion, decided
+
+    def note_crossing(
+        self, point: Equilibrium, found: Equilibrium, *, turned: bool | None = False
+    ) -> None:
+        """Keep two neighbours of a path if a limit point or a bifurcation lies between them.
+
+        turned : whether the load turns back between them; None where the second is on another path.
+        """
+        if turned or (turned is not None and found.negative != point.negative):
+            self.crossings.append((point, found))
 
     def _polished(self, point: Equilibrium) -> Vector:
         """The DOFs of a stable point after Newton steps beyond the tolerance, down to round-off."""

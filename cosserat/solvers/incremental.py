@@ -20,12 +20,15 @@ _MAX_ARCS = 10_000  # arcs on the way to one equilibrium
 _MAX_CUTBACKS = 4  # rejected increments at one factor before the path is traced
 
 
-def solve_full_load(solver: EquilibriumSolver) -> Equilibrium:
+def solve_full_load(solver: EquilibriumSolver, *, stay: bool = False) -> Equilibrium:
     """The equilibrium at the load factor one, reached as the load grows from zero.
+
+    stay : on its path where symmetry would let it, also beyond its loss of stability.
 
     Raises
     ------
-    NotConvergedError : no path leads there, or to no stable equilibrium; the last point is its `state`.
+    NotConvergedError : no path leads there, or, unless it stays, to no stable equilibrium; the last point is its
+        `state`.
     """
     with np.errstate(
         over="ignore", invalid="ignore"
@@ -37,14 +40,19 @@ def solve_full_load(solver: EquilibriumSolver) -> Equilibrium:
             return point
         point = solver.correct(point.q, point.factor, point.history) or point
         arc = ArcLengthSettings(
-            first=0.05, longest=0.3, count=_MAX_ARCS, until=1.0, limit=3.0, branches=_MAX_ARCS
+            first=0.05,
+            longest=0.3,
+            count=_MAX_ARCS,
+            until=1.0,
+            limit=3.0,
+            branches=0 if stay else _MAX_ARCS,
         )
         last = point
         for last in trace_path(solver, point, arc):
-            solver.passed_limit_load |= not last.stable
+            solver.passed_limit_load |= not (last.stable or stay)
     if last.factor != 1.0:
         raise solver.failure(point.factor, 1.0, last)
-    if not last.stable:
+    if not (last.stable or stay):
         raise solver.stopped(f"the load leads to an unstable equilibrium; {solver.limit_remedy}", last)
     return last
 

@@ -15,7 +15,7 @@ from scipy.linalg import eigvalsh
 
 from cosserat.errors import DivergedError, InputError
 from cosserat.parameters import Parameters, Quantity
-from cosserat.solvers.banded import Band, Vector, band_product
+from cosserat.solvers.banded import Vector, band_product, to_sparse
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 if TYPE_CHECKING:
@@ -180,13 +180,4 @@ def free_matrices(
     tangent = Tangent(system)
     system.assemble(q, system.history if history is None else history, 1.0, tangent)
     free = ~system.constrained
-    return tuple(_sparse(band)[free][:, free].tocsc() for band in (tangent.band, system.inertia))
-
-
-def _sparse(band: Band) -> dia_array:
-    from scipy.sparse import dia_array, tril
-
-    n, width = band.shape
-    below = range(min(width, n))
-    lower = dia_array((band.T[: len(below)], [-k for k in below]), shape=(n, n)).tocsr()
-    return lower + tril(lower, -1).T
+    return tuple(to_sparse(band)[free][:, free].tocsc() for band in (tangent.band, system.inertia))

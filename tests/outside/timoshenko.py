@@ -43,15 +43,15 @@ class Piece:
         return unit[:, None] * expm(rates * self.length * unit[None, :] / unit[:, None]) / unit[None, :]
 
 
-def frequencies(pieces, count, tip_mass=0.0, tip_inertia=0.0, start=1.0, factor=1.02):
-    """The lowest frequencies [Hz] of a beam clamped at its first end, free at the last, with a mass there."""
+def frequencies(pieces, count, tip_mass=0.0, tip_inertia=0.0, start=1.0, factor=1.02, clamped=True):
+    """The lowest frequencies [Hz] of a beam clamped (or free) at its first end, free at the last, with a mass there."""
     L, EI = sum(p.length for p in pieces), pieces[0].EI
 
     def free_end(omega):
         total = np.eye(4)
         for piece in pieces:
             total = piece.transfer(omega) @ total
-        ((w, a, M, Q),) = [total[:, 2:]]
+        w, a, M, Q = total[:, 2:] if clamped else total[:, :2]
         # at the end: M = J omega^2 a and Q = M_tip omega^2 w
         return np.array([M - tip_inertia * omega**2 * a, Q - tip_mass * omega**2 * w])
 

@@ -134,6 +134,8 @@ BASES = {
         rod = { energy = "published", calibration = { c1 = 1, c2 = 1, c3 = 1, c4 = 1, c5 = 1, c6 = 1, c7 = 1 } }
     """,
     "rod path": 'like = ["elastica", "_loads"]\nkind = "rod path"',
+    "modes": 'like = ["elastica", "_loads"]\nkind = "modes"',
+    "critical loads": 'like = ["elastica", "_loads"]\nkind = "critical loads"',
     "rod motion": 'like = ["vibration_c4_20", "_loads"]',
     "calibration": 'like = "calibration"',
     "convergence": 'like = "convergence"',

@@ -4,10 +4,12 @@ import ast
 import importlib
 import inspect
 import io
+import itertools
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, examples
+from PIL import Image, ImageSequence
 
 import cosserat
 from cosserat.cases.catalogue import parse
@@ -30,9 +32,10 @@ every_kind = pytest.mark.parametrize("kind", kinds())
 
 
 def case_of_kind(kind):
-    """The first published case of that kind."""
-    found = [case for case in cosserat.published().values() if case.problem.kind == kind]
-    assert found, f"no published case is of kind '{kind}'; add one to a case file"
+    """The first published case of that kind, or else the first of `tests/examples.toml`."""
+    known = [*cosserat.published().values(), *examples().values()]
+    found = [case for case in known if case.problem.kind == kind]
+    assert found, f"no case is of kind '{kind}'; add one to a case file or to tests/examples.toml"
     return found[0]
 
 
@@ -103,6 +106,19 @@ def test_a_result_is_drawn_or_its_picture_is_refused(solved, kind, tmp_path, cap
     for ax in axes:
         assert ax.get_xlabel().endswith("]"), ax.get_xlabel()
         assert ax.get_ylabel().endswith("]"), ax.get_ylabel()
+
+
+@every_kind
+def test_a_result_is_animated_or_nothing_moves(solved, kind, tmp_path):
+    """A film of as many frames as asked for, each of them another picture."""
+    if not kinds()[kind].animate:
+        return
+    film = kinds()[kind].animation_function()(solved[case_of_kind(kind).name], frames=4)
+    film.save(tmp_path / "film.gif", writer="pillow", dpi=40)
+    with Image.open(tmp_path / "film.gif") as shown:
+        pictures = [np.asarray(frame.convert("L")) for frame in ImageSequence.Iterator(shown)]
+    assert len(pictures) == 4
+    assert all((one != other).any() for one, other in itertools.pairwise(pictures))
 
 
 def stored(solved, case):

@@ -376,14 +376,14 @@ def test_refused_increments_leave_no_trace(commits):
 
 def test_refused_arcs_leave_no_trace(monkeypatch):
     """Arcs begin so long that the path turns too sharply within them."""
-    found, original = [], continuation._corrected
+    found, original = [], continuation.corrected
 
     def noted(*given):
         point = original(*given)
         found.append(point)
         return point
 
-    monkeypatch.setattr(continuation, "_corrected", noted)
+    monkeypatch.setattr(continuation, "corrected", noted)
     path = followed(snapping_slider(1.0), first=0.6, longest=0.6)
     assert len(found) > len(path)
     assert [p.history[0][1] for p in path] == list(range(1, len(path) + 1))

@@ -1,0 +1,159 @@
+"""Critical loads of a rod: by the linear criterion, and by the true one, each with its modes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, Self
+
+import numpy as np
+
+from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.problem import ALONE, Run
+from cosserat.problems.special import scaled, special_fields
+from cosserat.problems.static import check_supports
+from cosserat.rods.problem import RodProblem
+from cosserat.rods.reference import Geometry
+from cosserat.rods.rod import Rod
+from cosserat.solution import Field, Solution
+from cosserat.solvers.continuation import ArcLengthSettings
+from cosserat.solvers.critical import (
+    LinearCriterion,
+    first_special_point,
+    linear_criterion,
+)
+from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
+from cosserat.solvers.special import SpecialPoint
+
+
+class SearchSettings(Parameters):
+    """Search along the path of equilibria; arcs combine radians of the section that rotates most with the load."""
+
+    first: Annotated[float, Quantity("1", above=0)] = 0.05
+    """Length of the first arc; the load counts in multiples of the lowest critical load of the linear criterion."""
+    longest: Annotated[float, Quantity("1", above=0)] = 0.3
+    """Length of the longest arc."""
+    count: Annotated[int, Count(at_least=1, at_most=100_000)] = 500
+    """Most arcs."""
+    limit: Annotated[float, Quantity("1", above=0)] = 3.0
+    """Where the search ends: a multiple of the lowest load of the linear criterion; of the loads themselves if it has
+    none, or if a load has no potential."""
+
+
+class RodCriticalLoads(RodProblem):
+    """Critical loads as multiples of the given loads, which grow together from zero.
+
+    The linear criterion (linear buckling) adds to the stiffness of the unloaded rod its first derivative by the load,
+    the geometric stiffness.  The true criterion follows the equilibria themselves to the first that is singular, a
+    bifurcation or a limit point.  The largest displacement of a mode is one.
+    """
+
+    kind: Literal["critical loads"] = "critical loads"
+    newton: NewtonSettings = NewtonSettings()
+    count: Annotated[int, Count(at_least=1, at_most=100_000)] = 4
+    """Most critical loads of the linear criterion, from the lowest; only loads of the given sign count."""
+    search: SearchSettings = SearchSettings()
+    """The search for the true one."""
+
+    @classmethod
+    def of(cls, problem: RodProblem, count: int) -> Self:
+        """The critical loads of the rod of another problem; those of a motion have no time function."""
+        given = {name: getattr(problem, name) for name in RodProblem.model_fields}
+        return cls(**given, newton=getattr(problem, "newton", NewtonSettings()), count=count)
+
+    def solve(self, name: str, run: Run = ALONE) -> Solution:
+        """Both criteria; `name` : name of the case in errors.
+
+        Raises
+        ------
+        UnsupportedRodError : a rigid motion is left free.
+        UnstableError : the unloaded rod is unstable.
+        NotConvergedError : the path cannot be followed to its first special point.
+        """
+        geometry = self.geometry
+        system = self.system(geometry)
+        check_supports(self.rod, geometry, system.constrained, name)
+        solver = EquilibriumSolver(system, self.newton, name)
+        solver.remedy = "take a smaller 'search.first' and 'search.longest', or check supports and loads"
+        solver.limit_remedy = "check supports and loads"
+        linear = linear_criterion(solver, self.count)
+        lowest = float(linear.factor[0]) if linear.factor.size else 1.0
+        unit = (
+            lowest if system.symmetric else 1.0
+        )  # without a potential the first to come may be flutter
+        arc = ArcLengthSettings(
+            self.search.first,
+            self.search.longest,
+            self.search.count,
+            until=self.search.limit,
+            limit=2 * self.search.limit,
+            branches=0,
+        )
+        true, reached = first_special_point(solver, arc, unit)
+        found = [] if true is None else [true]
+        special, labels, statistics = special_fields(self.rod, geometry, found)
+        if linear.factor.size:
+            statistics["linear_load_factor"] = lowest
+        statistics |= {"load_factor_reached": float(reached), "iterations": solver.iterations}
+        fields = {**_reference(geometry), **_linear(self.rod, linear), **special}
+        words = {"axis": self.rod.kinematics.axes, "special": labels}
+        return Solution(
+            fields, statistics, words, self._warnings(linear, true, reached, system.symmetric)
+        )
+
+    def _warnings(
+        self, linear: LinearCriterion, true: SpecialPoint | None, reached: float, symmetric: bool
+    ) -> tuple[str, ...]:
+        """What was not found, and what neither criterion sees."""
+        found = []
+        if not linear.factor.size:
+            found.append(
+                "no linear critical load: the linear criterion has none for loads of this sign, however large"
+            )
+        if true is None:
+            found.append(
+                f"no critical load: the path is stable up to {reached:.6g} of the loads, where the search ended; raise "
+                "'search.limit' or 'search.count' to look further"
+            )
+        if not symmetric:
+            found.append(
+                "flutter: a load has no potential, so that the rod may flutter below these loads of divergence; see "
+                "kind = 'modes' at some loads"
+            )
+        return tuple(found)
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Both critical loads, as multiples of the loads."""
+        true, linear = (
+            statistics.get(key) for key in ("first_instability_load_factor", "linear_load_factor")
+        )
+        kind = "a limit point" if statistics["limit_points"] else "a bifurcation"
+        said = [
+            f"no instability up to {statistics['load_factor_reached']:.6g} of the loads"
+            if true is None
+            else f"unstable from {true:.8g} of the loads on, {kind}",
+            "none by the linear criterion" if linear is None else f"linear criterion {linear:.8g}",
+        ]
+        return "; ".join(said)
+
+
+def _reference(geometry: Geometry) -> dict[str, Field]:
+    vector = ("vertex", "axis")
+    return {
+        "xi": (("vertex",), geometry.arc_length),
+        "x_ref": (vector, geometry.X),
+        "d_ref": (vector, geometry.D),
+    }
+
+
+def _linear(rod: Rod, linear: LinearCriterion) -> dict[str, Field]:
+    """Factors and modes of the linear criterion; nothing where it has none."""
+    if not linear.factor.size:
+        return {}
+    shapes = np.array([scaled(rod.kinematics, mode) for mode in linear.mode])
+    along = ("mode", "vertex", "axis")
+    return {
+        "linear_load_factor": (("mode",), linear.factor),
+        "linear_u": (along, shapes[:, 0]),
+        "linear_delta": (along, shapes[:, 1]),
+    }

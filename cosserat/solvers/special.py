@@ -1,0 +1,151 @@
+"""Special points of a path of equilibria: limit points and bifurcations, located between two points of it.
+
+There the Hessian is singular.  Between the two points the path is followed over their chord, by the same corrections as
+its arcs.  Bisection separates the points where the number of negative eigenvalues or the direction of the load changes;
+the secant method then finds the root of the eigenvalue nearest zero, which is smooth along the path, to round-off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosserat.solvers.banded import Vector, absolute_product
+from cosserat.solvers.continuation import corrected, path_tangent, step_size
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
+from cosserat.solvers.indefinite import solve_any
+from cosserat.solvers.system import MechanicalSystem
+
+_SPLIT = (
+    0.4871  # where an interval is divided: not at its middle, where symmetry may put the special point
+)
+_WIDTH = 2.0**-16  # length of an arc [rad, or fraction of the load] below which the secant method begins
+_STRAY = 0.5  # largest distance of the path from the chord, as a fraction of it
+_SECANTS = 12  # most steps of the secant method
+_ROOT = 1e-3  # of the eigenvalues at its start, below which the last one is zero
+_ROUND_OFF = 16 * float(np.finfo(float).eps)  # of |x| . |K| |x|, below which an eigenvalue is zero
+_INVERSE_ITERATIONS = 40  # most steps of inverse iteration
+_SETTLED = 1e-14  # relative change of an eigenvalue at which inverse iteration ends
+LOCATING = NewtonSettings(tolerance=1e-15)
+"""Settings of the solver that locates: equilibria down to round-off."""
+
+
+@dataclass(frozen=True)
+class SpecialPoint:
+    """A limit point or a bifurcation.
+
+    point : the equilibrium there.
+    limit : whether the load turns back along the path; if not, another path crosses.
+    first : whether the path is stable before it and unstable after it.
+    mode : (n,) the motion that costs no energy, its largest entry one.
+    """
+
+    point: Equilibrium
+    limit: bool
+    first: bool
+    mode: Vector
+
+    @property
+    def label(self) -> str:
+        """Its kind in words."""
+        return "limit point" if self.limit else "bifurcation"
+
+
+@dataclass(frozen=True)
+class _Place:
+    """An equilibrium at a distance along the chord; rises : whether the load grows there along it."""
+
+    s: float
+    point: Equilibrium
+    rises: bool
+
+    def differs(self, other: _Place) -> bool:
+        return self.point.negative != other.point.negative or self.rises != other.rises
+
+
+class _Chord:
+    """The path between two of its points, by the distance along their chord."""
+
+    def __init__(
+        self, system: MechanicalSystem, name: str, one: Equilibrium, other: Equilibrium
+    ) -> None:
+        self.solver, self.one = EquilibriumSolver(system, LOCATING, name), one
+        way, rise = other.q - one.q, other.factor - one.factor
+        self.length = float(np.hypot(step_size(system.space, one.q, way), rise))
+        self.way, self.rise = way / self.length, rise / self.length
+        self.ends = self._place(0.0, one), self._place(self.length, other)
+
+    def _place(self, s: float, point: Equilibrium) -> _Place:
+        slope = path_tangent(self.solver, point, (self.way, self.rise))[1]
+        return _Place(s, point, bool(slope > 0))
+
+    def at(self, s: float) -> _Place | None:
+        """The equilibrium at a distance; None if there is none near the chord."""
+        found = corrected(self.solver, self.one, self.way, self.rise, s, _STRAY * self.length)
+        return None if found is None else self._place(s, found)
+
+    def separated(self, low: _Place, high: _Place) -> list[tuple[_Place, _Place]]:
+        """Short intervals in which something changes, in order."""
+        if not low.differs(high):
+            return []
+        middle = self.at(low.s + _SPLIT * (high.s - low.s))
+        if high.s - low.s <= _WIDTH or middle is None:
+            return [(low, high)]
+        return self.separated(low, middle) + self.separated(middle, high)
+
+    def softest(self, point: Equilibrium, start: Vector) -> tuple[float, Vector, float]:
+        """The eigenvalue nearest zero, its vector of unit length, by inverse iteration, and its round-off [N/m]."""
+        system, tangent = self.solver.system, self.solver.tangent
+        system.assemble(point.q, point.history, point.factor, tangent)
+        tangent.constrain(system.constrained)
+        x, value = start, np.inf
+        for _ in range(_INVERSE_ITERATIONS):
+            y = solve_any(tangent.band, x, tangent.skew)[0]
+            if y is None:
+                return 0.0, x, 0.0  # singular to the last bit
+            y = np.where(system.constrained, 0.0, y)
+            before, value = value, float(x @ x) / float(x @ y)
+            x = y / np.linalg.norm(y)
+            if abs(value - before) <= _SETTLED * abs(value):
+                break
+        return value, x, _ROUND_OFF * float(np.abs(x) @ absolute_product(tangent.band, x))
+
+    def root(self, low: _Place, high: _Place) -> tuple[Equilibrium, Vector] | None:
+        """Where the eigenvalue nearest zero is zero between two places, and its vector; None if it is nowhere zero."""
+        constrained = self.solver.system.constrained
+        start = np.where(constrained, 0.0, np.cos(1.7 * np.arange(constrained.size)))
+        (a, x, rounding), (b, y, _) = self.softest(low.point, start), self.softest(high.point, start)
+        ends, allowed = (low.s, high.s), max(_ROOT * max(abs(a), abs(b)), rounding)
+        s, t = ends
+        best, point, mode = (abs(a), low.point, x) if abs(a) < abs(b) else (abs(b), high.point, y)
+        for _ in range(_SECANTS):
+            if a == b:
+                break
+            s, t, a = t, float(np.clip(t - b * (t - s) / (b - a), *ends)), b
+            found = self.at(t)
+            if found is None:
+                break
+            b, y, _ = self.softest(found.point, mode)
+            if abs(b) >= best:
+                break
+            best, point, mode = abs(b), found.point, y
+        return (point, mode) if best <= allowed else None
+
+
+def special_points(
+    system: MechanicalSystem, name: str, before: Equilibrium, after: Equilibrium
+) -> list[SpecialPoint]:
+    """The special points between two neighbouring points of a path, in its order.
+
+    None where another path only comes near, as in an imperfect body, and where two of them cancel within the arc.
+    """
+    chord, found = _Chord(system, name, before, after), []
+    for low, high in chord.separated(*chord.ends):
+        root = chord.root(low, high)
+        if root is not None:
+            point, motion = root
+            first = low.point.stable and not high.point.stable
+            mode = motion / motion[np.abs(motion).argmax()]
+            found.append(SpecialPoint(point, bool(low.rises != high.rises), first, mode))
+    return found
