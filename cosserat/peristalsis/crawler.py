@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import NONE_BY_WORD, Parameters, Quantity
+from cosserat.parameters import Parameters, Quantity
 from cosserat.rods.directed_rod import Section, integrated_stiffnesses
 
 Array = NDArray[np.float64]
@@ -92,13 +92,9 @@ class Crawler(Parameters):
     """Radius of the resting body."""
     material: Annotated[Compressible | Incompressible, Field(discriminator="kind")]
     """Material of the body."""
-    mass: Annotated[Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None, NONE_BY_WORD] = (
-        None
-    )
+    mass: Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None = None
     """Mass of the body, spread evenly; this or 'density' is given."""
-    density: Annotated[
-        Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None, NONE_BY_WORD
-    ] = None
+    density: Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None = None
     """Mass per volume of the resting body; this or 'mass' is given."""
 
     @model_validator(mode="after")

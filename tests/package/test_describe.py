@@ -281,7 +281,7 @@ def test_a_key_is_printed_as_expected():
     )
     assert said_of["start.speed"] == 'a speed in m/s; default "0 m/s" Speed of the whole rod.'
     assert said_of["rod.barrier"].startswith("true or false; default false ")
-    assert said_of["rod.calibration"].startswith('a table or "none"; may be left out ')
+    assert said_of["rod.calibration"].startswith("a table; may be left out ")
     assert said_of["supports[].at"].startswith(
         '"first", "last", the index of a vertex, a distance such as "0.35 m", or a percentage '
     )
