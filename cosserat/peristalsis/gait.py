@@ -39,11 +39,6 @@ class Instant:
     regions: tuple[Region, ...]
     anchor: float
 
-    @property
-    def holding(self) -> Muscle:
-        """The load on the anchored place; a gait has no anchor on a front inside the body."""
-        return next(r.load for r in self.regions if r.left <= self.anchor <= r.right)
-
 
 class Gait(Parameters):
     """A periodic gait.

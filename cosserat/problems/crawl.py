@@ -22,7 +22,7 @@ from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
 _MIN_REGION_LENGTH = 1e-6  # as a fraction of the length; a shorter region is empty
-_EQUAL_STRETCH_TOLERANCE = 1e-9  # regions whose mu_1 differs by less are equally thick
+_EQUAL_STRETCH_TOLERANCE = 1e-3  # regions whose mu_1 differs by less are equally thick
 
 
 class CrawlerProblem(Problem):
@@ -197,33 +197,38 @@ class Crawl(CrawlerProblem):
         return self
 
     def thin_anchors(self) -> list[Instant]:
-        """The instants of a stride whose anchor lies in the thinner kind of region.
+        """The instants of a stride whose anchor lies in a thin region, by the homogeneous states of that instant.
 
         A worm anchors where it thickens, section 2.1: in its anchoring regions.  Under artificial muscles with negative
-        pressure the advancing regions are the thicker ones.
+        pressure the advancing regions are the thicker ones.  Thin: mu_1 is nearer to the least than to the largest.
         """
-        instants = self.gait.instants(self.step)
-        if {r.load for m in instants for r in m.regions} != {"anchoring", "advancing"}:
-            return []
-        halves = (Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing"))
-        mu, _ = InstantProblem(self.crawler, self.loads, halves, "the anchor").plateaus
-        anchoring, advancing = mu[:, 0]
-        if abs(anchoring - advancing) < _EQUAL_STRETCH_TOLERANCE:
-            return []
-        thinner = "advancing" if advancing < anchoring else "anchoring"
-        return [m for m in instants if m.holding == thinner]
+        thin = []
+        for instant in self.gait.instants(self.step):
+            problem = InstantProblem(self.crawler, self.loads, instant.regions, "the anchor")
+            mu = problem.plateaus[0][:, 0]
+            holding = next(
+                mu[n] for n, r in enumerate(problem.regions) if r.left <= instant.anchor <= r.right
+            )
+            apart = np.ptp(mu) > _EQUAL_STRETCH_TOLERANCE
+            if apart and holding < (mu.min() + mu.max()) / 2:
+                thin.append(instant)
+        return thin
 
     def thin_anchor_warning(self) -> str | None:
         """One sentence on `thin_anchors`, None if there are none."""
-        found = {m.time for m in self.thin_anchors()}
-        if not found:
+        thin = self.thin_anchors()
+        if not thin:
             return None
+        found = {m.time for m in thin}
+        held = [m.anchor * self.crawler.length for m in thin]
+        places = f"{min(held):.4g}" + (f" to {max(held):.4g}" if max(held) > min(held) else "")
         times = [m.time for m in self.gait.instants(self.step)]
-        runs = [list(run) for thin, run in itertools.groupby(times, found.__contains__) if thin]
+        runs = [list(run) for is_thin, run in itertools.groupby(times, found.__contains__) if is_thin]
         spans = " and ".join(f"{run[0]:.4g} to {run[-1]:.4g} s" for run in runs)
         return (
-            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on "
-            "lies where the body is thin, and crawlers hold on where they are fat; move 'gait.anchor'"
+            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on, "
+            f"xi = {places} m, lies where the body is thin, and crawlers hold on where they are fat; "
+            "move 'gait.anchor' to a thicker part, or exchange 'gait.gamma' and 'gait.eta'"
         )
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
