@@ -121,6 +121,8 @@
 # .. autoclass:: cosserat.peristalsis.crawler.Crawler
 #    :members:
 #
+# .. autoclass:: cosserat.peristalsis.body.BodySegment
+#
 # .. autoclass:: cosserat.peristalsis.gait.Gait
 #    :members:
 # ```

@@ -120,6 +120,9 @@ VARIABLES: dict[str, Variable] = {
     "xi_section": Variable(
         ("section",), "m", "reference arc length of the cross-sections", r"\xi", "1.3.1", 1e-14
     ),
+    "resting_radius": Variable(
+        ("section",), "m", "radius of the resting sections of a body that varies", "R", "2.2.8", 1e-14
+    ),
     "mu_1": Variable(("section",), "1", "vertical stretch of the sections", r"\mu_1", "1.3.6", 1e-9),
     "mu_2": Variable(("section",), "1", "stretch of the sections across", r"\mu_2", "1.3.6", 1e-9),
     "mu_3": Variable(("section",), "1", "stretch of the centreline", r"\mu_3", "1.3.6", 1e-9),

@@ -29,7 +29,7 @@ _SHOWN = 126  # sections of an animated outline
 def draw_crawler(
     ax: Axes,
     state: xr.Dataset,
-    radius: float,
+    radius: float | Array,
     *,
     base: float = 0.0,
     mark: float | None = None,
@@ -37,7 +37,8 @@ def draw_crawler(
 ) -> None:
     """The lateral surface of one instant from the side, the ground at `base`, in cm.
 
-    mark : fraction of the length at which a section is marked in black.  tall : magnification of heights.
+    radius : of the resting sections [m].  mark : fraction of the length at which a section is marked in black.
+    tall : magnification of heights.
     """
     along = state.along.to_numpy() * 1e2
     # the sections touch the ground, (2.2.16)
@@ -68,7 +69,7 @@ def draw_snapshots(
     tall: float = 1.0,
 ) -> None:
     """Instants of a crawl below each other, each in its lane with its label at the left, in cm."""
-    radius, lane = problem_of(data, Crawl).crawler.radius, lane_height(data, tall)
+    radius, lane = resting_radius(data), lane_height(data, tall)
     for number, (index, label) in enumerate(zip(indices, labels, strict=True)):
         base = -lane * number
         draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark, tall=tall)
@@ -91,7 +92,7 @@ def draw_snapshots(
 
 def draw_fronts(ax: Axes, data: xr.Dataset, indices: list[int]) -> None:
     """The fronts on the body at instants drawn by `draw_snapshots`: a line across it, its letter above."""
-    lane, height = lane_height(data), 2e2 * problem_of(data, Crawl).crawler.radius
+    lane, height = lane_height(data), 2e2 * float(np.max(resting_radius(data)))
     for number, index in enumerate(indices):
         state = data.isel(time=index)
         for place, kind in fronts_on_the_body(problem_of(data, Crawl), float(state.time)):
@@ -121,7 +122,14 @@ def fronts_on_the_body(problem: Crawl, time: float) -> list[tuple[float, str]]:
 
 def lane_height(data: xr.Dataset, tall: float = 1.0) -> float:
     """Height of a crawler in a row of snapshots, in cm."""
-    return 2e2 * tall * problem_of(data, Crawl).crawler.radius * 1.4
+    return 2e2 * tall * float(np.max(resting_radius(data))) * 1.4
+
+
+def resting_radius(data: xr.Dataset) -> float | Array:
+    """Radius of the resting sections [m]: one, or an array if the body varies."""
+    if "resting_radius" in data:
+        return np.asarray(data.resting_radius)
+    return problem_of(data, CrawlerProblem).crawler.radius
 
 
 def legend_of_bodies() -> list[Artist]:
@@ -140,10 +148,9 @@ def nearest(data: xr.Dataset, time: float) -> int:
 
 def picture(data: xr.Dataset) -> Figure:
     """The picture of `cosserat plot` for a crawler: body, stretches and, for a crawl, its path."""
-    problem = problem_of(data, CrawlerProblem)
     figure, (body, curves, path) = canvas(7.2, 6.4, 3, 1)
     last = data.isel(time=-1) if "time" in data.sizes else data
-    draw_crawler(body, last, problem.crawler.radius)
+    draw_crawler(body, last, resting_radius(data))
     body.set_aspect("equal", adjustable="datalim")
     body.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=data.attrs["title"])
     for name, colour in STRETCHES.items():
@@ -164,12 +171,12 @@ def picture(data: xr.Dataset) -> Figure:
 
 def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) -> str:
     """A crawl as an SVG that plays by itself: body, advancing regions, anchor and ground."""
-    radius = problem_of(data, Crawl).crawler.radius
     chosen = np.unique(np.linspace(0, data.sizes["section"] - 1, _SHOWN).round().astype(int))
     along = data.along.to_numpy()[:, chosen]
+    radius = np.broadcast_to(resting_radius(data), data.sizes["section"])[chosen]
     top = 2 * radius * data.mu_1.to_numpy()[:, chosen]
     thin = data.advancing.to_numpy()[:, chosen] > 0.5
-    low, high = along.min() - radius, along.max() + radius
+    low, high = along.min() - radius.max(), along.max() + radius.max()
     scale = (_WIDTH - 2 * _MARGIN) / (high - low)
     ground = _MARGIN + scale * float(top.max())
 

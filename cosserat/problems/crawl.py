@@ -13,9 +13,11 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.peristalsis.body import piece_at, scales_at
 from cosserat.peristalsis.crawler import Crawler, Loads
 from cosserat.peristalsis.gait import Gait, Instant
-from cosserat.peristalsis.instant import InstantProblem, Muscle, Profile, Region, check_tilt, holds_force
+from cosserat.peristalsis.instant import InstantProblem, Muscle, Region, holds_force
+from cosserat.peristalsis.profile import Profile, check_tilt
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
@@ -39,6 +41,22 @@ class CrawlerProblem(Problem):
     sections: Annotated[int, Count(at_least=2, at_most=100_001)] = 251
     """Equally spaced cross-sections at which results are stored."""
 
+    @model_validator(mode="after")
+    def _fits_the_body(self) -> Self:
+        if self.crawler.segments and (
+            self.solver == "collocation" or self.loads.multiplier == "printed"
+        ):
+            what = (
+                "'solver' = 'collocation'"
+                if self.solver == "collocation"
+                else "'loads.multiplier' = 'printed'"
+            )
+            raise PydanticCustomError(
+                "segments",
+                f"{what} is for a uniform body; take the default, or leave out 'crawler.segments'",
+            )
+        return self
+
     @property
     def places(self) -> Array:
         """z = xi / l_0 of the stored sections."""
@@ -57,12 +75,12 @@ class CrawlerProblem(Problem):
 
     def length_along(self, profile: Profile) -> Array:
         """Distance along the ground from the rear end, eq. (2.5.8), at the points of the mesh [m]."""
-        tilt = profile.slope[..., 0] * self.crawler.radius / self.crawler.length
+        tilt = profile.slope[..., 0] * profile.radius / self.crawler.length
         integrand: Array = np.sqrt(profile.mu_3**2 - tilt**2)  # (2.5.6)
         return profile.mesh.cumulative(integrand) * self.crawler.length
 
     def pressure(self, mu: Array, multiplier: Array) -> Array:
-        """Coelomic pressure, eqs. (2.8.8), (2.8.9), of an incompressible body [Pa]."""
+        """Coelomic pressure, eqs. (2.8.8), (2.8.9), of an incompressible body with its own radius and modulus [Pa]."""
         k_i, k_g = self.crawler.incompressible_stiffnesses
         reactive = multiplier * k_g / self.crawler.length**2 - k_i * (2 - mu.sum(axis=-1))
         result: Array = -reactive * mu.prod(axis=-1) / self.crawler.area
@@ -73,6 +91,8 @@ class CrawlerProblem(Problem):
     ) -> dict[str, Field]:
         """Stored variables, times by sections; `placed` are the positions along the ground at the mesh points."""
         z, body = self.places, self.crawler
+        scales = scales_at(body.pieces, piece_at(body.pieces, z), z)
+        radius = scales.radius * body.radius
         on = [profile.at(z) for profile in profiles]
         mu, slope = np.array([a[0] for a in on]), np.array([a[1] for a in on])
         mu_3, multiplier = np.array([a[2] for a in on]), np.array([a[3] for a in on])
@@ -81,13 +101,16 @@ class CrawlerProblem(Problem):
             "mu_2": mu[..., 1],
             "mu_3": mu_3,
             "mu_1_slope": slope[..., 0] / body.length,
-            "height": body.radius * (mu[..., 0] - 1),  # (2.5.7)
+            "height": radius * (mu[..., 0] - 1),  # (2.5.7)
             "along": np.array([p.mesh.interpolate(s, z) for p, s in zip(profiles, placed, strict=True)]),
             "advancing": np.array([_advancing(r, z) for r in regions]),
         }
         if body.material.kind == "incompressible":
-            values["p_coelom"] = self.pressure(mu, multiplier)
+            own = scales.stretching  # (2.8.8) with k_I, k_G and A of the place
+            values["p_coelom"] = scales.young * self.pressure(mu, multiplier / own)
         fields: dict[str, Field] = {key: (("time", "section"), value) for key, value in values.items()}
+        if body.segments:
+            fields["resting_radius"] = (("section",), radius)
         return fields | {"xi_section": (("section",), z * body.length)}
 
     @classmethod
@@ -207,7 +230,7 @@ class Crawl(CrawlerProblem):
             problem = InstantProblem(self.crawler, self.loads, instant.regions, "the anchor")
             mu = problem.plateaus[0][:, 0]
             holding = next(
-                mu[n] for n, r in enumerate(problem.regions) if r.left <= instant.anchor <= r.right
+                mu[n] for n, s in enumerate(problem.spans) if s.left <= instant.anchor <= s.right
             )
             apart = np.ptp(mu) > _EQUAL_STRETCH_TOLERANCE
             if apart and holding < (mu.min() + mu.max()) / 2:

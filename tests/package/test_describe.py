@@ -137,8 +137,8 @@ BASES = {
     "rod motion": 'like = ["vibration_c4_20", "_loads"]',
     "calibration": 'like = "calibration"',
     "convergence": 'like = "convergence"',
-    "posture": 'like = "worm_at_rest"',
-    "crawl": 'like = "soft_robot"',
+    "posture": 'like = "worm_at_rest"\ncrawler.segments = [{ length = "250 mm" }]',
+    "crawl": 'like = "soft_robot"\ncrawler.segments = [{ length = "25.4 cm" }]',
     "body masses": 'like = "worm_masses"',
     "worm calibration": 'like = "worm_calibration"',
 }
@@ -218,6 +218,8 @@ CHOICES = {
 # Just inside of its range, a key may break a rule that joins several keys, which has a sentence of its own.
 JOINED = {
     "rod.calibration": "is missing",  # of a path, whose rod has none
+    "crawler.length": "let them be equal",
+    "crawler.segments[].length": "let them be equal",
     "crawler.radius": "length / radius",
     "crawler.material.poisson": "has a Poisson's ratio",
     "crawler.material.bulk": "give two of young, poisson and bulk",
