@@ -125,6 +125,10 @@
 #
 # .. autoclass:: cosserat.peristalsis.gait.Gait
 #    :members:
+#
+# .. autoclass:: cosserat.peristalsis.chambers.Chamber
+#
+# .. autoclass:: cosserat.peristalsis.measured.Measured
 # ```
 #
 # ## Solvers

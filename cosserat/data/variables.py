@@ -137,6 +137,12 @@ VARIABLES: dict[str, Variable] = {
     "advancing": Variable(
         ("section",), "1", "one where advancing loads act, else zero", "", "2.2.9", 1e-9
     ),
+    "muscle_force": Variable(
+        ("section",), "N", "force of the longitudinal muscles", r"\bar{D}", "2.2.7", 1e-12
+    ),
+    "muscle_pressure": Variable(
+        ("section",), "Pa", "pressure of the circular muscles", "p", "2.2.8", 1e-9
+    ),
     "anchor": Variable(
         ("time",), "m", "reference arc length of the anchored point", r"\xi_A", "2.5.10", 1e-14
     ),

@@ -18,6 +18,7 @@ from cosserat.problems.crawl import Crawl, CrawlerProblem
 Array = NDArray[np.float64]
 
 THINNED = "#f3d3a8"  # where advancing loads act
+RELAXED = "#eeeeee"  # where no load acts, if that is told apart
 GAMMA, ETA, ANCHOR = "#3a7d44", "#0b5fa5", "#c1121f"  # green, blue and red, as in Fig. 2.7
 FRONTS = {"gamma": GAMMA, "eta": ETA}
 STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
@@ -47,6 +48,9 @@ def draw_crawler(
     ax.fill_between(along, base, top, color=BODY, linewidth=0)
     for run in _runs(thin):
         ax.fill_between(along[run], base, top[run], color=THINNED, linewidth=0)
+    if "muscle_pressure" in state:
+        for run in _runs((state.muscle_pressure == 0).to_numpy() & (state.muscle_force == 0).to_numpy()):
+            ax.fill_between(along[run], base, top[run], color=RELAXED, linewidth=0)
     outline = (np.r_[along, along[::-1]], np.r_[top, np.full_like(top, base)])
     ax.fill(*outline, facecolor="none", edgecolor=INK, linewidth=0.8)
     for k in range(0, along.size, max(1, along.size // 50)):
@@ -148,7 +152,10 @@ def nearest(data: xr.Dataset, time: float) -> int:
 
 def picture(data: xr.Dataset) -> Figure:
     """The picture of `cosserat plot` for a crawler: body, stretches and, for a crawl, its path."""
-    figure, (body, curves, path) = canvas(7.2, 6.4, 3, 1)
+    loads = [name for name in MUSCLES if "time" in data.sizes and name in data and data[name].any()]
+    figure, (body, curves, path, *below) = canvas(7.2, 6.4 + 2.1 * len(loads), 3 + len(loads), 1)
+    for name, ax in zip(loads, below, strict=True):
+        draw_loads(ax, data, name)
     last = data.isel(time=-1) if "time" in data.sizes else data
     draw_crawler(body, last, resting_radius(data))
     body.set_aspect("equal", adjustable="datalim")
@@ -167,6 +174,22 @@ def picture(data: xr.Dataset) -> Figure:
     path.set(xlabel="time [s]", ylabel="along the ground [cm]")
     path.legend(ncols=3)
     return figure
+
+
+MUSCLES = {
+    "muscle_force": ("force of the muscles [N]", 1.0),
+    "muscle_pressure": ("pressure [kPa]", 1e-3),
+}
+"""Loads that a crawl stores if they differ from chamber to chamber or in time, with labels and factors of units."""
+
+
+def draw_loads(ax: Axes, data: xr.Dataset, name: str) -> None:
+    """A load of `MUSCLES` along the body in time."""
+    label, factor = MUSCLES[name]
+    values = factor * data[name].to_numpy().T
+    image = ax.pcolormesh(data.time, 1e2 * data.xi_section, values, cmap="viridis", rasterized=True)
+    ax.figure.colorbar(image, ax=ax, label=label)
+    ax.set(xlabel="time [s]", ylabel=r"$\xi$ [cm]")
 
 
 def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) -> str:

@@ -10,7 +10,7 @@ volume.  `body` has the equations of a body that varies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -180,6 +180,7 @@ class Loads(Parameters):
     advancing_force: AdvancingForce | None = None
     """Force n in advancing regions: zero (section 2.3) or that of the anchoring regions beside them (section 2.4).
 
+    In relaxed regions likewise.  Where the anchoring regions beside one differ, that of the one behind it counts.
     Default as in the section on the material: "none" if compressible, "continuous" if incompressible.
     """
     multiplier: Multiplier = "balanced"
@@ -202,6 +203,9 @@ class Groups:
     c: float
     m: float
     printed_contact: bool
+    k: float  # k_S or k_I [N]
+    area: float  # [m^2]
+    square: float  # l_0^2 / k_G [1/N]
 
     @classmethod
     def of(cls, body: Crawler, loads: Loads) -> Groups:
@@ -213,15 +217,27 @@ class Groups:
         else:
             k, k_p, k_g = body.stiffnesses
         square = body.length**2 / k_g
-        return cls(
+        own = cls(
             incompressible,
             stiffness=k * square,
             p=k_p / k,
-            force=loads.anchoring * square if incompressible else loads.anchoring / k,
-            c=loads.advancing * body.area * square,
+            force=0.0,
+            c=0.0,
             m=body.radius * body.line_density * loads.gravity * square,
             printed_contact=loads.contact == "printed",
+            k=k,
+            area=body.area,
+            square=square,
         )
+        return replace(own, force=own.force_of(loads.anchoring), c=own.c_of(loads.advancing))
+
+    def force_of(self, newton: float) -> float:
+        """d or delta of a force of the longitudinal muscles [N]."""
+        return newton * self.square if self.incompressible else newton / self.k
+
+    def c_of(self, pascal: float) -> float:
+        """c of a pressure of the circular muscles [Pa]."""
+        return pascal * self.area * self.square
 
     def compressible_source(
         self, mu: Array, n: Array, c: Array, own: tuple[Array, Array] | None = None

@@ -10,7 +10,6 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,42 +18,22 @@ from cosserat.errors import InputError, NotConvergedError
 from cosserat.peristalsis.body import UNIFORM, Ints, mean_square, scales_at, spans
 from cosserat.peristalsis.crawler import Crawler, Groups, Incompressible, Loads
 from cosserat.peristalsis.profile import Profile
+from cosserat.peristalsis.region import Region, continued, merged
 from cosserat.solvers.collocation import RegionSystem, collocate
 from cosserat.solvers.elements import Mesh, graded
 from cosserat.solvers.regions import RegionSettings, Remote, Source, solve
 
 Array = NDArray[np.float64]
-Muscle = Literal["anchoring", "advancing"]
 
 _MIN_STRETCH = 0.02  # a plateau with a stretch below this has collapsed
 _MAX_PLATEAU_STEPS = 60
 _PLATEAU_TOLERANCE = 1e-12  # largest correction of a converged plateau
 
 
-@dataclass(frozen=True)
-class Region:
-    """Range of one of the loads, in fractions of the length."""
-
-    left: float
-    right: float
-    load: Muscle
-
-
 def holds_force(body: Crawler, loads: Loads) -> bool:
     """Whether advancing regions carry the force of the anchoring ones beside them."""
     default = "continuous" if isinstance(body.material, Incompressible) else "none"
     return (loads.advancing_force or default) == "continuous"
-
-
-def _merged(regions: Sequence[Region]) -> tuple[Region, ...]:
-    """The same loads without junctions between equal ones."""
-    merged = [regions[0]]
-    for region in regions[1:]:
-        if region.load == merged[-1].load:
-            merged[-1] = Region(merged[-1].left, region.right, region.load)
-        else:
-            merged.append(region)
-    return tuple(merged)
 
 
 @dataclass(frozen=True)
@@ -78,17 +57,31 @@ class InstantProblem:
 
     def __init__(self, body: Crawler, loads: Loads, regions: Sequence[Region], name: str) -> None:
         self.body, self.loads, self.name = body, loads, name
-        self.regions = regions = _merged(regions)
+        self.regions = regions = merged(regions)
         self.groups = Groups.of(body, loads)
         self.advancing = np.array([r.load == "advancing" for r in regions])
-        continuous = holds_force(body, loads) and not self.advancing.all()
-        self.force = np.where(self.advancing & (not continuous), 0.0, -self.groups.force)
-        self.pressure = np.where(self.advancing, self.groups.c, 0.0)
+        pulling = [
+            self.groups.force_of(self._strength(r)) if r.load == "anchoring" else None for r in regions
+        ]
+        if holds_force(body, loads):
+            pulling = continued(pulling)
+        self.force = np.array([-(force or 0.0) for force in pulling])
+        squeezing = [
+            self.groups.c_of(self._strength(r)) if r.load == "advancing" else 0.0 for r in regions
+        ]
+        self.pressure = np.array(squeezing)
         printed = self.groups.incompressible and loads.multiplier == "printed"
         lengths = np.array([r.right - r.left for r in regions])
         self.exponent = np.where(self.advancing & printed, lengths, 1.0)
         self.pieces = body.pieces
         self.spans = spans(regions, self.pieces)
+
+    def _strength(self, region: Region) -> float:
+        """The force [N] or the pressure [Pa] of the muscles of a region."""
+        usual = {"anchoring": self.loads.anchoring, "advancing": self.loads.advancing}.get(
+            region.load, 0.0
+        )
+        return (usual if region.own is None else region.own) * region.amplitude
 
     def local(self, span: Ints, z: Array) -> Local:
         """The equations at places z, each in the span of that number."""
@@ -159,10 +152,14 @@ class InstantProblem:
         _ = self.plateaus
 
     def _collapse(self, region: Region, number: int, at: float) -> InputError:
+        key, unit = {"anchoring": ("anchoring", "N"), "advancing": ("advancing", "Pa")}.get(
+            region.load, ("anchoring", "N")
+        )
+        strength = self._strength(region)
         muscles = (
-            f"'loads.anchoring' = {self.loads.anchoring:g} N"
-            if region.load == "anchoring"
-            else f"'loads.advancing' = {self.loads.advancing:g} Pa"
+            f"'loads.{key}' = {strength:g} {unit}"
+            if region.own is None
+            else f"an own load of {strength:g} {unit}"
         )
         weight = self.body.line_density * self.loads.gravity
         place = "" if self.pieces is UNIFORM else f", at xi = {at * self.body.length:.4g} m"

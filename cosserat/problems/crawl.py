@@ -16,14 +16,16 @@ from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.peristalsis.body import piece_at, scales_at
 from cosserat.peristalsis.crawler import Crawler, Loads
 from cosserat.peristalsis.gait import Gait, Instant
-from cosserat.peristalsis.instant import InstantProblem, Muscle, Region, holds_force
+from cosserat.peristalsis.instant import InstantProblem, holds_force
 from cosserat.peristalsis.profile import Profile, check_tilt
+from cosserat.peristalsis.region import Muscle, Region
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
 _MIN_REGION_LENGTH = 1e-6  # as a fraction of the length; a shorter region is empty
+_EQUAL_LOADS_TOLERANCE = 1e-3  # loads that differ on less of the body are the same
 _EQUAL_STRETCH_TOLERANCE = 1e-3  # regions whose mu_1 differs by less are equally thick
 
 
@@ -111,6 +113,13 @@ class CrawlerProblem(Problem):
         fields: dict[str, Field] = {key: (("time", "section"), value) for key, value in values.items()}
         if body.segments:
             fields["resting_radius"] = (("section",), radius)
+        if any(r.state != (r.load, 1.0, None) or r.load == "relaxed" for row in regions for r in row):
+            for name, load, usual, scale in (
+                ("muscle_force", "anchoring", self.loads.anchoring, scales.anchoring),
+                ("muscle_pressure", "advancing", self.loads.advancing, scales.advancing),
+            ):
+                strengths = [scale * _strength(row, z, load, usual) for row in regions]
+                fields[name] = (("time", "section"), np.array(strengths))
         return fields | {"xi_section": (("section",), z * body.length)}
 
     @classmethod
@@ -132,7 +141,20 @@ class Segment(Parameters):
     end: Annotated[float, Quantity("1", r"\tilde{\eta}", "2.3.14")]
     """End of the region, from the rear end."""
     load: Muscle
-    """The active muscles: longitudinal ones anchor, circular ones advance."""
+    """The active muscles: longitudinal ones anchor, circular ones advance, and where it is relaxed none act."""
+    force: Annotated[float, Quantity("N", r"\bar{D}", "2.2.7", at_least=0)] | None = None
+    """Force of the longitudinal muscles of an anchoring region; by default that of 'loads.anchoring'."""
+    pressure: Annotated[float, Quantity("Pa", "p", "2.2.8")] | None = None
+    """Pressure of the circular muscles of an advancing region; by default that of 'loads.advancing'."""
+
+    @model_validator(mode="after")
+    def _has_its_own_load(self) -> Self:
+        for name, load in (("force", "anchoring"), ("pressure", "advancing")):
+            if getattr(self, name) is not None and self.load != load:
+                raise PydanticCustomError(
+                    "regions", f"has a '{name}' but is '{self.load}'; only an {load} region has one"
+                )
+        return self
 
 
 class Posture(CrawlerProblem):
@@ -174,7 +196,10 @@ class Posture(CrawlerProblem):
         InputError : the loads collapse a section.  NotConvergedError : no solution.
         OutOfReachError : the surface cannot stay on the ground.
         """
-        regions = [Region(r.begin, r.end, r.load) for r in self.regions]
+        regions = [
+            Region(r.begin, r.end, r.load, own=r.force if r.load == "anchoring" else r.pressure)
+            for r in self.regions
+        ]
         profile, _, tilt = self.solve_instant(regions, None, name)
         fields = self.fields([profile], [self.length_along(profile)], [regions])
         flat = {
@@ -208,10 +233,11 @@ class Crawl(CrawlerProblem):
     @model_validator(mode="after")
     def _is_possible(self) -> Self:
         instants = self.gait.instants(self.step)
-        if not holds_force(self.crawler, self.loads):
+        pulls = self.loads.anchoring > 0 or any(chamber.force for chamber in self.gait.chambers)
+        if not (pulls and holds_force(self.crawler, self.loads)):
             return self
         for instant in instants:
-            if all(region.load == "advancing" for region in instant.regions):
+            if not any(region.load == "anchoring" for region in instant.regions):
                 raise PydanticCustomError(
                     "gait",
                     f"at phase {instant.phase:g} no region anchors, and the force in the advancing ones would jump to "
@@ -267,7 +293,8 @@ class Crawl(CrawlerProblem):
         steps: list[_Step] = []
         nodal, tilt = None, 0.0
         for stride in range(self.strides):
-            for instant in instants if stride == 0 else instants[1:]:
+            first = [instant.risen(self.gait.rise(instant.time)) for instant in instants]
+            for instant in first if stride == 0 else instants[1:]:
                 when = f"{name} at t = {stride * self.gait.duration + instant.time:.4g} s"
                 profile, nodal, sine = self.solve_instant(instant.regions, nodal, when)
                 placed = self.length_along(profile)
@@ -279,26 +306,38 @@ class Crawl(CrawlerProblem):
                 steps.append(_Step(stride, instant, profile, placed))
                 tilt = max(tilt, sine)
             run.progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
-        thin = self.thin_anchor_warning()
+        said = (self.thin_anchor_warning(), self.first_stride_warning())
         return Solution(
             self._fields(steps),
             _statistics(self, [s.profile for s in steps], tilt),
-            warnings=() if thin is None else (thin,),
+            warnings=tuple(warning for warning in said if warning is not None),
+        )
+
+    def first_stride_warning(self) -> str | None:
+        """One sentence if the first stride begins in another state than the later ones, else None."""
+        changed = self.gait.first_change()
+        if changed < _EQUAL_LOADS_TOLERANCE:
+            return None
+        return (
+            f"first stride: at t = 0 the loads on {changed:.3g} of the body are not those at the end of a stride, so "
+            "the first stride differs from the later ones; look at these, or let the loads rise from a relaxed body "
+            "with 'gait.ramp'"
         )
 
     def check_collapse(self, instants: Sequence[Instant], name: str) -> None:
         """Check the homogeneous states of all instants, before anything is solved.
 
-        They depend on which loads act, not on where: each such set is checked once, at its first instant.
+        In a uniform body they depend on which loads act, not on where: each such set is checked once, at its first
+        instant.
 
         Raises
         ------
         InputError : the loads collapse a section; names the load and that instant.
         """
-        seen: set[frozenset[Muscle]] = set()
+        seen: set[frozenset[object]] = set()
         for instant in instants:
-            acting = frozenset(region.load for region in instant.regions)
-            if acting not in seen:
+            acting = frozenset(region.state for region in instant.regions)
+            if acting not in seen or self.crawler.segments:
                 seen.add(acting)
                 when = f"{name} at t = {instant.time:.4g} s"
                 InstantProblem(self.crawler, self.loads, instant.regions, when).check_collapse()
@@ -318,6 +357,14 @@ class Crawl(CrawlerProblem):
             "anchor": (("time",), anchors * self.crawler.length),
             "anchor_along": (("time",), np.array(ground)),
         }
+
+
+def _strength(regions: Sequence[Region], z: Array, load: str, usual: float) -> Array:
+    """Force or pressure of the muscles of one kind at the sections [N or Pa], zero where the others act."""
+    cuts = np.array([r.right for r in regions[:-1]])
+    own = [(usual if r.own is None else r.own) * r.amplitude if r.load == load else 0.0 for r in regions]
+    result: Array = np.array(own)[np.searchsorted(cuts, z, side="right")]
+    return result
 
 
 def _advancing(regions: Sequence[Region], z: Array) -> Array:

@@ -138,7 +138,14 @@ BASES = {
     "calibration": 'like = "calibration"',
     "convergence": 'like = "convergence"',
     "posture": 'like = "worm_at_rest"\ncrawler.segments = [{ length = "250 mm" }]',
-    "crawl": 'like = "soft_robot"\ncrawler.segments = [{ length = "25.4 cm" }]',
+    "crawl": """
+        like = "soft_robot"
+        crawler.segments = [{ length = "25.4 cm" }]
+        gait.anchor = [[[0, 0], [2, 0]]]
+        gait.measured = [
+            { front = "anchor", table = [["12.5 s", "25.4 cm"], ["22.5 s", "25.4 cm"]], length = "25.4 cm" },
+        ]
+    """,
     "body masses": 'like = "worm_masses"',
     "worm calibration": 'like = "worm_calibration"',
 }
@@ -215,6 +222,13 @@ CHOICES = {
     "table": {"kind": "table", "rows": [["0 s", 0], ["1 s", 1]]},
 }
 """Tables with a choice, by their `kind`."""
+CHAMBERS = {  # in place of fronts
+    "phases": ["1 s"],
+    "anchor": [[[0, 0], [1, 0]]],
+    "chambers": [
+        {"begin": 0, "end": 1, "schedule": [[0, 0.5, "advancing"]], "force": "1 N", "pressure": "1 kPa"}
+    ],
+}
 # Just inside of its range, a key may break a rule that joins several keys, which has a sentence of its own.
 JOINED = {
     "rod.calibration": "is missing",  # of a path, whose rod has none
@@ -227,6 +241,8 @@ JOINED = {
     "crawler.density": "give one of them",
     "meshes": "must be odd",
     "gait.eta": "gamma and eta cross",
+    "gait.phases": "times run from 0 to",
+    "gait.measured[].length": "places from 0 to",
     "step": "more than 100000 instants",
     **{
         f"{load}.time_function": "only kind = 'rod motion' has a time"
@@ -244,6 +260,8 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
     case = base(kind)
     assert said(case) == ""
     for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
+        if path == "gait.chambers":
+            case = put(case, "gait", CHAMBERS)
         there = put(case, path.rpartition(".")[0], CHOICES[key.when]) if key.when else case
         for mark in marks(whole(field))[:1]:
             unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit

@@ -202,7 +202,7 @@ def test_a_merged_case_without_a_required_key_is_refused(whole, name):
 
 @pytest.mark.parametrize(
     ("name", "path"),
-    [("clamped_free", "rod.section.shape"), ("worm", "crawler.material.kind"), ("worm", "gait.anchor")],
+    [("clamped_free", "rod.section.shape"), ("worm", "crawler.material.kind"), ("worm", "gait.phases")],
 )
 def test_a_merged_case_without_a_key_of_a_table_is_refused(whole, name, path):
     table = copy.deepcopy(table_of(name))

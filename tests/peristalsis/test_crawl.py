@@ -181,7 +181,10 @@ def posture(regions):
         ),
         ([REGIONS[0]], "'regions' end at 0.4; they must cover the body"),
         ([], "'regions' end at 0; they must cover the body"),
-        ([{**REGIONS[0], "load": "pulling"}, REGIONS[1]], "it must be 'anchoring' or 'advancing'"),
+        (
+            [{**REGIONS[0], "load": "pulling"}, REGIONS[1]],
+            "it must be 'anchoring', 'advancing' or 'relaxed'",
+        ),
         ([{**REGIONS[0], "end": float("nan")}, REGIONS[1]], "must be a finite number"),
     ],
 )
