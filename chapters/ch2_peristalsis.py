@@ -30,7 +30,7 @@ import numpy as np
 
 import cosserat
 from cosserat.data.dataset import case_of, statistics_of
-from cosserat.peristalsis import crawler, doublets, instant, nearly_incompressible
+from cosserat.peristalsis import crawler, doublets, nearly_incompressible, profile
 from cosserat.solvers import regions
 from cosserat.thesis.book import page
 
@@ -219,7 +219,7 @@ except cosserat.InputError as error:
     print(error)
 
 # %% tags=["remove-input"]
-page.source(instant.check_tilt)
+page.source(profile.check_tilt)
 
 # %% [markdown]
 # ## Is the one material the limit of the other?

@@ -127,8 +127,14 @@
 # .. autoclass:: cosserat.peristalsis.crawler.Crawler
 #    :members:
 #
+# .. autoclass:: cosserat.peristalsis.body.BodySegment
+#
 # .. autoclass:: cosserat.peristalsis.gait.Gait
 #    :members:
+#
+# .. autoclass:: cosserat.peristalsis.chambers.Chamber
+#
+# .. autoclass:: cosserat.peristalsis.measured.Measured
 # ```
 #
 # ## Solvers

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, Self, get_args, get_origin
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError, model_validator
 from pydantic_core import ErrorDetails, PydanticCustomError, core_schema
 
 from cosserat.errors import InputError
@@ -141,12 +141,28 @@ class OneOf:
         return core_schema.no_info_plain_validator_function(self.check)
 
 
-def _none_by_word(value: object) -> object:
-    return None if value == "none" else value
+class Dropped(str):
+    """The mark of an inherited key that is dropped: the word "none" that said so, or "" for a value of None.
+
+    TOML has no null.  Tables are merged before their class is known, so the class reads the mark: where "none" is one
+    of the words of a key the word counts, and elsewhere the key is as if it had never been given.
+    """
+
+    __slots__ = ()
 
 
-NONE_BY_WORD = BeforeValidator(_none_by_word)
-"""Annotation: TOML has no null, so 'none' removes an inherited value."""
+def _reads_none(annotation: Any) -> bool:
+    """Whether "none" is a word of this type, and not the name of a file or the like."""
+    if isinstance(annotation, Reader):
+        return _reads_none(annotation.alternatives)
+    if isinstance(annotation, OneOf):
+        return "none" in annotation.registry
+    if get_origin(annotation) is Literal:
+        return "none" in get_args(annotation)
+    marks = getattr(
+        annotation, "__metadata__", ()
+    )  # with a mark, the type is only that of the checked value
+    return any(map(_reads_none, marks or get_args(annotation)))
 
 
 class Parameters(BaseModel):
@@ -161,6 +177,32 @@ class Parameters(BaseModel):
             raise InputError(explain(error, type(self), type(self).__name__)) from None
 
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined] # values from files never come here
+
+    @model_validator(mode="before")
+    @classmethod
+    def _without_dropped(cls, values: Any) -> Any:
+        """The values without dropped keys; a "none" that drops nothing is an error."""
+        if not isinstance(values, Mapping):
+            return values
+        kept = {}
+        for key, value in values.items():
+            field = cls.model_fields.get(key)
+            word = field is not None and (
+                (field.annotation is str and not field.metadata)
+                or any(map(_reads_none, field.metadata or [field.annotation]))
+            )
+            if isinstance(value, Dropped):
+                if value and word:
+                    kept[key] = str(value)
+                continue
+            if isinstance(value, str) and value == "none" and field is not None and not word:
+                raise PydanticCustomError(
+                    "none",
+                    f"gives '{key}' as 'none', which drops a key that 'like' brings in, and 'like' brings in none; "
+                    "leave it out",
+                )
+            kept[key] = value
+        return kept
 
     @classmethod
     def read(

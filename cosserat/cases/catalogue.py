@@ -15,7 +15,7 @@ from pydantic import AfterValidator, SerializeAsAny
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError, path_of
-from cosserat.parameters import Parameters, nearest, tables_with_a_choice
+from cosserat.parameters import Dropped, Parameters, nearest, tables_with_a_choice
 from cosserat.problem import Problem
 from cosserat.publications import kinds, published_tables, titles
 
@@ -45,13 +45,14 @@ class Case(Parameters):
     def vary(self, name: str, **changes: Any) -> Case:
         """A case of another name with parts of the problem changed: `case.vary("long", rod={"length": "10 m"})`.
 
-        Tables merge key by key, lists are replaced, and numbers may be in SI units or texts with a unit.
+        Tables merge key by key, lists are replaced, and numbers may be in SI units or texts with a unit.  The word
+        "none" drops a key of this case.
 
         Raises
         ------
         InputError : a key is unknown or a value is not valid.
         """
-        table = _merge(self.problem.model_dump(), changes)
+        table = _merge(_given(self.problem.model_dump()), changes)
         problem = type(self.problem).read(table, f"case '{name}'", units_required=False)
         return Case.read({"name": name, "title": name, "problem": problem}, "case")
 
@@ -226,13 +227,29 @@ def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict
 def _merge(
     base: Mapping[str, Any], own: Mapping[str, Any], path: tuple[str, ...] = ()
 ) -> dict[str, Any]:
-    """Both tables, key by key; a table of another shape or kind replaces the one of the base as a whole."""
+    """Both tables, key by key; a table of another shape or kind replaces the one of the base as a whole.
+
+    The word "none" marks a key of the base as dropped.
+    """
     merged = dict(base)
     for key, value in own.items():
-        inner, both = (*path, key), isinstance(value, dict) and isinstance(merged.get(key), dict)
-        alike = both and not _is_another(merged[key], value, inner)
-        merged[key] = _merge(merged[key], value, inner) if alike else value
+        old, inner = merged.get(key), (*path, key)
+        if isinstance(value, dict) and isinstance(old, dict):
+            kept = dict.fromkeys(old, Dropped()) if _is_another(old, value, inner) else old
+            merged[key] = _merge(kept, value, inner)
+        elif isinstance(value, str) and value == "none" and key in merged:
+            merged[key] = Dropped(value)
+        else:
+            merged[key] = value
     return merged
+
+
+def _given(table: Mapping[str, Any]) -> dict[str, Any]:
+    """A table whose values of None are marked as dropped: another kind of table inside it may not have these keys."""
+    return {
+        key: _given(value) if isinstance(value, dict) else Dropped() if value is None else value
+        for key, value in table.items()
+    }
 
 
 def _is_another(base: Mapping[str, Any], own: Mapping[str, Any], path: tuple[str, ...]) -> bool:

@@ -121,6 +121,9 @@ VARIABLES: dict[str, Variable] = {
     "xi_section": Variable(
         ("section",), "m", "reference arc length of the cross-sections", r"\xi", "1.3.1", 1e-14
     ),
+    "resting_radius": Variable(
+        ("section",), "m", "radius of the resting sections of a body that varies", "R", "2.2.8", 1e-14
+    ),
     "mu_1": Variable(("section",), "1", "vertical stretch of the sections", r"\mu_1", "1.3.6", 1e-9),
     "mu_2": Variable(("section",), "1", "stretch of the sections across", r"\mu_2", "1.3.6", 1e-9),
     "mu_3": Variable(("section",), "1", "stretch of the centreline", r"\mu_3", "1.3.6", 1e-9),
@@ -134,6 +137,12 @@ VARIABLES: dict[str, Variable] = {
     "p_coelom": Variable(("section",), "Pa", "coelomic pressure", r"p_{coelom}", "2.8.8", 1e-6),
     "advancing": Variable(
         ("section",), "1", "one where advancing loads act, else zero", "", "2.2.9", 1e-9
+    ),
+    "muscle_force": Variable(
+        ("section",), "N", "force of the longitudinal muscles", r"\bar{D}", "2.2.7", 1e-12
+    ),
+    "muscle_pressure": Variable(
+        ("section",), "Pa", "pressure of the circular muscles", "p", "2.2.8", 1e-9
     ),
     "anchor": Variable(
         ("time",), "m", "reference arc length of the anchored point", r"\xi_A", "2.5.10", 1e-14

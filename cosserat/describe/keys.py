@@ -17,7 +17,6 @@ from pydantic.fields import FieldInfo
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
 from cosserat.parameters import (
-    NONE_BY_WORD,
     Count,
     OneOf,
     Quantity,
@@ -40,7 +39,6 @@ class Value:
     words : the allowed words.
     tables : the possible classes of a table; several differ in one key, such as `kind`.
     items : types of the items of a list, of the places of a row, or of the alternatives of "either".
-    none : whether the word "none" removes the value.
     said : the type in words, if its parts do not say it.
     """
 
@@ -49,7 +47,6 @@ class Value:
     words: tuple[str, ...] = ()
     tables: tuple[type[BaseModel], ...] = ()
     items: tuple[Value, ...] = ()
-    none: bool = False
     said: str = ""
 
     @property
@@ -97,7 +94,8 @@ LIKE = Key(
     Value("name"),
     required=False,
     default=None,
-    meaning="The case, or a list of cases, from which this one inherits what it does not give itself.",
+    meaning="The case, or a list of cases, from which this one inherits what it does not give itself; "
+    'the word "none" drops an inherited key that may be left out.',
 )
 """The key of every case that is in no class: the reader follows it."""
 
@@ -190,26 +188,23 @@ def _value(annotation: Any) -> Value | None:
     while get_origin(annotation) is Annotated:
         about += annotation.__metadata__
         annotation = annotation.__origin__
-    none = NONE_BY_WORD in about
     for mark in about:
         if isinstance(mark, Quantity | Count):
-            return Value("quantity" if isinstance(mark, Quantity) else "count", mark, none=none)
+            return Value("quantity" if isinstance(mark, Quantity) else "count", mark)
         if isinstance(mark, OneOf):
             return Value("word", words=tuple(mark.registry))
         if isinstance(mark, Reader):
             forms = _value(mark.alternatives)
             assert forms is not None
-            return replace(forms, said=mark.said, none=none)
+            return replace(forms, said=mark.said)
     origin, parts = get_origin(annotation), get_args(annotation)
     if origin in (Union, types.UnionType):
         found = [value for part in parts if (value := _value(part)) is not None]
         if len(found) == 1:
-            return Value(**{**vars(found[0]), "none": none})
+            return found[0]
         if not all(value.tables for value in found):
-            return Value("either", items=tuple(found), none=none)
-        return Value(
-            "table", tables=tuple(table for value in found for table in value.tables), none=none
-        )
+            return Value("either", items=tuple(found))
+        return Value("table", tables=tuple(table for value in found for table in value.tables))
     if origin is Literal:
         return Value("word", words=parts)
     if origin is tuple:

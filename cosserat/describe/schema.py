@@ -1,8 +1,9 @@
 """JSON Schemas of cases, draft 2020-12, from the list of keys: for editors that complete and check TOML files.
 
 Editors follow `anyOf` and `oneOf` but no conditions, and some ignore everything beside a `$ref`.  So each key has its
-own text, and shared parts are in an `anyOf` of one.  Some rules are left to the reader: those that join several keys,
-ranges of texts with units, values inherited by `like`, and that 3.0 is no whole number.
+own text, and shared parts are in an `anyOf` of one.  In a file as it is written, "none" drops an inherited key.  Some
+rules are left to the reader: those that join several keys, ranges of texts with units, values inherited by `like`, and
+that 3.0 is no whole number.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from cosserat.publications import kinds, titles
 from cosserat.units import what_is_in
 
 Schema = dict[str, Any]
+_NONE: Schema = {"type": "string", "const": "none"}
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 
 
@@ -154,7 +156,15 @@ def _node(key: Key, found: tuple[Key, ...], *, whole: bool, like: bool = False) 
         form = {"type": "array", "items": _table(found, inside, key.when, whole=True)}
     else:
         form = _form(value)
-    return shown | (_any([form, {"const": "none"}]) if value.none else form)
+    droppable = not (whole or key.required or key.path in ("kind", LIKE.name) or "none" in value.words)
+    return shown | (_or_none(form) if droppable else form)
+
+
+def _or_none(form: Schema) -> Schema:
+    """The same, or "none"; a fault inside a table remains at its place there."""
+    if form.get("type") == "object":
+        return {**form, "type": ["object", "string"], "pattern": "^none$"}
+    return {"anyOf": [*(form["anyOf"] if list(form) == ["anyOf"] else [form]), _NONE]}
 
 
 def _any(forms: list[Schema]) -> Schema:

@@ -54,7 +54,7 @@ def paragraph(key: Key) -> str:
 
 def type_of(key: Key) -> str:
     """Type of a key, with unit and range."""
-    return _type(key.value) + (' or "none"' if key.value.none else "")
+    return _type(key.value)
 
 
 def need(key: Key) -> str:

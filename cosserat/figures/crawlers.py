@@ -18,6 +18,7 @@ from cosserat.problems.crawl import Crawl, CrawlerProblem
 Array = NDArray[np.float64]
 
 THINNED = "#f3d3a8"  # where advancing loads act
+RELAXED = "#eeeeee"  # where no load acts, if that is told apart
 GAMMA, ETA, ANCHOR = "#3a7d44", "#0b5fa5", "#c1121f"  # green, blue and red, as in Fig. 2.7
 FRONTS = {"gamma": GAMMA, "eta": ETA}
 STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
@@ -29,7 +30,7 @@ _SHOWN = 126  # sections of an animated outline
 def draw_crawler(
     ax: Axes,
     state: xr.Dataset,
-    radius: float,
+    radius: float | Array,
     *,
     base: float = 0.0,
     mark: float | None = None,
@@ -37,7 +38,8 @@ def draw_crawler(
 ) -> None:
     """The lateral surface of one instant from the side, the ground at `base`, in cm.
 
-    mark : fraction of the length at which a section is marked in black.  tall : magnification of heights.
+    radius : of the resting sections [m].  mark : fraction of the length at which a section is marked in black.
+    tall : magnification of heights.
     """
     along = state.along.to_numpy() * 1e2
     # the sections touch the ground, (2.2.16)
@@ -46,6 +48,9 @@ def draw_crawler(
     ax.fill_between(along, base, top, color=BODY, linewidth=0)
     for run in _runs(thin):
         ax.fill_between(along[run], base, top[run], color=THINNED, linewidth=0)
+    if "muscle_pressure" in state:
+        for run in _runs((state.muscle_pressure == 0).to_numpy() & (state.muscle_force == 0).to_numpy()):
+            ax.fill_between(along[run], base, top[run], color=RELAXED, linewidth=0)
     outline = (np.r_[along, along[::-1]], np.r_[top, np.full_like(top, base)])
     ax.fill(*outline, facecolor="none", edgecolor=INK, linewidth=0.8)
     for k in range(0, along.size, max(1, along.size // 50)):
@@ -68,7 +73,7 @@ def draw_snapshots(
     tall: float = 1.0,
 ) -> None:
     """Instants of a crawl below each other, each in its lane with its label at the left, in cm."""
-    radius, lane = problem_of(data, Crawl).crawler.radius, lane_height(data, tall)
+    radius, lane = resting_radius(data), lane_height(data, tall)
     for number, (index, label) in enumerate(zip(indices, labels, strict=True)):
         base = -lane * number
         draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark, tall=tall)
@@ -91,7 +96,7 @@ def draw_snapshots(
 
 def draw_fronts(ax: Axes, data: xr.Dataset, indices: list[int]) -> None:
     """The fronts on the body at instants drawn by `draw_snapshots`: a line across it, its letter above."""
-    lane, height = lane_height(data), 2e2 * problem_of(data, Crawl).crawler.radius
+    lane, height = lane_height(data), 2e2 * float(np.max(resting_radius(data)))
     for number, index in enumerate(indices):
         state = data.isel(time=index)
         for place, kind in fronts_on_the_body(problem_of(data, Crawl), float(state.time)):
@@ -121,7 +126,14 @@ def fronts_on_the_body(problem: Crawl, time: float) -> list[tuple[float, str]]:
 
 def lane_height(data: xr.Dataset, tall: float = 1.0) -> float:
     """Height of a crawler in a row of snapshots, in cm."""
-    return 2e2 * tall * problem_of(data, Crawl).crawler.radius * 1.4
+    return 2e2 * tall * float(np.max(resting_radius(data))) * 1.4
+
+
+def resting_radius(data: xr.Dataset) -> float | Array:
+    """Radius of the resting sections [m]: one, or an array if the body varies."""
+    if "resting_radius" in data:
+        return np.asarray(data.resting_radius)
+    return problem_of(data, CrawlerProblem).crawler.radius
 
 
 def legend_of_bodies() -> list[Artist]:
@@ -140,10 +152,12 @@ def nearest(data: xr.Dataset, time: float) -> int:
 
 def picture(data: xr.Dataset) -> Figure:
     """The picture of `cosserat plot` for a crawler: body, stretches and, for a crawl, its path."""
-    problem = problem_of(data, CrawlerProblem)
-    figure, (body, curves, path) = canvas(7.2, 6.4, 3, 1)
+    loads = [name for name in MUSCLES if "time" in data.sizes and name in data and data[name].any()]
+    figure, (body, curves, path, *below) = canvas(7.2, 6.4 + 2.1 * len(loads), 3 + len(loads), 1)
+    for name, ax in zip(loads, below, strict=True):
+        draw_loads(ax, data, name)
     last = data.isel(time=-1) if "time" in data.sizes else data
-    draw_crawler(body, last, problem.crawler.radius)
+    draw_crawler(body, last, resting_radius(data))
     body.set_aspect("equal", adjustable="datalim")
     body.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=data.attrs["title"])
     for name, colour in STRETCHES.items():
@@ -162,14 +176,30 @@ def picture(data: xr.Dataset) -> Figure:
     return figure
 
 
+MUSCLES = {
+    "muscle_force": ("force of the muscles [N]", 1.0),
+    "muscle_pressure": ("pressure [kPa]", 1e-3),
+}
+"""Loads that a crawl stores if they differ from chamber to chamber or in time, with labels and factors of units."""
+
+
+def draw_loads(ax: Axes, data: xr.Dataset, name: str) -> None:
+    """A load of `MUSCLES` along the body in time."""
+    label, factor = MUSCLES[name]
+    values = factor * data[name].to_numpy().T
+    image = ax.pcolormesh(data.time, 1e2 * data.xi_section, values, cmap="viridis", rasterized=True)
+    ax.figure.colorbar(image, ax=ax, label=label)
+    ax.set(xlabel="time [s]", ylabel=r"$\xi$ [cm]")
+
+
 def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) -> str:
     """A crawl as an SVG that plays by itself: body, advancing regions, anchor and ground."""
-    radius = problem_of(data, Crawl).crawler.radius
     chosen = np.unique(np.linspace(0, data.sizes["section"] - 1, _SHOWN).round().astype(int))
     along = data.along.to_numpy()[:, chosen]
+    radius = np.broadcast_to(resting_radius(data), data.sizes["section"])[chosen]
     top = 2 * radius * data.mu_1.to_numpy()[:, chosen]
     thin = data.advancing.to_numpy()[:, chosen] > 0.5
-    low, high = along.min() - radius, along.max() + radius
+    low, high = along.min() - radius.max(), along.max() + radius.max()
     scale = (_WIDTH - 2 * _MARGIN) / (high - low)
     ground = _MARGIN + scale * float(top.max())
 

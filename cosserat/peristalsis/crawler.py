@@ -4,12 +4,13 @@ Stretches mu_1 (vertical), mu_2 (across) and mu_3 (along) of the material at z =
 
     mu_alpha'' = f_alpha(mu_1, mu_2)
 
-in every region, with mu_3 given by the balance of forces along the rod (compressible) or by constant volume.
+in every region of a uniform body, with mu_3 given by the balance of forces along the rod (compressible) or by constant
+volume.  `body` has the equations of a body that varies.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -18,7 +19,8 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import NONE_BY_WORD, Parameters, Quantity
+from cosserat.parameters import Parameters, Quantity
+from cosserat.peristalsis.body import UNIFORM, BodySegment, Piece, check_segments, mean_square, pieces
 from cosserat.rods.directed_rod import Section, integrated_stiffnesses
 
 Array = NDArray[np.float64]
@@ -92,14 +94,12 @@ class Crawler(Parameters):
     """Radius of the resting body."""
     material: Annotated[Compressible | Incompressible, Field(discriminator="kind")]
     """Material of the body."""
-    mass: Annotated[Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None, NONE_BY_WORD] = (
-        None
-    )
-    """Mass of the body, spread evenly; this or 'density' is given."""
-    density: Annotated[
-        Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None, NONE_BY_WORD
-    ] = None
+    mass: Annotated[float, Quantity("kg", "m", "2.8.4", at_least=0)] | None = None
+    """Mass of the body, spread evenly over its volume; this or 'density' is given."""
+    density: Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "2.7.3", at_least=0)] | None = None
     """Mass per volume of the resting body; this or 'mass' is given."""
+    segments: tuple[BodySegment, ...] = ()
+    """Parts of the body from the rear to the front, if it varies along its length; together as long as the body."""
 
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
@@ -109,22 +109,34 @@ class Crawler(Parameters):
                 "mass",
                 f"{fault} a mass and a density; give one of them (and 'none' for the inherited one)",
             )
-        if self.length > _MAX_SLENDERNESS * self.radius:
+        check_segments(self.segments, self.length)
+        thinnest = self.radius * min(min(p.rear.radius, p.front.radius) for p in self.pieces)
+        if self.length > _MAX_SLENDERNESS * thinnest:
             raise PydanticCustomError(
                 "slender",
-                f"has length / radius = {self.length / self.radius:.3g}; it must be below {_MAX_SLENDERNESS:g}",
+                f"has length / radius = {self.length / thinnest:.3g}; it must be below {_MAX_SLENDERNESS:g}",
             )
         return self
 
     @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The segments as fractions of the length, with their values over those of the body."""
+        return pieces(self.segments, self.radius, self.material_young) if self.segments else UNIFORM
+
+    @property
     def area(self) -> float:
-        """A_0 [m^2]."""
+        """A_0 [m^2] of a section with the radius of the body itself."""
         return float(np.pi * self.radius**2)
 
     @property
     def line_density(self) -> float:
-        """rho_0 [kg/m].  ASSUME mass over length where the mass is given: the page gives no rho_0 of the worm."""
-        return self.mass / self.length if self.mass is not None else (self.density or 0.0) * self.area
+        """rho_0 [kg/m], its mean along a body that varies.
+
+        ASSUME mass over length where the mass is given: the page gives no rho_0 of the worm.
+        """
+        if self.mass is not None:
+            return self.mass / self.length
+        return (self.density or 0.0) * self.area * mean_square(self.pieces)
 
     @property
     def stiffnesses(self) -> tuple[float, float, float]:
@@ -168,6 +180,7 @@ class Loads(Parameters):
     advancing_force: AdvancingForce | None = None
     """Force n in advancing regions: zero (section 2.3) or that of the anchoring regions beside them (section 2.4).
 
+    In relaxed regions likewise.  Where the anchoring regions beside one differ, that of the one behind it counts.
     Default as in the section on the material: "none" if compressible, "continuous" if incompressible.
     """
     multiplier: Multiplier = "balanced"
@@ -190,6 +203,9 @@ class Groups:
     c: float
     m: float
     printed_contact: bool
+    k: float  # k_S or k_I [N]
+    area: float  # [m^2]
+    square: float  # l_0^2 / k_G [1/N]
 
     @classmethod
     def of(cls, body: Crawler, loads: Loads) -> Groups:
@@ -201,34 +217,58 @@ class Groups:
         else:
             k, k_p, k_g = body.stiffnesses
         square = body.length**2 / k_g
-        return cls(
+        own = cls(
             incompressible,
             stiffness=k * square,
             p=k_p / k,
-            force=loads.anchoring * square if incompressible else loads.anchoring / k,
-            c=loads.advancing * body.area * square,
+            force=0.0,
+            c=0.0,
             m=body.radius * body.line_density * loads.gravity * square,
             printed_contact=loads.contact == "printed",
+            k=k,
+            area=body.area,
+            square=square,
         )
+        return replace(own, force=own.force_of(loads.anchoring), c=own.c_of(loads.advancing))
 
-    def compressible_source(self, mu: Array, n: Array, c: Array) -> tuple[Array, Array, Array]:
-        """f, its derivative and mu_3 of the compressible rod: see `_compressible`."""
-        return _compressible(mu, n, c, self.stiffness, self.p, self.m, self.printed_contact)
+    def force_of(self, newton: float) -> float:
+        """d or delta of a force of the longitudinal muscles [N]."""
+        return newton * self.square if self.incompressible else newton / self.k
+
+    def c_of(self, pascal: float) -> float:
+        """c of a pressure of the circular muscles [Pa]."""
+        return pascal * self.area * self.square
+
+    def compressible_source(
+        self, mu: Array, n: Array, c: Array, own: tuple[Array, Array] | None = None
+    ) -> tuple[Array, Array, Array]:
+        """f, its derivative and mu_3 of the compressible rod: see `_compressible`; own : g and m at each point."""
+        g, m = own or self._everywhere(mu)
+        return _compressible(mu, n, c, g, self.p, m, self.printed_contact)
 
     def incompressible_source(
-        self, mu: Array, multiplier: Array, exponent: Array, c: Array
+        self,
+        mu: Array,
+        multiplier: Array,
+        exponent: Array,
+        c: Array,
+        own: tuple[Array, Array] | None = None,
     ) -> tuple[Array, Array, Array]:
-        """f, its derivative and mu_3 of the incompressible rod: see `_incompressible`."""
-        return _incompressible(mu, multiplier, exponent, c, self.stiffness, self.m, self.printed_contact)
+        """f, its derivative and mu_3 of the incompressible rod: see `_incompressible`; own : i and m at each point."""
+        i, m = own or self._everywhere(mu)
+        return _incompressible(mu, multiplier, exponent, c, i, m, self.printed_contact)
+
+    def _everywhere(self, mu: Array) -> tuple[Array, Array]:
+        return np.full(mu.shape[0], self.stiffness), np.full(mu.shape[0], self.m)
 
 
 @njit(cache=True)
 def _compressible(
-    mu: Array, n: Array, c: Array, g: float, p: float, m: float, printed_contact: bool
+    mu: Array, n: Array, c: Array, g: Array, p: float, m: Array, printed_contact: bool
 ) -> tuple[Array, Array, Array]:
     """Right-hand sides of eqs. (2.3.6) and (2.3.9) at K points.
 
-    mu : (K, 2).  n : (K,) contact force over k_S, -d or 0.  c : (K,) advancing load, or 0.
+    mu : (K, 2).  n : (K,) contact force over k_S, -d or 0.  c : (K,) advancing load, or 0.  g, m : (K,).
     Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
     """
     f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
@@ -237,27 +277,28 @@ def _compressible(
         mu_3[k] = (
             1 + n[k] - p * (mu_1 + mu_2 - 2)
         )  # n of (2.3.2), for (2.3.5) and (2.3.10); erratum E2.1
-        contact = m / mu_3[k] if printed_contact else m
-        d_contact = m * p / mu_3[k] ** 2 if printed_contact else 0.0
+        contact = m[k] / mu_3[k] if printed_contact else m[k]
+        d_contact = m[k] * p / mu_3[k] ** 2 if printed_contact else 0.0
         # k^alpha of (2.3.2) over k_S with mu_3 substituted, to keep digits as nu tends to 1/2
         k_1 = (1 - p) * ((1 + p) * (mu_1 - 1) + p * (mu_2 - 1)) + p * n[k]
         k_2 = (1 - p) * ((1 + p) * (mu_2 - 1) + p * (mu_1 - 1)) + p * n[k]
-        f[k, 0] = contact + g * k_1 + c[k]
-        f[k, 1] = g * k_2 + c[k]
-        df[k, 0, 0] = d_contact + g * (1 - p) * (1 + p)
-        df[k, 0, 1] = d_contact + p * g * (1 - p)
-        df[k, 1, 0] = p * g * (1 - p)
-        df[k, 1, 1] = g * (1 - p) * (1 + p)
+        f[k, 0] = contact + g[k] * k_1 + c[k]
+        f[k, 1] = g[k] * k_2 + c[k]
+        df[k, 0, 0] = d_contact + g[k] * (1 - p) * (1 + p)
+        df[k, 0, 1] = d_contact + p * g[k] * (1 - p)
+        df[k, 1, 0] = p * g[k] * (1 - p)
+        df[k, 1, 1] = g[k] * (1 - p) * (1 + p)
     return f, df, mu_3
 
 
 @njit(cache=True)
 def _incompressible(
-    mu: Array, multiplier: Array, exponent: Array, c: Array, i: float, m: float, printed_contact: bool
+    mu: Array, multiplier: Array, exponent: Array, c: Array, i: Array, m: Array, printed_contact: bool
 ) -> tuple[Array, Array, Array]:
     """Right-hand sides of eqs. (2.4.10) and (2.4.13) at K points.
 
     mu : (K, 2).  multiplier : (K,) lambda_c, which goes as (mu_1 mu_2)^-exponent.  c : (K,) advancing load, or 0.
+    i, m : (K,).
     Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
     """
     f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
@@ -265,14 +306,14 @@ def _incompressible(
         mu_1, mu_2 = mu[k, 0], mu[k, 1]
         lam, s = multiplier[k], exponent[k]
         mu_3[k] = 1 / (mu_1 * mu_2)  # (2.4.1)
-        contact = m * mu_1 * mu_2 if printed_contact else m
-        f[k, 0] = c[k] + contact + lam / mu_1 + i * (2 * mu_1 + mu_2 - 3)
-        f[k, 1] = c[k] + lam / mu_2 + i * (2 * mu_2 + mu_1 - 3)
-        df[k, 0, 0] = 2 * i - (1 + s) * lam / (mu_1 * mu_1)
-        df[k, 0, 1] = i - s * lam / (mu_1 * mu_2)
-        df[k, 1, 0] = i - s * lam / (mu_1 * mu_2)
-        df[k, 1, 1] = 2 * i - (1 + s) * lam / (mu_2 * mu_2)
+        contact = m[k] * mu_1 * mu_2 if printed_contact else m[k]
+        f[k, 0] = c[k] + contact + lam / mu_1 + i[k] * (2 * mu_1 + mu_2 - 3)
+        f[k, 1] = c[k] + lam / mu_2 + i[k] * (2 * mu_2 + mu_1 - 3)
+        df[k, 0, 0] = 2 * i[k] - (1 + s) * lam / (mu_1 * mu_1)
+        df[k, 0, 1] = i[k] - s * lam / (mu_1 * mu_2)
+        df[k, 1, 0] = i[k] - s * lam / (mu_1 * mu_2)
+        df[k, 1, 1] = 2 * i[k] - (1 + s) * lam / (mu_2 * mu_2)
         if printed_contact:
-            df[k, 0, 0] += m * mu_2
-            df[k, 0, 1] += m * mu_1
+            df[k, 0, 0] += m[k] * mu_2
+            df[k, 0, 1] += m[k] * mu_1
     return f, df, mu_3

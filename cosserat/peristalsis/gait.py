@@ -1,4 +1,4 @@
-"""Gaits as data, section 2.5: fronts that travel through the body, and the point anchored to the ground.
+"""Gaits as data, section 2.5: fronts that travel through the body, or chambers, and the point anchored to the ground.
 
 Times count phases: 0 is the start of the first phase, 1 its end, 1.5 the middle of the second.  Places are fractions
 of the reference length: 0 the rear end, 1 the front end.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Self
 
 import numpy as np
@@ -17,10 +17,11 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters, Quantity
-from cosserat.peristalsis.instant import Muscle, Region
+from cosserat.peristalsis import chambers as scheduled
+from cosserat.peristalsis.chambers import Chamber, Phase, Place, RampForm, State
+from cosserat.peristalsis.measured import Measured
+from cosserat.peristalsis.region import Muscle, Region
 
-Phase = Annotated[float, Quantity("1", at_least=0)]
-Place = Annotated[float, Quantity("1", r"\tilde{z}", "2.3.14")]
 Track = tuple[tuple[Phase, Place], ...]
 """A piecewise-linear path: points (phase, place)."""
 
@@ -39,17 +40,17 @@ class Instant:
     regions: tuple[Region, ...]
     anchor: float
 
-    @property
-    def holding(self) -> Muscle:
-        """The load on the anchored place; a gait has no anchor on a front inside the body."""
-        return next(r.load for r in self.regions if r.left <= self.anchor <= r.right)
+    def risen(self, amplitude: float) -> Instant:
+        """The same instant with this part of its loads."""
+        weaker = (replace(r, amplitude=amplitude * r.amplitude) for r in self.regions)
+        return replace(self, regions=tuple(weaker))
 
 
 class Gait(Parameters):
     """A periodic gait.
 
     A front gamma has anchoring loads behind it and advancing loads before it; a front eta the other way round.  If one
-    track ends when another begins, the first one counts at that time.
+    track ends when another begins, the first one counts at that time.  Chambers may take the place of fronts.
     """
 
     phases: tuple[Annotated[float, Quantity("s", "t_p, t_s", "section 2.8", above=0)], ...]
@@ -58,10 +59,21 @@ class Gait(Parameters):
     """Tracks of the fronts gamma, each of points [phase, place]; a place is a fraction of the length from the rear."""
     eta: tuple[Track, ...] = ()
     """Tracks of the fronts eta, each a list of points [phase, place]."""
-    anchor: tuple[Track, ...]
+    anchor: tuple[Track, ...] = ()
     """Tracks of the point anchored to the ground, likewise; they follow each other without gaps."""
+    measured: tuple[Measured, ...] = ()
+    """Measured tracks, in addition to those above."""
+    chambers: tuple[Chamber, ...] = ()
+    """Chambers from the rear to the front, in place of fronts."""
     at_rest: Muscle = "anchoring"
-    """The load on the whole body while no front is on it."""
+    """The load on the whole body while no front is on it, or where no row of a chamber says another."""
+    ramp: Annotated[float, Quantity("s", at_least=0)] = 0.0
+    """Time in which a load of a chamber rises after its start and falls before its end.
+
+    With fronts, the time in which all loads rise at the start of the first stride, from a relaxed body.
+    """
+    ramp_form: RampForm = "linear"
+    """Whether a load rises along a straight line, or smoothly, with no rate at either end."""
     clearance: Annotated[float, Quantity("1", "", "2.5.9", above=0, below=0.1)] = 1e-6
     """A front nearer to an end than this has left the body.  ASSUME next to nothing: no stride depends on it, E2.14."""
     sudden: Annotated[float, Quantity("1", at_least=0)] = 0.0
@@ -73,8 +85,10 @@ class Gait(Parameters):
             raise PydanticCustomError(
                 "gait", "'phases' is empty; give the duration of at least one phase"
             )
+        self._check_measured()
+        self._check_chambers()
         for name in ("gamma", "eta", "anchor"):
-            for number, track in enumerate(getattr(self, name)):
+            for number, track in enumerate(self.tracks(name)):
                 self._check_track(f"'{name}.{number}'", track)
         self._check_anchor()
         for begin, end in itertools.pairwise(self.breaks()):
@@ -90,24 +104,74 @@ class Gait(Parameters):
         """Duration of one stride [s]."""
         return math.fsum(self.phases)
 
+    def tracks(self, kind: str) -> tuple[Track, ...]:
+        """The tracks of the fronts "gamma" or "eta", or of the "anchor", those measured in phases and fractions."""
+        given: tuple[Track, ...] = getattr(self, kind)
+        own = (m for m in self.measured if m.front == kind)
+        return given + tuple(tuple((self.phase(t), at / m.length) for t, at in m.table) for m in own)
+
     def breaks(self) -> list[float]:
-        """Phases at which a track begins, ends or turns, and the ends of all phases, increasing."""
-        tracks = itertools.chain(self.gamma, self.eta, self.anchor)
+        """Phases at which a track or a load begins, ends or turns, and the ends of all phases, increasing."""
+        tracks = itertools.chain(*map(self.tracks, ("gamma", "eta", "anchor")))
         found = [float(n) for n in range(len(self.phases) + 1)] + [
             p for track in tracks for p, _ in track
         ]
+        if self.chambers:
+            found += scheduled.breaks(self.chambers, self.at_rest, self.last, self._a_ramp_from)
+        elif self.ramp:
+            found.append(self.phase(self.ramp))
         return _distinct(found)
+
+    @property
+    def last(self) -> float:
+        """The phase at which a stride ends."""
+        return float(len(self.phases))
 
     def time(self, phase: float) -> float:
         """Seconds since the start of the stride."""
         whole = min(int(phase), len(self.phases) - 1)
         return math.fsum(self.phases[:whole]) + (phase - whole) * self.phases[whole]
 
+    def phase(self, time: float) -> float:
+        """The phase at a time [s] since the start of the stride; beyond its end, as if the last phase went on."""
+        starts = [math.fsum(self.phases[:n]) for n in range(len(self.phases))]
+        whole = max(
+            n
+            for n, start in enumerate(starts)
+            if n == 0 or time >= start - _PHASE_TOLERANCE * self.phases[n]
+        )
+        return whole + max(0.0, (time - starts[whole]) / self.phases[whole])
+
+    def rise(self, time: float) -> float:
+        """The part of the loads that acts at a time [s] of the first stride; chambers have ramps of their own."""
+        return (
+            1.0 if self.chambers or not self.ramp else scheduled.ramp(time / self.ramp, self.ramp_form)
+        )
+
+    def first_change(self) -> float:
+        """The fraction of the body whose load at the start of the first stride is not that at the end of a stride."""
+        return (
+            0.0 if self.chambers or self.ramp else _changed(self.regions(self.last), self.regions(0.0))
+        )
+
+    def _a_ramp_from(self, phase: float, ramps: float) -> float:
+        return self.phase(self.time(phase) + ramps * self.ramp)
+
+    def _amplitude(self, state: State, phase: float) -> float:
+        """The part of the load of a state that acts."""
+        now = self.time(phase)
+        shares = [1.0] if self.ramp else []
+        if self.ramp and state.rises:
+            shares.append((now - self.time(state.begin)) / self.ramp)
+        if self.ramp and state.falls:
+            shares.append((self.time(state.end) - now) / self.ramp)
+        return scheduled.ramp(min(shares), self.ramp_form) if shares else 1.0
+
     def fronts(self, phase: float) -> list[tuple[float, str]]:
         """Places and kinds ("gamma" or "eta") of the fronts on the body, from the rear, their tracks' ends included."""
         found = []
         for kind in ("gamma", "eta"):
-            for track in getattr(self, kind):
+            for track in self.tracks(kind):
                 place = _follow(track, phase)
                 if place is not None:
                     inside = phase - _BREAK_OFFSET if phase > track[0][0] else phase + _BREAK_OFFSET
@@ -118,6 +182,8 @@ class Gait(Parameters):
 
     def regions(self, phase: float) -> tuple[Region, ...]:
         """The regions of one time, without those shorter than the clearance."""
+        if self.chambers:
+            return scheduled.regions(self.chambers, self.at_rest, self.last, phase, self._amplitude)
         load: Muscle = self.at_rest
         fronts = self.fronts(phase)
         if fronts:
@@ -135,7 +201,7 @@ class Gait(Parameters):
 
     def anchored(self, phase: float) -> float:
         """The place anchored to the ground."""
-        for track in self.anchor:
+        for track in self.tracks("anchor"):
             place = _follow(track, phase)
             if place is not None:
                 return place
@@ -161,6 +227,39 @@ class Gait(Parameters):
             phases.extend(number + k / count for k in range(count + 1))
         return [Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in _distinct(phases)]
 
+    def _check_measured(self) -> None:
+        for number, measured in enumerate(self.measured):
+            for time, place in measured.table:
+                if not (
+                    0 <= time <= self.duration * (1 + _PHASE_TOLERANCE) and 0 <= place <= measured.length
+                ):
+                    raise PydanticCustomError(
+                        "gait",
+                        f"'measured.{number}' is at {place:g} m at {time:g} s; times run from 0 to the "
+                        f"{self.duration:g} s of a stride, and places from 0 to the {measured.length:g} m of the body",
+                    )
+
+    def _check_chambers(self) -> None:
+        if not self.chambers:
+            if self.ramp > self.duration:
+                raise PydanticCustomError(
+                    "gait",
+                    f"'ramp' is {self.ramp:g} s, longer than a stride of {self.duration:g} s; take a shorter one",
+                )
+            return
+        if self.tracks("gamma") or self.tracks("eta"):
+            raise PydanticCustomError("gait", "has both 'chambers' and fronts; give one of them")
+        scheduled.check(self.chambers, self.last)
+        for number, chamber in enumerate(self.chambers):
+            for state in scheduled.states(chamber, self.at_rest, self.last):
+                lasts = self.time(state.end) - self.time(state.begin)
+                if (state.rises + state.falls) * self.ramp > lasts * (1 + _PHASE_TOLERANCE):
+                    raise PydanticCustomError(
+                        "gait",
+                        f"'ramp' is {self.ramp:g} s, too long for the state '{state.load}' of 'chambers.{number}', "
+                        f"which lasts {lasts:g} s and rises or falls within it; take a shorter one",
+                    )
+
     def _check_track(self, name: str, track: Track) -> None:
         if len(track) < 2:
             raise PydanticCustomError(
@@ -185,7 +284,8 @@ class Gait(Parameters):
 
     def _check_anchor(self) -> None:
         expected = 0.0
-        for track in (*self.anchor, None):
+        anchors = sorted(self.tracks("anchor"), key=lambda track: track[0][0])
+        for track in (*anchors, None):
             begins = len(self.phases) if track is None else track[0][0]
             if abs(begins - expected) > _PHASE_TOLERANCE:
                 what = "overlaps" if begins < expected else "has a gap"
@@ -199,15 +299,12 @@ class Gait(Parameters):
 
     def _refuse_sudden_change(self, phase: float) -> None:
         """Fronts carry every change of load; the end of the stride is its start."""
-        last = float(len(self.phases))
+        if self.chambers:
+            return  # a schedule says when a load begins
+        last = self.last
         before = self.regions((last if phase == 0 else phase) - _BREAK_OFFSET)
         after = self.regions((0.0 if phase == last else phase) + _BREAK_OFFSET)
-        changed = sum(
-            max(0.0, min(a.right, b.right) - max(a.left, b.left))
-            for a in before
-            for b in after
-            if a.load != b.load
-        )
+        changed = _changed(before, after)
         if changed > self.sudden + _CHANGE_TOLERANCE:
             raise PydanticCustomError(
                 "gait",
@@ -221,7 +318,7 @@ class Gait(Parameters):
         active = [
             (kind, track)
             for kind in ("gamma", "eta", "anchor")
-            for track in getattr(self, kind)
+            for track in self.tracks(kind)
             if _follow(track, middle) is not None
         ]
         for (first, one), (second, other) in itertools.combinations(active, 2):
@@ -244,6 +341,13 @@ class Gait(Parameters):
                     "region; gamma and eta must alternate along the body",
                 )
         anchor = self.anchored(phase)
+        for one, two in itertools.pairwise(self.regions(phase) if self.chambers else ()):
+            if one.state != two.state and abs(one.right - anchor) < self.clearance:
+                raise PydanticCustomError(
+                    "gait",
+                    f"at phase {phase:g} the anchor lies at {one.right:g}, where two chambers meet that bear different "
+                    "loads; put it inside of one",
+                )
         for place, kind in inner:
             if abs(place - anchor) < self.clearance:
                 raise PydanticCustomError(
@@ -251,6 +355,16 @@ class Gait(Parameters):
                     f"at phase {phase:g} the anchor lies on the front {kind} at {place:g}, where the body changes "
                     "under it; put it beside the front",
                 )
+
+
+def _changed(before: tuple[Region, ...], after: tuple[Region, ...]) -> float:
+    """The fraction of the body on which two sets of regions have different loads."""
+    return sum(
+        max(0.0, min(a.right, b.right) - max(a.left, b.left))
+        for a in before
+        for b in after
+        if a.load != b.load
+    )
 
 
 def _distinct(phases: list[float]) -> list[float]:

@@ -1,7 +1,8 @@
 """One instant of a crawler: anchoring and advancing loads in consecutive regions, and the stretches they cause.
 
 Conditions, the same for both solvers: stretches and their slopes (hence m^alpha) are continuous where regions meet,
-slopes vanish at the ends (2.3.13), and `crawler.Loads.advancing_force` gives n in advancing regions.
+slopes vanish at the ends (2.3.13), and `crawler.Loads.advancing_force` gives n in advancing regions.  `body` has the
+conditions where the body itself changes.
 """
 
 from __future__ import annotations
@@ -9,62 +10,24 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.errors import InputError, NotConvergedError, OutOfReachError
+from cosserat.errors import InputError, NotConvergedError
+from cosserat.peristalsis.body import UNIFORM, Ints, mean_square, scales_at, spans
 from cosserat.peristalsis.crawler import Crawler, Groups, Incompressible, Loads
+from cosserat.peristalsis.profile import Profile
+from cosserat.peristalsis.region import Region, continued, merged
 from cosserat.solvers.collocation import RegionSystem, collocate
 from cosserat.solvers.elements import Mesh, graded
 from cosserat.solvers.regions import RegionSettings, Remote, Source, solve
 
 Array = NDArray[np.float64]
-Muscle = Literal["anchoring", "advancing"]
 
 _MIN_STRETCH = 0.02  # a plateau with a stretch below this has collapsed
 _MAX_PLATEAU_STEPS = 60
 _PLATEAU_TOLERANCE = 1e-12  # largest correction of a converged plateau
-
-
-@dataclass(frozen=True)
-class Region:
-    """Range of one of the loads, in fractions of the length."""
-
-    left: float
-    right: float
-    load: Muscle
-
-
-@dataclass(frozen=True)
-class Profile:
-    """The stretches of one instant at the points of a mesh over [0, 1].
-
-    mu, slope : (M, p + 1, 2) mu_1, mu_2 and their derivatives in z = xi / l_0.  mu_3 : (M, p + 1).
-    multiplier : (M, p + 1) lambda_c of eq. (2.4.12); zero if compressible.  effort : iterations, or nodes of solve_bvp.
-    incompressible : whether mu_1 mu_2 mu_3 = 1, eq. (2.4.1).
-    """
-
-    mesh: Mesh
-    mu: Array
-    slope: Array
-    mu_3: Array
-    multiplier: Array
-    effort: int
-    incompressible: bool
-
-    def at(self, z: Array) -> tuple[Array, Array, Array, Array]:
-        """mu (K, 2), slope (K, 2), mu_3 (K,) and multiplier (K,) at given places.
-
-        The stretches and n = lambda_c mu_1 mu_2, constant in balance, are interpolated.  mu_3 and lambda_c follow from
-        them, so (2.4.1) holds to round-off there too.
-        """
-        scalars = np.stack([self.mu_3, self.multiplier * self.mu.prod(axis=2)], axis=2)
-        found = self.mesh.interpolate(np.concatenate([self.mu, self.slope, scalars], axis=2), z)
-        mu, slope, mu_3, force = found[:, :2], found[:, 2:4], found[:, 4], found[:, 5]
-        volume = mu.prod(axis=1)
-        return mu, slope, 1 / volume if self.incompressible else mu_3, force / volume
 
 
 def holds_force(body: Crawler, loads: Loads) -> bool:
@@ -73,15 +36,20 @@ def holds_force(body: Crawler, loads: Loads) -> bool:
     return (loads.advancing_force or default) == "continuous"
 
 
-def _merged(regions: Sequence[Region]) -> tuple[Region, ...]:
-    """The same loads without junctions between equal ones."""
-    merged = [regions[0]]
-    for region in regions[1:]:
-        if region.load == merged[-1].load:
-            merged[-1] = Region(merged[-1].left, region.right, region.load)
-        else:
-            merged.append(region)
-    return tuple(merged)
+@dataclass(frozen=True)
+class Local:
+    """What the equations have at K points, each (K,), with k_G and l_0 of the body itself as units.
+
+    force : n over k_S of this place, or lambda_c mu_1 mu_2 l_0^2 / k_G.  pressure : c.  exponent : of `_multiplier`.
+    stiffness, weight : g or i, and m.  gradient : k_G over that of the body itself.
+    """
+
+    force: Array
+    pressure: Array
+    exponent: Array
+    stiffness: Array
+    weight: Array
+    gradient: Array
 
 
 class InstantProblem:
@@ -89,44 +57,86 @@ class InstantProblem:
 
     def __init__(self, body: Crawler, loads: Loads, regions: Sequence[Region], name: str) -> None:
         self.body, self.loads, self.name = body, loads, name
-        self.regions = regions = _merged(regions)
+        self.regions = regions = merged(regions)
         self.groups = Groups.of(body, loads)
         self.advancing = np.array([r.load == "advancing" for r in regions])
-        continuous = holds_force(body, loads) and not self.advancing.all()
-        self.force = np.where(self.advancing & (not continuous), 0.0, -self.groups.force)
-        self.pressure = np.where(self.advancing, self.groups.c, 0.0)
+        pulling = [
+            self.groups.force_of(self._strength(r)) if r.load == "anchoring" else None for r in regions
+        ]
+        if holds_force(body, loads):
+            pulling = continued(pulling)
+        self.force = np.array([-(force or 0.0) for force in pulling])
+        squeezing = [
+            self.groups.c_of(self._strength(r)) if r.load == "advancing" else 0.0 for r in regions
+        ]
+        self.pressure = np.array(squeezing)
         printed = self.groups.incompressible and loads.multiplier == "printed"
         lengths = np.array([r.right - r.left for r in regions])
         self.exponent = np.where(self.advancing & printed, lengths, 1.0)
+        self.pieces = body.pieces
+        self.spans = spans(regions, self.pieces)
 
-    @functools.cached_property
+    def _strength(self, region: Region) -> float:
+        """The force [N] or the pressure [Pa] of the muscles of a region."""
+        usual = {"anchoring": self.loads.anchoring, "advancing": self.loads.advancing}.get(
+            region.load, 0.0
+        )
+        return (usual if region.own is None else region.own) * region.amplitude
+
+    def local(self, span: Ints, z: Array) -> Local:
+        """The equations at places z, each in the span of that number."""
+        region, piece = (
+            np.array([getattr(s, n) for s in self.spans])[span] for n in ("region", "piece")
+        )
+        scales = scales_at(self.pieces, piece, z)
+        force = self.force[region] * scales.anchoring
+        weight = self.groups.m * (scales.radius**3 / mean_square(self.pieces))
+        return Local(
+            force=force if self.groups.incompressible else force / scales.stretching,
+            pressure=self.pressure[region] * (scales.advancing * scales.radius**2),
+            exponent=self.exponent[region],
+            stiffness=self.groups.stiffness * scales.stretching,
+            weight=weight,
+            gradient=scales.gradient,
+        )
+
+    @property
     def plateaus(self) -> tuple[Array, float]:
-        """mu_1, mu_2 far inside a long region of each kind, shape (R, 2), and the shortest length of decay there.
+        """mu_1, mu_2 far inside a long span, the mean of its ends, shape (S, 2), and the shortest length of decay.
 
         Raises
         ------
         InputError : the loads collapse a section.
         """
-        mu = np.ones((len(self.regions), 2))
+        mu, layer = self._homogeneous
+        return mu.mean(axis=1), layer
+
+    @functools.cached_property
+    def _homogeneous(self) -> tuple[Array, float]:
+        """mu_1, mu_2 of a long body with the loads and the section of either end of every span, shape (S, 2, 2)."""
+        ends = np.array([[s.left, s.right] for s in self.spans]).ravel()
+        count = np.repeat(np.arange(len(self.spans)), 2)
+        local = self.local(count, ends)
+        mu = np.ones((ends.size, 2))
         for _ in range(_MAX_PLATEAU_STEPS):
-            f, df, mu_3 = self._source(mu, np.ones_like(self.exponent), self.force)
+            f, df, mu_3 = self._source(mu, np.ones_like(local.exponent), local)
             step = -np.linalg.solve(df, f[:, :, None])[:, :, 0]
             if np.abs(step).max() < _PLATEAU_TOLERANCE:
                 break
             bound = np.where(step < 0, -0.9 * mu / np.minimum(step, -1e-300), 1.0)
             mu = mu + np.minimum(1.0, bound.min(axis=1))[:, None] * step
-        for region, (mu_1, mu_2), along in zip(self.regions, mu, mu_3, strict=True):
+        for span, (mu_1, mu_2), along, at in zip(count, mu, mu_3, ends, strict=True):
             for number, value in ((1, mu_1), (2, mu_2), (3, along)):
                 if not value > _MIN_STRETCH:
-                    raise self._collapse(region, number)
+                    raise self._collapse(self.regions[self.spans[span].region], number, at)
         if not np.abs(step).max() < _PLATEAU_TOLERANCE:
             raise NotConvergedError(
                 f"{self.asked}: no homogeneous state found in {_MAX_PLATEAU_STEPS} steps; take weaker loads",
                 iterations=_MAX_PLATEAU_STEPS,
                 residual=float(np.abs(step).max()),
             )
-        fastest = np.abs(np.linalg.eigvals(df)).max()
-        return mu, float(1 / np.sqrt(fastest))
+        fastest = (np.abs(np.linalg.eigvals(df)) / local.gradient[:, None]).max()
+        return mu.reshape(-1, 2, 2), float(1 / np.sqrt(fastest))
 
     @property
     def asked(self) -> str:
@@ -141,40 +151,49 @@ class InstantProblem:
         """Nothing, or what `plateaus` raises."""
         _ = self.plateaus
 
-    def _collapse(self, region: Region, number: int) -> InputError:
+    def _collapse(self, region: Region, number: int, at: float) -> InputError:
+        key, unit = {"anchoring": ("anchoring", "N"), "advancing": ("advancing", "Pa")}.get(
+            region.load, ("anchoring", "N")
+        )
+        strength = self._strength(region)
         muscles = (
-            f"'loads.anchoring' = {self.loads.anchoring:g} N"
-            if region.load == "anchoring"
-            else f"'loads.advancing' = {self.loads.advancing:g} Pa"
+            f"'loads.{key}' = {strength:g} {unit}"
+            if region.own is None
+            else f"an own load of {strength:g} {unit}"
         )
         weight = self.body.line_density * self.loads.gravity
+        place = "" if self.pieces is UNIFORM else f", at xi = {at * self.body.length:.4g} m"
         return InputError(
-            f"{self.name}: {muscles} and a weight of {weight:.3g} N/m would collapse the sections where they act "
-            f"(mu_{number} falls to zero); take weaker loads or a stiffer material than E = "
+            f"{self.name}: {muscles} and a weight of {weight:.3g} N/m would collapse the sections where they act"
+            f"{place} (mu_{number} falls to zero); take weaker loads or a stiffer material than E = "
             f"{self.body.material_young:g} Pa"
         )
 
-    def _source(self, mu: Array, exponent: Array, factor: Array) -> tuple[Array, Array, Array]:
-        """f, its derivative and mu_3 at one point of each region, or at K points with arrays to match."""
+    def _source(self, mu: Array, exponent: Array, local: Local) -> tuple[Array, Array, Array]:
+        """f, its derivative and mu_3 at K points."""
+        own = local.stiffness, local.weight
         if not self.groups.incompressible:
-            return self.groups.compressible_source(mu, factor, self.pressure)
-        multiplier = factor * (mu[:, 0] * mu[:, 1]) ** -exponent
-        return self.groups.incompressible_source(mu, multiplier, exponent, self.pressure)
+            return self.groups.compressible_source(mu, local.force, local.pressure, own)
+        multiplier = local.force * (mu[:, 0] * mu[:, 1]) ** -exponent
+        return self.groups.incompressible_source(mu, multiplier, exponent, local.pressure, own)
 
     def mesh(self, settings: RegionSettings) -> Mesh:
         """The mesh of this instant."""
-        _, layer = self.plateaus
-        edges = [self.regions[0].left, *(r.right for r in self.regions)]
-        return graded(edges, layer, settings.elements, settings.degree)
+        _, layer = self._homogeneous
+        edges = [self.spans[0].left, *(s.right for s in self.spans)]
+        varies = self.pieces is not UNIFORM  # then there are layers at the ends too
+        return graded(edges, layer, settings.elements, settings.degree, fine_ends=varies)
 
-    def guess(self, z: Array, region: Array) -> Array:
-        """Plateaus joined by layers, shape (K, 2), at places z in the regions with these indices."""
-        mu, layer = self.plateaus
-        result: Array = mu[region]
-        for number, junction in enumerate(self.regions[:-1]):
-            jump = (mu[number + 1] - mu[number]) / 2
+    def guess(self, z: Array, span: Ints) -> Array:
+        """Plateaus joined by layers, shape (K, 2), at places z in the spans with these indices."""
+        mu, layer = self._homogeneous
+        left, right = np.array([[s.left, s.right] for s in self.spans])[span].T
+        along = (z - left) / (right - left)
+        result: Array = mu[span, 0] + along[:, None] * (mu[span, 1] - mu[span, 0])
+        for number, junction in enumerate(self.spans[:-1]):
+            jump = (mu[number + 1, 0] - mu[number, 1]) / 2
             for side, sign in ((number, 1.0), (number + 1, -1.0)):
-                fade = np.exp(-np.abs(z - junction.right) / (2 * layer)) * (region == side)
+                fade = np.exp(-np.abs(z - junction.right) / (2 * layer)) * (span == side)
                 result = result + sign * fade[:, None] * jump
         return result
 
@@ -194,23 +213,30 @@ class InstantProblem:
         """
         mesh = self.mesh(settings)
         equation = _Equation(self, mesh)
+        weight = equation.weight
         if before is None or before.shape[0] != mesh.nodes:
-            solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked)
+            solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked, weight)
         else:
             try:
-                solved = solve(mesh, equation, before, settings, self.asked)
+                solved = solve(mesh, equation, before, settings, self.asked, weight)
             except NotConvergedError:
-                solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked)
+                solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked, weight)
         mu = mesh.split(solved.u)
         mu_3, multiplier = equation.along(mu)
-        slope, incompressible = mesh.slope(mu), self.groups.incompressible
-        profile = Profile(mesh, mu, slope, mu_3, multiplier, solved.iterations, incompressible)
-        return profile, solved.u
+        return self._profile(mesh, mu, mesh.slope(mu), mu_3, multiplier, solved.iterations), solved.u
+
+    def _profile(
+        self, mesh: Mesh, mu: Array, slope: Array, mu_3: Array, multiplier: Array, effort: int
+    ) -> Profile:
+        piece = np.array([s.piece for s in self.spans])[mesh.region]
+        scales = scales_at(self.pieces, np.repeat(piece, mesh.degree + 1), mesh.places.ravel())
+        radius = (scales.radius * self.body.radius).reshape(mu_3.shape)
+        return Profile(mesh, mu, slope, mu_3, multiplier, radius, effort, self.groups.incompressible)
 
     def collocate(self, settings: RegionSettings, tolerance: float) -> Profile:
         """The thesis's way: first-order systems on a common domain, eqs. (2.3.17)-(2.3.18), (2.4.18)-(2.4.19).
 
-        The profile is sampled on the mesh of the banded solver.
+        The profile is sampled on the mesh of the banded solver.  The body must be uniform.
 
         Raises
         ------
@@ -236,7 +262,7 @@ class InstantProblem:
         for e, values in enumerate(y):
             if values.shape[1] > 4:
                 multiplier[e] = values[:, 4]
-        return Profile(mesh, mu, slope, mu_3, multiplier, found.nodes, self.groups.incompressible)
+        return self._profile(mesh, mu, slope, mu_3, multiplier, found.nodes)
 
     def _system(self, number: int) -> RegionSystem:
         region = self.regions[number]
@@ -284,10 +310,10 @@ class _Equation:
 
     def __init__(self, instant: InstantProblem, mesh: Mesh) -> None:
         self.instant, self.mesh = instant, mesh
-        points = mesh.degree + 1
-        self.force = np.repeat(instant.force[mesh.region], points)
-        self.pressure = np.repeat(instant.pressure[mesh.region], points)
-        self.exponent = np.repeat(instant.exponent[mesh.region], points)
+        span = np.repeat(mesh.region, mesh.degree + 1)
+        self.local = instant.local(span, mesh.places.ravel())
+        varies = instant.pieces is not UNIFORM
+        self.weight = self.local.gradient.reshape(mesh.places.shape) if varies else None
         self.far = [
             (number, self._junction(number))
             for number, s in enumerate(instant.exponent)
@@ -304,21 +330,25 @@ class _Equation:
         if not (u > 0).all():
             return None
         mu = u.reshape(-1, 2)
-        groups = self.instant.groups
+        groups, local, own = self.instant.groups, self.local, self._own
         if not groups.incompressible:
-            f, df, mu_3 = groups.compressible_source(mu, self.force, self.pressure)
+            f, df, mu_3 = groups.compressible_source(mu, local.force, local.pressure, own)
             if not (mu_3 > 0).all():
                 return None
             return Source(f.reshape(u.shape), df.reshape(*u.shape, 2))
         multiplier = self._multiplier(u)
-        f, df, _ = groups.incompressible_source(mu, multiplier, self.exponent, self.pressure)
+        f, df, _ = groups.incompressible_source(mu, multiplier, local.exponent, local.pressure, own)
         remote = tuple(self._remote(u, multiplier, number, node) for number, node in self.far)
         return Source(f.reshape(u.shape), df.reshape(*u.shape, 2), remote)
+
+    @property
+    def _own(self) -> tuple[Array, Array]:
+        return self.local.stiffness, self.local.weight
 
     def _multiplier(self, u: Array) -> Array:
         """lambda_c at every point, shape (M (p + 1),)."""
         volume = (u[..., 0] * u[..., 1]).ravel()
-        multiplier: Array = self.force * volume**-self.exponent
+        multiplier: Array = self.local.force * volume**-self.local.exponent
         for number, node in self.far:
             at_junction = self._node_value(u, node).prod()
             inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
@@ -340,24 +370,8 @@ class _Equation:
         """mu_3 and lambda_c, shape (M, p + 1) each."""
         groups, shape = self.instant.groups, u.shape[:2]
         if not groups.incompressible:
-            _, _, mu_3 = groups.compressible_source(u.reshape(-1, 2), self.force, self.pressure)
+            _, _, mu_3 = groups.compressible_source(
+                u.reshape(-1, 2), self.local.force, self.local.pressure, self._own
+            )
             return mu_3.reshape(shape), np.zeros(shape)
         return 1 / (u[..., 0] * u[..., 1]), self._multiplier(u).reshape(shape)
-
-
-def check_tilt(profile: Profile, body: Crawler, name: str) -> float:
-    """The largest R mu_1' / mu_3, the sine of the tilt of the centreline, eq. (2.5.5).
-
-    Raises
-    ------
-    OutOfReachError : it reaches one: (2.5.6) has no root there.
-    """
-    sine = np.abs(profile.slope[..., 0]) * (body.radius / body.length) / profile.mu_3
-    largest = float(sine.max())
-    if not largest < 1:
-        place = profile.mesh.places.ravel()[int(sine.argmax())] * body.length
-        raise OutOfReachError(
-            f"{name}: R mu_1' / mu_3 reaches {largest:.3g} at xi = {place:.4g} m, where eq. (2.5.6) has no root: the "
-            "surface cannot stay on the ground; take weaker loads or a thinner body"
-        )
-    return largest

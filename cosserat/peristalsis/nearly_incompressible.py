@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from cosserat.peristalsis.crawler import Compressible, Crawler, Loads
-from cosserat.peristalsis.instant import InstantProblem, Region
+from cosserat.peristalsis.instant import InstantProblem
+from cosserat.peristalsis.region import Region
 from cosserat.solvers.regions import RegionSettings
 
 _REGIONS = (

@@ -13,16 +13,20 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.peristalsis.body import piece_at, scales_at
 from cosserat.peristalsis.crawler import Crawler, Loads
 from cosserat.peristalsis.gait import Gait, Instant
-from cosserat.peristalsis.instant import InstantProblem, Muscle, Profile, Region, check_tilt, holds_force
+from cosserat.peristalsis.instant import InstantProblem, holds_force
+from cosserat.peristalsis.profile import Profile, check_tilt
+from cosserat.peristalsis.region import Muscle, Region
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
 _MIN_REGION_LENGTH = 1e-6  # as a fraction of the length; a shorter region is empty
-_EQUAL_STRETCH_TOLERANCE = 1e-9  # regions whose mu_1 differs by less are equally thick
+_EQUAL_LOADS_TOLERANCE = 1e-3  # loads that differ on less of the body are the same
+_EQUAL_STRETCH_TOLERANCE = 1e-3  # regions whose mu_1 differs by less are equally thick
 
 
 class CrawlerProblem(Problem):
@@ -38,6 +42,22 @@ class CrawlerProblem(Problem):
     mesh: RegionSettings = RegionSettings()
     sections: Annotated[int, Count(at_least=2, at_most=100_001)] = 251
     """Equally spaced cross-sections at which results are stored."""
+
+    @model_validator(mode="after")
+    def _fits_the_body(self) -> Self:
+        if self.crawler.segments and (
+            self.solver == "collocation" or self.loads.multiplier == "printed"
+        ):
+            what = (
+                "'solver' = 'collocation'"
+                if self.solver == "collocation"
+                else "'loads.multiplier' = 'printed'"
+            )
+            raise PydanticCustomError(
+                "segments",
+                f"{what} is for a uniform body; take the default, or leave out 'crawler.segments'",
+            )
+        return self
 
     @property
     def places(self) -> Array:
@@ -57,12 +77,12 @@ class CrawlerProblem(Problem):
 
     def length_along(self, profile: Profile) -> Array:
         """Distance along the ground from the rear end, eq. (2.5.8), at the points of the mesh [m]."""
-        tilt = profile.slope[..., 0] * self.crawler.radius / self.crawler.length
+        tilt = profile.slope[..., 0] * profile.radius / self.crawler.length
         integrand: Array = np.sqrt(profile.mu_3**2 - tilt**2)  # (2.5.6)
         return profile.mesh.cumulative(integrand) * self.crawler.length
 
     def pressure(self, mu: Array, multiplier: Array) -> Array:
-        """Coelomic pressure, eqs. (2.8.8), (2.8.9), of an incompressible body [Pa]."""
+        """Coelomic pressure, eqs. (2.8.8), (2.8.9), of an incompressible body with its own radius and modulus [Pa]."""
         k_i, k_g = self.crawler.incompressible_stiffnesses
         reactive = multiplier * k_g / self.crawler.length**2 - k_i * (2 - mu.sum(axis=-1))
         result: Array = -reactive * mu.prod(axis=-1) / self.crawler.area
@@ -73,6 +93,8 @@ class CrawlerProblem(Problem):
     ) -> dict[str, Field]:
         """Stored variables, times by sections; `placed` are the positions along the ground at the mesh points."""
         z, body = self.places, self.crawler
+        scales = scales_at(body.pieces, piece_at(body.pieces, z), z)
+        radius = scales.radius * body.radius
         on = [profile.at(z) for profile in profiles]
         mu, slope = np.array([a[0] for a in on]), np.array([a[1] for a in on])
         mu_3, multiplier = np.array([a[2] for a in on]), np.array([a[3] for a in on])
@@ -81,13 +103,23 @@ class CrawlerProblem(Problem):
             "mu_2": mu[..., 1],
             "mu_3": mu_3,
             "mu_1_slope": slope[..., 0] / body.length,
-            "height": body.radius * (mu[..., 0] - 1),  # (2.5.7)
+            "height": radius * (mu[..., 0] - 1),  # (2.5.7)
             "along": np.array([p.mesh.interpolate(s, z) for p, s in zip(profiles, placed, strict=True)]),
             "advancing": np.array([_advancing(r, z) for r in regions]),
         }
         if body.material.kind == "incompressible":
-            values["p_coelom"] = self.pressure(mu, multiplier)
+            own = scales.stretching  # (2.8.8) with k_I, k_G and A of the place
+            values["p_coelom"] = scales.young * self.pressure(mu, multiplier / own)
         fields: dict[str, Field] = {key: (("time", "section"), value) for key, value in values.items()}
+        if body.segments:
+            fields["resting_radius"] = (("section",), radius)
+        if any(r.state != (r.load, 1.0, None) or r.load == "relaxed" for row in regions for r in row):
+            for name, load, usual, scale in (
+                ("muscle_force", "anchoring", self.loads.anchoring, scales.anchoring),
+                ("muscle_pressure", "advancing", self.loads.advancing, scales.advancing),
+            ):
+                strengths = [scale * _strength(row, z, load, usual) for row in regions]
+                fields[name] = (("time", "section"), np.array(strengths))
         return fields | {"xi_section": (("section",), z * body.length)}
 
     @classmethod
@@ -109,7 +141,20 @@ class Segment(Parameters):
     end: Annotated[float, Quantity("1", r"\tilde{\eta}", "2.3.14")]
     """End of the region, from the rear end."""
     load: Muscle
-    """The active muscles: longitudinal ones anchor, circular ones advance."""
+    """The active muscles: longitudinal ones anchor, circular ones advance, and where it is relaxed none act."""
+    force: Annotated[float, Quantity("N", r"\bar{D}", "2.2.7", at_least=0)] | None = None
+    """Force of the longitudinal muscles of an anchoring region; by default that of 'loads.anchoring'."""
+    pressure: Annotated[float, Quantity("Pa", "p", "2.2.8")] | None = None
+    """Pressure of the circular muscles of an advancing region; by default that of 'loads.advancing'."""
+
+    @model_validator(mode="after")
+    def _has_its_own_load(self) -> Self:
+        for name, load in (("force", "anchoring"), ("pressure", "advancing")):
+            if getattr(self, name) is not None and self.load != load:
+                raise PydanticCustomError(
+                    "regions", f"has a '{name}' but is '{self.load}'; only an {load} region has one"
+                )
+        return self
 
 
 class Posture(CrawlerProblem):
@@ -151,7 +196,10 @@ class Posture(CrawlerProblem):
         InputError : the loads collapse a section.  NotConvergedError : no solution.
         OutOfReachError : the surface cannot stay on the ground.
         """
-        regions = [Region(r.begin, r.end, r.load) for r in self.regions]
+        regions = [
+            Region(r.begin, r.end, r.load, own=r.force if r.load == "anchoring" else r.pressure)
+            for r in self.regions
+        ]
         profile, _, tilt = self.solve_instant(regions, None, name)
         fields = self.fields([profile], [self.length_along(profile)], [regions])
         flat = {
@@ -185,10 +233,11 @@ class Crawl(CrawlerProblem):
     @model_validator(mode="after")
     def _is_possible(self) -> Self:
         instants = self.gait.instants(self.step)
-        if not holds_force(self.crawler, self.loads):
+        pulls = self.loads.anchoring > 0 or any(chamber.force for chamber in self.gait.chambers)
+        if not (pulls and holds_force(self.crawler, self.loads)):
             return self
         for instant in instants:
-            if all(region.load == "advancing" for region in instant.regions):
+            if not any(region.load == "anchoring" for region in instant.regions):
                 raise PydanticCustomError(
                     "gait",
                     f"at phase {instant.phase:g} no region anchors, and the force in the advancing ones would jump to "
@@ -197,33 +246,38 @@ class Crawl(CrawlerProblem):
         return self
 
     def thin_anchors(self) -> list[Instant]:
-        """The instants of a stride whose anchor lies in the thinner kind of region.
+        """The instants of a stride whose anchor lies in a thin region, by the homogeneous states of that instant.
 
         A worm anchors where it thickens, section 2.1: in its anchoring regions.  Under artificial muscles with negative
-        pressure the advancing regions are the thicker ones.
+        pressure the advancing regions are the thicker ones.  Thin: mu_1 is nearer to the least than to the largest.
         """
-        instants = self.gait.instants(self.step)
-        if {r.load for m in instants for r in m.regions} != {"anchoring", "advancing"}:
-            return []
-        halves = (Region(0, 0.5, "anchoring"), Region(0.5, 1, "advancing"))
-        mu, _ = InstantProblem(self.crawler, self.loads, halves, "the anchor").plateaus
-        anchoring, advancing = mu[:, 0]
-        if abs(anchoring - advancing) < _EQUAL_STRETCH_TOLERANCE:
-            return []
-        thinner = "advancing" if advancing < anchoring else "anchoring"
-        return [m for m in instants if m.holding == thinner]
+        thin = []
+        for instant in self.gait.instants(self.step):
+            problem = InstantProblem(self.crawler, self.loads, instant.regions, "the anchor")
+            mu = problem.plateaus[0][:, 0]
+            holding = next(
+                mu[n] for n, s in enumerate(problem.spans) if s.left <= instant.anchor <= s.right
+            )
+            apart = np.ptp(mu) > _EQUAL_STRETCH_TOLERANCE
+            if apart and holding < (mu.min() + mu.max()) / 2:
+                thin.append(instant)
+        return thin
 
     def thin_anchor_warning(self) -> str | None:
         """One sentence on `thin_anchors`, None if there are none."""
-        found = {m.time for m in self.thin_anchors()}
-        if not found:
+        thin = self.thin_anchors()
+        if not thin:
             return None
+        found = {m.time for m in thin}
+        held = [m.anchor * self.crawler.length for m in thin]
+        places = f"{min(held):.4g}" + (f" to {max(held):.4g}" if max(held) > min(held) else "")
         times = [m.time for m in self.gait.instants(self.step)]
-        runs = [list(run) for thin, run in itertools.groupby(times, found.__contains__) if thin]
+        runs = [list(run) for is_thin, run in itertools.groupby(times, found.__contains__) if is_thin]
         spans = " and ".join(f"{run[0]:.4g} to {run[-1]:.4g} s" for run in runs)
         return (
-            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on "
-            "lies where the body is thin, and crawlers hold on where they are fat; move 'gait.anchor'"
+            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on, "
+            f"xi = {places} m, lies where the body is thin, and crawlers hold on where they are fat; "
+            "move 'gait.anchor' to a thicker part, or exchange 'gait.gamma' and 'gait.eta'"
         )
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
@@ -239,7 +293,8 @@ class Crawl(CrawlerProblem):
         steps: list[_Step] = []
         nodal, tilt = None, 0.0
         for stride in range(self.strides):
-            for instant in instants if stride == 0 else instants[1:]:
+            first = [instant.risen(self.gait.rise(instant.time)) for instant in instants]
+            for instant in first if stride == 0 else instants[1:]:
                 when = f"{name} at t = {stride * self.gait.duration + instant.time:.4g} s"
                 profile, nodal, sine = self.solve_instant(instant.regions, nodal, when)
                 placed = self.length_along(profile)
@@ -251,26 +306,38 @@ class Crawl(CrawlerProblem):
                 steps.append(_Step(stride, instant, profile, placed))
                 tilt = max(tilt, sine)
             run.progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
-        thin = self.thin_anchor_warning()
+        said = (self.thin_anchor_warning(), self.first_stride_warning())
         return Solution(
             self._fields(steps),
             _statistics(self, [s.profile for s in steps], tilt),
-            warnings=() if thin is None else (thin,),
+            warnings=tuple(warning for warning in said if warning is not None),
+        )
+
+    def first_stride_warning(self) -> str | None:
+        """One sentence if the first stride begins in another state than the later ones, else None."""
+        changed = self.gait.first_change()
+        if changed < _EQUAL_LOADS_TOLERANCE:
+            return None
+        return (
+            f"first stride: at t = 0 the loads on {changed:.3g} of the body are not those at the end of a stride, so "
+            "the first stride differs from the later ones; look at these, or let the loads rise from a relaxed body "
+            "with 'gait.ramp'"
         )
 
     def check_collapse(self, instants: Sequence[Instant], name: str) -> None:
         """Check the homogeneous states of all instants, before anything is solved.
 
-        They depend on which loads act, not on where: each such set is checked once, at its first instant.
+        In a uniform body they depend on which loads act, not on where: each such set is checked once, at its first
+        instant.
 
         Raises
         ------
         InputError : the loads collapse a section; names the load and that instant.
         """
-        seen: set[frozenset[Muscle]] = set()
+        seen: set[frozenset[object]] = set()
         for instant in instants:
-            acting = frozenset(region.load for region in instant.regions)
-            if acting not in seen:
+            acting = frozenset(region.state for region in instant.regions)
+            if acting not in seen or self.crawler.segments:
                 seen.add(acting)
                 when = f"{name} at t = {instant.time:.4g} s"
                 InstantProblem(self.crawler, self.loads, instant.regions, when).check_collapse()
@@ -290,6 +357,14 @@ class Crawl(CrawlerProblem):
             "anchor": (("time",), anchors * self.crawler.length),
             "anchor_along": (("time",), np.array(ground)),
         }
+
+
+def _strength(regions: Sequence[Region], z: Array, load: str, usual: float) -> Array:
+    """Force or pressure of the muscles of one kind at the sections [N or Pa], zero where the others act."""
+    cuts = np.array([r.right for r in regions[:-1]])
+    own = [(usual if r.own is None else r.own) * r.amplitude if r.load == load else 0.0 for r in regions]
+    result: Array = np.array(own)[np.searchsorted(cuts, z, side="right")]
+    return result
 
 
 def _advancing(regions: Sequence[Region], z: Array) -> Array:

@@ -7,7 +7,7 @@ from typing import Annotated, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import NONE_BY_WORD, Parameters, Quantity
+from cosserat.parameters import Parameters, Quantity
 
 MODULI = ("young", "shear_modulus", "poisson", "bulk_modulus")
 """Keys of the moduli of an isotropic material; two of them determine the others."""
@@ -16,27 +16,17 @@ MODULI = ("young", "shear_modulus", "poisson", "bulk_modulus")
 class Material(Parameters):
     """An isotropic elastic material, by two of its four moduli, and its mass per volume or per length."""
 
-    young: Annotated[
-        Annotated[float, Quantity("Pa", "E", "section 3.5", above=0)] | None, NONE_BY_WORD
-    ] = None
+    young: Annotated[float, Quantity("Pa", "E", "section 3.5", above=0)] | None = None
     """Young's modulus."""
-    poisson: Annotated[
-        Annotated[float, Quantity("1", r"\nu", "section 3.5", above=-1, below=0.5)] | None, NONE_BY_WORD
-    ] = None
+    poisson: Annotated[float, Quantity("1", r"\nu", "section 3.5", above=-1, below=0.5)] | None = None
     """Poisson's ratio."""
-    shear_modulus: Annotated[
-        Annotated[float, Quantity("Pa", r"\mu", "1.2.96", above=0)] | None, NONE_BY_WORD
-    ] = None
+    shear_modulus: Annotated[float, Quantity("Pa", r"\mu", "1.2.96", above=0)] | None = None
     """Shear modulus G."""
-    bulk_modulus: Annotated[Annotated[float, Quantity("Pa", "K", above=0)] | None, NONE_BY_WORD] = None
+    bulk_modulus: Annotated[float, Quantity("Pa", "K", above=0)] | None = None
     """Bulk modulus."""
-    line_density: Annotated[
-        Annotated[float, Quantity("kg/m", r"\rho_0", "section 3.5", above=0)] | None, NONE_BY_WORD
-    ] = None
+    line_density: Annotated[float, Quantity("kg/m", r"\rho_0", "section 3.5", above=0)] | None = None
     """Mass per length of the reference configuration; this or 'density' is given."""
-    density: Annotated[
-        Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "section 3.5", above=0)] | None, NONE_BY_WORD
-    ] = None
+    density: Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "section 3.5", above=0)] | None = None
     """Mass per volume of the reference configuration; this or 'line_density' is given."""
 
     @model_validator(mode="after")

@@ -10,7 +10,7 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError
-from cosserat.parameters import NONE_BY_WORD, Count, OneOf, Parameters, Quantity
+from cosserat.parameters import Count, OneOf, Parameters, Quantity
 from cosserat.rods.elasticity import Elastic, LateralConstraint
 from cosserat.rods.energies import ENERGIES, energy_named
 from cosserat.rods.energies.energy import Energy
@@ -51,7 +51,7 @@ class Rod(Parameters):
     """Height of the centreline above the lower surface over that of the section; directors reach the upper surface."""
     curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")] = 0.0
     """Curvature of the reference configuration, an arc from E3 towards E2."""
-    calibration: Annotated[Calibration | None, NONE_BY_WORD] = None
+    calibration: Calibration | None = None
     """Coefficients of the published energy, required there; the consistent one has none."""
     lateral_constraint: LateralConstraint = "free"
     """Lateral constraint of the sections in E1, of the consistent rod only."""

@@ -118,10 +118,12 @@ class Mesh:
         return element, weights / weights.sum(axis=1, keepdims=True)
 
 
-def graded(edges: Sequence[float], layer: float, per_side: int, degree: int) -> Mesh:
-    """A mesh over the regions between `edges`, fine where two of them meet.
+def graded(
+    edges: Sequence[float], layer: float, per_side: int, degree: int, *, fine_ends: bool = False
+) -> Mesh:
+    """A mesh over the regions between `edges`, fine where two of them meet, and at both ends if `fine_ends`.
 
-    Element sizes grow geometrically from an inner edge to the middle of the region (or its free end), with `per_side`
+    Element sizes grow geometrically from a fine edge to the middle of the region (or its free end), with `per_side`
     elements on each side, the first of length _FINEST_SPAN / per_side times `layer`.  A region too short for that is
     divided evenly.  The number of elements depends only on the number of regions, so a solution on one mesh is a first
     guess on the next.
@@ -132,7 +134,7 @@ def graded(edges: Sequence[float], layer: float, per_side: int, degree: int) -> 
     last = len(edges) - 2
     for number, (left, right) in enumerate(itertools.pairwise(edges)):
         length = right - left
-        if number in (0, last):
+        if number in (0, last) and not fine_ends:
             places = _geometric(length, first, per_side)
             inner = left + places if number == last and last > 0 else right - places[::-1]
         else:

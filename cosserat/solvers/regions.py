@@ -1,8 +1,8 @@
-"""Boundary value problems on regions: u'' = f(u), another f in each, u and u' continuous, u' = 0 at the ends.
+"""Boundary value problems on regions: (w u')' = f(u), another f in each, u and w u' continuous, u' = 0 at the ends.
 
 Spectral elements give a banded system, and Newton's method solves it.  If f in a region also depends on the value at
 one other node, Woodbury's formula adds one column to the banded matrix.  Meaning and number of the components of u are
-free.
+free.  The weight w is one unless it is given.
 """
 
 from __future__ import annotations
@@ -75,8 +75,17 @@ class Solved:
     correction: float
 
 
-def solve(mesh: Mesh, equation: Equation, start: Array, settings: RegionSettings, name: str) -> Solved:
+def solve(
+    mesh: Mesh,
+    equation: Equation,
+    start: Array,
+    settings: RegionSettings,
+    name: str,
+    weight: Array | None = None,
+) -> Solved:
     """Solve from a first guess at the distinct points, shape (nodes, m); `name` is what an error calls the case.
+
+    weight : (M, p + 1) w at the points of every element, above zero; it may jump between elements.
 
     Natural monotonicity test: accept a step if the simplified Newton correction decreases (Deuflhard 2011, section
     3.3).
@@ -86,12 +95,13 @@ def solve(mesh: Mesh, equation: Equation, start: Array, settings: RegionSettings
     NotConvergedError : no correction below the tolerance; nothing half-converged is returned.
     """
     u = start
+    stiffness = _stiffness(mesh, weight)
     source = equation.source(mesh.split(u))
     if source is None:
         raise _failure(name, "the initial guess is not admissible", 0, np.inf, settings)
     size = np.inf
     for iteration in range(settings.max_iterations):
-        system = _Linear(mesh, source, u.shape[1])
+        system = _Linear(mesh, stiffness, source, u.shape[1])
         step = system.correct(mesh, u, source)
         size = float(np.abs(step).max())
         fraction = 1.0
@@ -123,14 +133,25 @@ def _failure(
     )
 
 
+def _stiffness(mesh: Mesh, weight: Array | None) -> Array:
+    """Integrals of w u' v' over every element, for the length two, shape (M, p + 1, p + 1)."""
+    known = rule(mesh.degree)
+    if weight is None:
+        one = known.derivative.T @ (known.weights[:, None] * known.derivative)
+        return np.repeat(one[None], mesh.region.size, axis=0)
+    weighted = (weight * known.weights)[:, :, None] * known.derivative
+    result: Array = known.derivative.T @ weighted
+    return result
+
+
 class _Linear:
     """The factorised matrix of one Newton step."""
 
-    def __init__(self, mesh: Mesh, source: Source, m: int) -> None:
+    def __init__(self, mesh: Mesh, stiffness: Array, source: Source, m: int) -> None:
         known = rule(mesh.degree)
+        self.stiffness = stiffness
         self.width = (mesh.degree + 1) * m - 1
         band = np.zeros((mesh.nodes * m, 3 * self.width + 1))
-        self.stiffness = known.derivative.T @ (known.weights[:, None] * known.derivative)
         _fill(band, self.stiffness, known.weights, mesh.sizes, source.derivative)
         self.factors, self.pivots, info = dgbtrf(band.T, self.width, self.width, overwrite_ab=1)
         self.singular = info != 0
@@ -170,7 +191,7 @@ class _Linear:
 def _residual(
     residual: Array, u: Array, f: Array, stiffness: Array, weights: Array, sizes: Array
 ) -> None:
-    """Add the integrals of u' v' + f v for the polynomial v of each node, by Gauss-Lobatto quadrature."""
+    """Add the integrals of w u' v' + f v for the polynomial v of each node, by Gauss-Lobatto quadrature."""
     elements, points, m = f.shape
     for e in range(elements):
         first = e * (points - 1)
@@ -178,7 +199,7 @@ def _residual(
             for c in range(m):
                 total = 0.0
                 for b in range(points):
-                    total += stiffness[a, b] * (
+                    total += stiffness[e, a, b] * (
                         u[first + b, c] - u[first + a, c]
                     )  # its rows sum to zero
                 load = sizes[e] / 2 * weights[a] * f[e, a, c]
@@ -194,7 +215,7 @@ def _fill(band: Array, stiffness: Array, weights: Array, sizes: Array, derivativ
         first = e * (points - 1) * m
         for a in range(points):
             for b in range(points):
-                k = 2 / sizes[e] * stiffness[a, b]
+                k = 2 / sizes[e] * stiffness[e, a, b]
                 for c in range(m):
                     i, j = first + a * m + c, first + b * m + c
                     band[j, 2 * w + i - j] += k

@@ -78,6 +78,15 @@ def resting_diameter(mass: float) -> float:
     return float(1e-3 * 10**0.6 * (1e3 * mass) ** 0.278)
 
 
+def refuse_segments(worm: Crawl) -> None:
+    """Raise PydanticCustomError if the body of a worm varies: those of section 2.8 do not."""
+    if worm.crawler.segments:
+        raise PydanticCustomError(
+            "segments",
+            "'worm.crawler.segments' is given; the worms of section 2.8 are uniform; leave it out",
+        )
+
+
 class BodyMasses(Problem):
     """A worm's crawl at many body masses, under one law for its muscles.
 
@@ -97,6 +106,7 @@ class BodyMasses(Problem):
     def _has_masses(self) -> Self:
         if not self.masses:
             raise PydanticCustomError("masses", "'masses' is empty; give at least one body mass")
+        refuse_segments(self.worm)
         if len(self.worm.gait.phases) != 2:
             raise PydanticCustomError(
                 "phases",

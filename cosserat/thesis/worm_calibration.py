@@ -14,7 +14,7 @@ from cosserat.parameters import Quantity
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.crawl import Crawl
 from cosserat.solution import Field, Solution
-from cosserat.thesis.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50
+from cosserat.thesis.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50, refuse_segments
 
 Array = NDArray[np.float64]
 OUTCOMES = ("ratio of mu_1", "ratio of mu_3", "p in longitudinal", "p in circular")
@@ -47,6 +47,7 @@ class WormCalibration(Problem):
                 "worm",
                 "'worm.crawler.material.kind' is 'compressible'; only 'incompressible' has a p_coelom",
             )
+        refuse_segments(self.worm)
         if not (self.worm.loads.anchoring > 0 and self.worm.loads.advancing > 0):
             raise PydanticCustomError(
                 "worm",

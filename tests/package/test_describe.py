@@ -139,8 +139,15 @@ BASES = {
     "rod motion": 'like = ["vibration_c4_20", "_loads"]',
     "calibration": 'like = "calibration"',
     "convergence": 'like = "convergence"',
-    "posture": 'like = "worm_at_rest"',
-    "crawl": 'like = "soft_robot"',
+    "posture": 'like = "worm_at_rest"\ncrawler.segments = [{ length = "250 mm" }]',
+    "crawl": """
+        like = "soft_robot"
+        crawler.segments = [{ length = "25.4 cm" }]
+        gait.anchor = [[[0, 0], [2, 0]]]
+        gait.measured = [
+            { front = "anchor", table = [["12.5 s", "25.4 cm"], ["22.5 s", "25.4 cm"]], length = "25.4 cm" },
+        ]
+    """,
     "body masses": 'like = "worm_masses"',
     "worm calibration": 'like = "worm_calibration"',
 }
@@ -217,9 +224,18 @@ CHOICES = {
     "table": {"kind": "table", "rows": [["0 s", 0], ["1 s", 1]]},
 }
 """Tables with a choice, by their `kind`."""
+CHAMBERS = {  # in place of fronts
+    "phases": ["1 s"],
+    "anchor": [[[0, 0], [1, 0]]],
+    "chambers": [
+        {"begin": 0, "end": 1, "schedule": [[0, 0.5, "advancing"]], "force": "1 N", "pressure": "1 kPa"}
+    ],
+}
 # Just inside of its range, a key may break a rule that joins several keys, which has a sentence of its own.
 JOINED = {
     "rod.calibration": "is missing",  # of a path, whose rod has none
+    "crawler.length": "let them be equal",
+    "crawler.segments[].length": "let them be equal",
     "crawler.radius": "length / radius",
     "crawler.material.poisson": "has a Poisson's ratio",
     "crawler.material.bulk": "give two of young, poisson and bulk",
@@ -227,6 +243,8 @@ JOINED = {
     "crawler.density": "give one of them",
     "meshes": "must be odd",
     "gait.eta": "gamma and eta cross",
+    "gait.phases": "times run from 0 to",
+    "gait.measured[].length": "places from 0 to",
     "step": "more than 100000 instants",
     **{
         f"{load}.time_function": "only kind = 'rod motion' has a time"
@@ -244,6 +262,8 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
     case = base(kind)
     assert said(case) == ""
     for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
+        if path == "gait.chambers":
+            case = put(case, "gait", CHAMBERS)
         there = put(case, path.rpartition(".")[0], CHOICES[key.when]) if key.when else case
         for mark in marks(whole(field))[:1]:
             unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit
@@ -283,7 +303,7 @@ def test_a_key_is_printed_as_expected():
     )
     assert said_of["start.speed"] == 'a speed in m/s; default "0 m/s" Speed of the whole rod.'
     assert said_of["rod.barrier"].startswith("true or false; default false ")
-    assert said_of["rod.calibration"].startswith('a table or "none"; may be left out ')
+    assert said_of["rod.calibration"].startswith("a table; may be left out ")
     assert said_of["supports[].at"].startswith(
         '"first", "last", the index of a vertex, a distance such as "0.35 m", or a percentage '
     )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from cosserat.peristalsis import crawler
 from cosserat.peristalsis.crawler import Crawler
-from cosserat.peristalsis.instant import Profile
+from cosserat.peristalsis.profile import Profile
 from cosserat.problems.crawl import Crawl, CrawlerProblem
 from cosserat.thesis import earthworm
 from cosserat.thesis.table import crawl_readouts
@@ -89,7 +89,7 @@ def _mu_3_as_printed() -> contextlib.AbstractContextManager[object]:
     """(2.3.9) with (2.3.10) as printed, without the 2, where advancing loads act."""
 
     def compressible(
-        mu: Array, n: Array, c: Array, g: float, p: float, m: float, printed_contact: bool
+        mu: Array, n: Array, c: Array, g: Array, p: float, m: Array, printed_contact: bool
     ) -> tuple[Array, Array, Array]:
         f, df, mu_3 = known(mu, n, c, g, p, m, printed_contact)
         shorter = np.where(c != 0, 2 * p, 0.0)  # the loss of mu_3
