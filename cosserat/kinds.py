@@ -1,6 +1,6 @@
 """The registry of the kinds of problems.
 
-A kind is a class of parameters that can be solved, and a function that draws its result.  Both are named by
+A kind is a class of parameters that can be solved, and functions that draw its result.  They are named by
 "module:object" and imported when needed, which keeps the command line quick.
 """
 
@@ -21,10 +21,14 @@ class Kind:
 
     problem : a subclass of `cosserat.problem.Problem`.
     picture : a function from a Dataset to a figure; empty if `cosserat plot` has none.
+    animation : a function from a Dataset to a `matplotlib.animation.FuncAnimation`; empty if there is none.
+    mesh : a function from a Dataset to the body as a `cosserat.export.mesh.Body`; empty if there is no body.
     """
 
     problem: str
     picture: str = ""
+    animation: str = ""
+    mesh: str = ""
 
     def problem_class(self) -> type[Problem]:
         """The class of its parameters."""
@@ -34,14 +38,35 @@ class Kind:
         """The function that draws its result."""
         return cast("Callable[..., Any]", pkgutil.resolve_name(self.picture))
 
+    def animation_function(self) -> Callable[..., Any]:
+        """The function that animates its result."""
+        return cast("Callable[..., Any]", pkgutil.resolve_name(self.animation))
+
+    def mesh_function(self) -> Callable[..., Any]:
+        """The function that makes a mesh of its body."""
+        return cast("Callable[..., Any]", pkgutil.resolve_name(self.mesh))
+
+
+_ROD, _CRAWLER = "cosserat.export.mesh:rod", "cosserat.export.mesh:crawler"
 
 KINDS = {
-    "rod statics": Kind("cosserat.problems.static:RodStatics", "cosserat.figures.rod:picture"),
-    "rod motion": Kind("cosserat.problems.motion:RodMotion", "cosserat.figures.motion:picture"),
-    "rod path": Kind("cosserat.problems.path:RodPath", "cosserat.figures.path:picture"),
+    "rod statics": Kind(
+        "cosserat.problems.static:RodStatics", "cosserat.figures.rod:picture", mesh=_ROD
+    ),
+    "rod motion": Kind(
+        "cosserat.problems.motion:RodMotion", "cosserat.figures.motion:picture", mesh=_ROD
+    ),
+    "rod path": Kind("cosserat.problems.path:RodPath", "cosserat.figures.path:picture", mesh=_ROD),
     "calibration": Kind("cosserat.studies.calibration:CalibrationProcedure"),
     "convergence": Kind("cosserat.studies.convergence:Convergence"),
-    "posture": Kind("cosserat.problems.crawl:Posture", "cosserat.figures.crawlers:picture"),
-    "crawl": Kind("cosserat.problems.crawl:Crawl", "cosserat.figures.crawlers:picture"),
+    "posture": Kind(
+        "cosserat.problems.crawl:Posture", "cosserat.figures.crawlers:picture", mesh=_CRAWLER
+    ),
+    "crawl": Kind(
+        "cosserat.problems.crawl:Crawl",
+        "cosserat.figures.crawlers:picture",
+        "cosserat.figures.crawling:animate",
+        _CRAWLER,
+    ),
 }
 """Kinds by the value of `kind` in a case; `cosserat.publications` adds those of each publication."""
