@@ -165,6 +165,12 @@ def _add_commands(add: AddCommand) -> None:
         help="if a growing load cannot be followed to its end, write the part that was reached and still fail",
     )
 
+    _add_results(add)
+    _add_listings(add)
+
+
+def _add_results(add: AddCommand) -> None:
+    """Add the commands for results."""
     sub = add("plot", _plot, "draw a result, or animate it")
     sub.add_argument("file", type=Path, help="netCDF file of cosserat")
     written = sub.add_mutually_exclusive_group()
@@ -178,7 +184,10 @@ def _add_commands(add: AddCommand) -> None:
         "--animate",
         type=Path,
         metavar="FILE",
-        help="write an animation instead: .gif, or .html with buttons; it has 100 frames at most",
+        help="write an animation instead: .gif, or .html with buttons",
+    )
+    sub.add_argument(
+        "--frames", type=int, default=100, help="most frames of an animation (default: %(default)s)"
     )
 
     sub = add("show", _show, "print what a result holds: parameters, solver, range of each variable")
@@ -202,6 +211,9 @@ def _add_commands(add: AddCommand) -> None:
         "--place", help="csv: only rows of this place, such as vertex, without empty columns"
     )
 
+
+def _add_listings(add: AddCommand) -> None:
+    """Add the commands that tell what there is."""
     sub = add("describe", _describe, "list the kinds of cases, or the keys of one kind")
     sub.add_argument("kind", nargs="*", help="such as rod statics (default: list the kinds)")
 
@@ -351,7 +363,7 @@ def _plot(options: argparse.Namespace) -> None:
 
     if options.animate is not None:
         path = options.animate
-        animate(options.file, path)
+        animate(options.file, path, options.frames)
     else:
         path = options.output or options.file.with_suffix(".svg")
         plot(options.file, path)

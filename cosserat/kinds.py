@@ -21,13 +21,13 @@ class Kind:
 
     problem : a subclass of `cosserat.problem.Problem`.
     picture : a function from a Dataset to a figure; empty if `cosserat plot` has none.
-    animation : a function from a Dataset to a `matplotlib.animation.FuncAnimation`; empty if there is none.
+    animate : a function from a Dataset and a number of frames to an animation of Matplotlib; empty if nothing moves.
     mesh : a function from a Dataset to the body as a `cosserat.export.mesh.Body`; empty if there is no body.
     """
 
     problem: str
     picture: str = ""
-    animation: str = ""
+    animate: str = ""
     mesh: str = ""
 
     def problem_class(self) -> type[Problem]:
@@ -40,7 +40,7 @@ class Kind:
 
     def animation_function(self) -> Callable[..., Any]:
         """The function that animates its result."""
-        return cast("Callable[..., Any]", pkgutil.resolve_name(self.animation))
+        return cast("Callable[..., Any]", pkgutil.resolve_name(self.animate))
 
     def mesh_function(self) -> Callable[..., Any]:
         """The function that makes a mesh of its body."""

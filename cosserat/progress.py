@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from cosserat.problem import Progress, silent
 
-_AFTER = 1.0  # seconds before a bar appears
+_AFTER, _EVERY = 1.0, 0.1  # seconds before a bar appears, and between its changes
 _LOOK = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
 
 
@@ -26,7 +26,15 @@ def bar(title: str) -> Iterator[Progress]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # that a notebook without ipywidgets has a bar of text
         from tqdm.auto import tqdm
-    with tqdm(total=1.0, desc=title, bar_format=_LOOK, leave=False, delay=_AFTER, miniters=0) as shown:
+    with tqdm(
+        total=1.0,
+        desc=title,
+        bar_format=_LOOK,
+        leave=False,
+        delay=_AFTER,
+        mininterval=_EVERY,
+        miniters=0,
+    ) as shown:
 
         def report(fraction: float, words: str) -> None:
             shown.set_postfix_str(words, refresh=False)

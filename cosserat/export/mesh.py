@@ -17,6 +17,7 @@ from cosserat.problems.crawl import CrawlerProblem
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
+_VECTORS = {"velocity": ("x_rate", "d_rate"), "mode": ("mode_u", "mode_delta")}
 AROUND = 32
 """Points of a mesh round a section of a crawler."""
 
@@ -40,8 +41,8 @@ class Body:
 def rod(state: xr.Dataset, problem: RodProblem) -> Body:
     """One state of a rod: 2 N points, the upper ones first, and N - 1 quadrilaterals.
 
-    Both points of a section have its values; a quadrilateral has those of its edge.  `displacement` [m] and, in a
-    motion, `velocity` [m/s] are those of the points themselves.
+    Both points of a section have its values; a quadrilateral has those of its edge.  The vectors "displacement" [m],
+    "velocity" [m/s] of a motion and "mode" of a natural mode are those of the points themselves.
     """
     below, count = problem.rod.below, state.sizes["vertex"]
 
@@ -55,8 +56,7 @@ def rod(state: xr.Dataset, problem: RodProblem) -> Body:
 
     points = surfaces("x", "d")
     vectors = {"displacement": points - surfaces("x_ref", "d_ref")}
-    if "x_rate" in state:
-        vectors["velocity"] = surfaces("x_rate", "d_rate")
+    vectors |= {name: surfaces(*pair) for name, pair in _VECTORS.items() if pair[0] in state}
     lower = np.arange(count, 2 * count - 1)
     quads = np.column_stack([lower, lower + 1, lower + 1 - count, lower - count])
     at_vertices = {name: np.tile(values, 2) for name, values in _scalars(state, "vertex").items()}

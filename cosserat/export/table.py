@@ -9,11 +9,15 @@ repeated along the body.  What does not depend on time, such as the reference po
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.typing import NDArray
 
 from cosserat.data.dataset import opened
 from cosserat.data.files import check_destination, whole_or_absent
@@ -21,8 +25,8 @@ from cosserat.data.variables import LABELS
 from cosserat.errors import InputError
 from cosserat.parameters import nearest
 
-INSTANTS = ("time", "point", "mode")
-"""Dimensions of instants: of a motion, a path, and natural modes."""
+INSTANTS = ("time", "point", "mode", "special")
+"""Dimensions of instants: of a motion, a path, natural modes, and special points of a path."""
 WHOLE = "whole"
 """Place of the values that belong to the body as a whole."""
 
@@ -42,14 +46,18 @@ def to_dataframe(result: xr.Dataset | str | Path, place: str | None = None) -> p
     InputError : the result has no such place, or its file cannot be read.
     """
     dataset = opened(result)
-    tables = {name: _rows(dataset, name) for name in _places(dataset)}
-    if place is not None:
-        if place not in tables:
-            raise InputError(f"the result has no place '{place}'{nearest(place, list(tables))}")
-        return tables[place]
-    whole = pd.concat(tables.values(), ignore_index=True)
-    columns = dict.fromkeys(name for table in tables.values() for name in table.columns)
-    return whole[list(columns)]
+    known = {name: _split(dataset[name]) for name in _numeric(dataset)}
+    places = list(dict.fromkeys(split.place for split in known.values()))
+    if place is not None and place not in places:
+        raise InputError(f"the result has no place '{place}'{nearest(place, places)}")
+    tables = [
+        _rows(dataset, known, instant, one)
+        for one in sorted(places, key=WHOLE.__eq__)
+        for instant in _instants(known, one)
+        if place in (None, one)
+    ]
+    columns = dict.fromkeys(name for table in tables for name in table.columns)
+    return pd.concat(tables, ignore_index=True)[list(columns)]
 
 
 def write_csv(dataset: xr.Dataset, path: Path, place: str | None = None) -> None:
@@ -65,53 +73,64 @@ def write_csv(dataset: xr.Dataset, path: Path, place: str | None = None) -> None
         table.to_csv(temporary, index=False, lineterminator="\n", encoding="utf-8")
 
 
-def _split(values: xr.DataArray) -> tuple[str | None, str, list[str]]:
-    """Dimensions of a variable: the instant, the place, and the components."""
+@dataclass(frozen=True)
+class _Split:
+    """Dimensions of a variable: the instant, if any, the place, and the components."""
+
+    instant: str | None
+    place: str
+    components: tuple[str, ...] = ()
+
+
+def _split(values: xr.DataArray) -> _Split:
     dims = [str(dim) for dim in values.dims]
     instant = dims.pop(0) if dims and dims[0] in INSTANTS else None
-    place = WHOLE if not dims or dims[0] in LABELS else dims.pop(0)
-    if dims and place == WHOLE and dims[-1] not in LABELS:  # such as measures by meshes
-        place = dims.pop()
-    return instant, place, dims
+    place = next((dim for dim in dims if dim not in LABELS), WHOLE)
+    return _Split(instant, place, tuple(dim for dim in dims if dim != place))
 
 
-def _places(dataset: xr.Dataset) -> list[str]:
-    """Places of a result, in the order of its variables; the whole body comes last."""
-    found = dict.fromkeys(_split(dataset[name])[1] for name in _numeric(dataset))
-    return [name for name in found if name != WHOLE] + [WHOLE] * (WHOLE in found)
+def _instants(known: Mapping[str, _Split], place: str) -> list[str | None]:
+    """The instants of the values at a place; only None if none of them has any."""
+    found = dict.fromkeys(split.instant for split in known.values() if split.place == place)
+    return [instant for instant in found if instant is not None] or [None]
 
 
 def _numeric(dataset: xr.Dataset) -> list[str]:
-    """Names of the variables that are numbers: coordinates first."""
-    names = [str(name) for name in (*dataset.coords, *dataset.data_vars)]
+    """Names of the variables that are numbers, those first that place the others; `time` is an instant itself."""
+    names = [str(name) for name in (*dataset.coords, *dataset.data_vars) if name not in dataset.indexes]
     return [name for name in names if dataset[name].dtype.kind in "fiub"]
 
 
-def _rows(dataset: xr.Dataset, place: str) -> pd.DataFrame:
-    """The rows of one place: all instants, and the places of each."""
-    known = {name: _split(dataset[name]) for name in _numeric(dataset) if name not in dataset.indexes}
-    here = {name: split for name, split in known.items() if split[1] == place}
-    along = next((instant for instant, _, _ in here.values() if instant is not None), None)
-    # coordinates of the instants, such as the load factor, stand in every row
-    here = {n: s for n, s in known.items() if s == (along, WHOLE, []) and n in dataset.coords} | here
-    count = dataset.sizes[along] if along else 1
+def _rows(
+    dataset: xr.Dataset, known: Mapping[str, _Split], instant: str | None, place: str
+) -> pd.DataFrame:
+    """The rows of one place: all instants of one kind, and the places of each."""
+    count = 1 if instant is None else dataset.sizes[instant]
     size = 1 if place == WHOLE else dataset.sizes[place]
-    columns: dict[str, object] = {
-        "place": place,
-        "number": np.tile(np.arange(size), count),
-    }
-    if along is not None:
-        labels = dataset[along].to_numpy()
-        columns[_named(dataset, along)] = np.repeat(labels, size)
-    order = [d for d in (along, place) if d is not None and d != WHOLE]
-    for name, (_, _, components) in here.items():
+    columns: dict[str, Any] = {"place": place, "number": np.tile(np.arange(size), count)}
+    if instant is not None:
+        columns |= {name: np.repeat(of, size) for name, of in _labels(dataset, instant).items()}
+    order = [dim for dim in (instant, place) if dim is not None and dim != WHOLE]
+    for name, split in known.items():
+        # coordinates of the instants, such as the load factor, stand in every row
+        everywhere = split == _Split(instant, WHOLE) and name in dataset.coords
+        if not everywhere and (split.place != place or split.instant not in (instant, None)):
+            continue
         values = dataset[name]
         missing = {dim: dataset.sizes[dim] for dim in order if dim not in values.dims}
-        full = values.expand_dims(missing).transpose(*components, *order).to_numpy()
-        for index in np.ndindex(full.shape[: len(components)]):
-            parts = [_label(dataset, dim, k) for dim, k in zip(components, index, strict=True)]
+        full = values.expand_dims(missing).transpose(*split.components, *order).to_numpy()
+        for index in np.ndindex(full.shape[: len(split.components)]):
+            parts = [_label(dataset, dim, k) for dim, k in zip(split.components, index, strict=True)]
             columns[_named(dataset, name, parts)] = full[index].ravel()
     return pd.DataFrame(columns, index=range(size * count))
+
+
+def _labels(dataset: xr.Dataset, instant: str) -> dict[str, NDArray[Any]]:
+    """Columns that tell instants apart: their times, or their numbers and, if they have any, their names."""
+    labels = dataset[instant].to_numpy()
+    if labels.dtype.kind in "fiub":
+        return {_named(dataset, instant): labels}
+    return {instant: np.arange(labels.size), f"{instant}_name": labels}
 
 
 def _label(dataset: xr.Dataset, dim: str, number: int) -> str:

@@ -1,4 +1,4 @@
-"""The body of a result for ParaView and other readers of VTK: `.vtu` for one state, `.pvd` for a sequence."""
+"""The body of a result for ParaView and other readers of VTK: a .vtu file for one state, .pvd for a sequence."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def instant_of(dataset: xr.Dataset) -> str | None:
 
 
 def write_vtk(dataset: xr.Dataset, path: Path) -> None:
-    """Write the body as a mesh: one `.vtu` file, or a `.pvd` file with a folder of one `.vtu` for each instant.
+    """Write the body as a mesh: one .vtu file, or a .pvd file with a folder of one .vtu file for each instant.
 
-    The folder is called like the file, with `.frames` in place of `.pvd`.  The `.pvd` file is written last, so where
-    it stands the sequence is whole.
+    The folder is called like the file, with .frames in place of .pvd.  The .pvd file is written last, so where it
+    stands the sequence is whole.
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """Animations as files: a GIF, or a page of HTML with buttons that needs no network.
 
-The function that a kind names in `cosserat.kinds` makes the animation; it takes its frames and its pace from here.
+The function that a kind names in `cosserat.kinds` makes the animation.
 """
 
 from __future__ import annotations
@@ -11,8 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import matplotlib as mpl
-import numpy as np
-from numpy.typing import NDArray
 
 from cosserat.data.files import whole_or_absent
 from cosserat.progress import bar
@@ -21,10 +19,11 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
 
 ENDINGS = (".gif", ".html")
-MOST_FRAMES = 100
-"""Most frames of an animation; of a longer sequence, so many are chosen at equal distances."""
+FRAMES = 100
+"""Most frames of an animation, by default."""
+MOST_FRAMES = 1000
+"""Most frames that can be asked for: a page of so many holds some 20 MB."""
 
-_DURATION, _QUICKEST, _SLOWEST = 8000.0, 40.0, 250.0  # of an animation, and limits of a frame [ms]
 _DPI = 100
 _BUTTONS = {
     "minus": "\u2212",
@@ -47,14 +46,8 @@ _PAGE = """<!DOCTYPE html>
 """
 
 
-def frames_of(count: int) -> tuple[NDArray[np.intp], float]:
-    """Indices of the instants that an animation of `count` instants shows, and the time of each [ms]."""
-    chosen = np.unique(np.linspace(0, count - 1, min(count, MOST_FRAMES)).round().astype(np.intp))
-    return chosen, float(np.clip(_DURATION / chosen.size, _QUICKEST, _SLOWEST))
-
-
 def write_animation(animation: FuncAnimation, path: Path) -> None:
-    """Write an animation as `.gif` or `.html`, whole or not at all, without other programs.
+    """Write an animation as GIF or HTML, by the ending of its name, whole or not at all, without other programs.
 
     The same animation gives the same bytes.
 

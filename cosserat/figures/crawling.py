@@ -10,20 +10,21 @@ from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.animated import frames_of
 from cosserat.figures.crawlers import ANCHOR, THINNED, legend_of_bodies, runs
 from cosserat.figures.style import BODY, INK, canvas
 from cosserat.problems.crawl import Crawl
 
 Array = NDArray[np.float64]
+_INTERVAL = 80  # from one frame to the next [ms]
 
 
-def animate(data: xr.Dataset) -> FuncAnimation:
-    """A crawl seen from the side, with the time in the title; lengths are true to scale, in cm."""
-    radius, (chosen, interval) = (
-        1e2 * problem_of(data, Crawl).crawler.radius,
-        frames_of(data.sizes["time"]),
-    )
+def animate(data: xr.Dataset, frames: int) -> FuncAnimation:
+    """A crawl seen from the side, with the time in the title; lengths are true to scale, in cm.
+
+    frames : most instants shown, at equal distances.
+    """
+    radius, count = 1e2 * problem_of(data, Crawl).crawler.radius, data.sizes["time"]
+    chosen = np.unique(np.linspace(0, count - 1, min(count, frames)).round().astype(int))
     along, top = 1e2 * data.along.to_numpy(), 2 * radius * data.mu_1.to_numpy()
     thin, foot = data.advancing.to_numpy() > 0.5, 1e2 * data.anchor_along.to_numpy()
     limits = (along.min() - 2 * radius, along.max() + 2 * radius), (-radius, top.max() + radius)
@@ -47,9 +48,7 @@ def animate(data: xr.Dataset) -> FuncAnimation:
         ax.set_title(f"{data.attrs['title']}, t = {data.time.to_numpy()[frame]:.2f} s")
         return [body, advancing, anchor]
 
-    return FuncAnimation(
-        figure, draw, frames=[int(k) for k in chosen], interval=interval, init_func=list
-    )
+    return FuncAnimation(figure, draw, frames=chosen.tolist(), interval=_INTERVAL, init_func=list)
 
 
 def _outline(along: Array, top: Array) -> Array:

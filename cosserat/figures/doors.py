@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from cosserat.data.dataset import case_of, name_of, opened, warnings_of
 from cosserat.data.files import check_destination
 from cosserat.errors import InputError, path_of
-from cosserat.figures.animated import ENDINGS, write_animation
+from cosserat.figures.animated import ENDINGS, FRAMES, MOST_FRAMES, write_animation
 from cosserat.figures.style import PICTURES, note, settings, write
 from cosserat.publications import kinds
 
@@ -23,7 +23,7 @@ def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Fig
     """The picture of a result, as a matplotlib figure: its body, and curves of what its kind is about.
 
     result : a Dataset, or the name of its file.
-    path : also write the picture there, as `.svg`, `.pdf` or `.png`.
+    path : also write the picture there, as SVG, PDF or PNG, by the ending of its name.
 
     Raises
     ------
@@ -45,14 +45,16 @@ def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Fig
     return figure
 
 
-def animate(result: xr.Dataset | str | Path, path: str | Path | None = None) -> FuncAnimation:
-    """The animation of a result, by matplotlib: a motion, a path or a crawl as it goes.
+def animate(
+    result: xr.Dataset | str | Path, path: str | Path | None = None, frames: int = FRAMES
+) -> FuncAnimation:
+    """The animation of a result, by matplotlib.
 
-    Of a long sequence 100 instants are shown, at equal distances.  A notebook shows it by
-    `IPython.display.HTML(cosserat.animate(result).to_jshtml())`.
+    A notebook shows it by "IPython.display.HTML(cosserat.animate(result).to_jshtml())".
 
     result : a Dataset, or the name of its file.
-    path : also write the animation there, as `.gif` or as `.html` with buttons.
+    path : also write the animation there: a GIF, or HTML with buttons.
+    frames : most instants that are shown, at equal distances, from 2 to 1000.
 
     Raises
     ------
@@ -60,15 +62,17 @@ def animate(result: xr.Dataset | str | Path, path: str | Path | None = None) -> 
     """
     if path is not None:
         check_destination(path_of(path), *ENDINGS)
+    if not 2 <= frames <= MOST_FRAMES:
+        raise InputError(f"an animation of {frames} frames cannot be drawn; take 2 to {MOST_FRAMES}")
     data = opened(result)
     kind = case_of(data).problem.kind
-    if not kinds()[kind].animation:
-        moving = ", ".join(f"'{name}'" for name, entry in kinds().items() if entry.animation)
+    if not kinds()[kind].animate:
+        moving = ", ".join(f"'{name}'" for name, entry in kinds().items() if entry.animate)
         raise InputError(
             f"{name_of(data)} is of kind '{kind}', which has no animation; kinds with one are {moving}"
         )
     with settings():
-        animation: FuncAnimation = kinds()[kind].animation_function()(data)
+        animation: FuncAnimation = kinds()[kind].animation_function()(data, frames)
         if path is not None:
             write_animation(animation, path_of(path))
     return animation

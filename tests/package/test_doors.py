@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 from conftest import ROOT
 from matplotlib.figure import Figure
 from PIL import Image
@@ -19,7 +20,6 @@ from cosserat import progress
 from cosserat.cli import main
 from cosserat.errors import InputError
 from cosserat.export.table import INSTANTS
-from cosserat.figures.animated import MOST_FRAMES, frames_of
 from cosserat.publications import kinds
 
 
@@ -35,7 +35,7 @@ def test_a_case_says_in_one_line_what_it_is(tmp_path):
     )
     (tmp_path / "my.toml").write_text('[mine]\nlike = "soft_robot"\n')
     assert str(cosserat.case("mine", tmp_path / "my.toml")) == (
-        "<Case 'mine': crawl; crawler of 0.3 m, radius 0.02 m, compressible; a case of the user>"
+        "<Case 'mine': crawl; crawler of 0.254 m, radius 0.0254 m, compressible; a case of the user>"
     )
     assert repr(cosserat.case("convergence")).startswith("<Case 'convergence': convergence; ")
 
@@ -55,10 +55,10 @@ def test_files_are_given_by_text_or_path(solved, tmp_path, given):
 
 @pytest.mark.parametrize("ending", ["svg", "pdf", "png"])
 def test_a_picture_is_a_figure_and_a_file_of_the_same_bytes(solved, tmp_path, ending):
-    figure = cosserat.plot(solved["elastica"], tmp_path / f"a.{ending}")
+    figure = cosserat.plot(solved["column_path"], tmp_path / f"a.{ending}")
     assert isinstance(figure, Figure)
-    assert any(solved["elastica"].attrs["title"] in ax.get_title() for ax in figure.axes)
-    cosserat.plot(solved["elastica"], tmp_path / f"b.{ending}")
+    assert any(solved["column_path"].attrs["title"] in ax.get_title("left") for ax in figure.axes)
+    cosserat.plot(solved["column_path"], tmp_path / f"b.{ending}")
     first, second = ((tmp_path / f"{name}.{ending}").read_bytes() for name in "ab")
     assert first == second
     assert first.startswith({"svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG"}[ending])
@@ -87,21 +87,26 @@ def test_pictures_and_animations_that_cannot_be_are_one_sentence(solved, tmp_pat
         assert sentence in err, (words, err)
         assert err.count("\n") == 1
     assert [found.name for found in tmp_path.iterdir()] == ["a.nc"]
+    numbers_only = xr.Dataset(attrs={"parameters": cosserat.case("convergence").model_dump_json()})
     with pytest.raises(InputError, match="this Dataset is of kind 'convergence', which has no picture"):
-        cosserat.plot(solved["convergence"].drop_encoding())
+        cosserat.plot(numbers_only)
 
 
 # ---------------------------------------------------------------- animations
 
 
-@pytest.mark.parametrize("count", [1, 2, 99, 100, 101, 801])
-def test_frames_are_at_equal_distances_from_first_to_last(count):
-    chosen, interval = frames_of(count)
-    assert chosen[0] == 0
-    assert chosen[-1] == count - 1
-    assert len(chosen) == min(count, MOST_FRAMES)
-    assert np.ptp(np.diff(chosen)) <= 1 if count > 1 else True
-    assert 40 <= interval <= 250
+def test_a_long_crawl_is_shown_at_equal_distances_from_first_to_last(solved):
+    whole = solved["soft_robot"]
+    for frames in (2, 7, 100, 1000):
+        animation = cosserat.animate(whole, frames=frames)
+        chosen = list(animation.new_frame_seq())
+        assert (chosen[0], chosen[-1]) == (0, whole.sizes["time"] - 1)
+        assert len(chosen) == min(frames, whole.sizes["time"])
+        assert np.ptp(np.diff(chosen)) <= 1
+        animation._draw_was_started = True  # else matplotlib warns that nobody saw it
+    for frames in (1, 1001):
+        with pytest.raises(InputError, match=f"of {frames} frames cannot be drawn; take 2 to 1000"):
+            cosserat.animate(whole, frames=frames)
 
 
 @pytest.fixture(scope="module")
@@ -132,7 +137,7 @@ def test_a_gif_has_every_frame_and_goes_on_for_ever(crawled, tmp_path):
         cosserat.animate(crawled, tmp_path / f"{name}.gif")
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
     with Image.open(tmp_path / "a.gif") as drawn:
-        assert (drawn.n_frames, drawn.info["loop"], drawn.info["duration"]) == (3, 0, 250)
+        assert (drawn.n_frames, drawn.info["loop"], drawn.info["duration"]) == (3, 0, 80)
         pictures = []
         for frame in range(3):
             drawn.seek(frame)
@@ -156,7 +161,7 @@ def test_a_page_holds_its_frames_and_needs_no_network(crawled, tmp_path, capsys)
     assert sorted(found.name for found in tmp_path.iterdir()) == ["a.html", "a.nc", "b.html"]
 
 
-@pytest.mark.parametrize("kind", [name for name, entry in kinds().items() if entry.animation])
+@pytest.mark.parametrize("kind", [name for name, entry in kinds().items() if entry.animate])
 def test_any_kind_that_moves_is_animated(solved, kind, tmp_path):
     name = next(name for name, case in cosserat.published().items() if case.problem.kind == kind)
     data = solved[name]
@@ -194,11 +199,12 @@ def test_a_run_shows_a_bar_on_a_terminal_and_cleans_up(monkeypatch):
     screen = Terminal()
     monkeypatch.setattr(sys, "stderr", screen)
     monkeypatch.setattr(progress, "_AFTER", 0.0)
+    monkeypatch.setattr(progress, "_EVERY", 0.0)
     monkeypatch.setattr("tqdm.std.tqdm.monitor_interval", 0)  # else a thread of its own would stay
     cosserat.run(cosserat.case(SHORT[0]).vary("x", **SHORT[1]))
     shown = screen.getvalue()
     assert re.search(r"x: +0%\|", shown)
-    assert re.search(r"x: +50%\|.*stride 1 of 2", shown)
+    assert re.search(r"x: +50%\|.*stride 1 of 2.*x: 100%\|.*stride 2 of 2", shown, flags=re.DOTALL)
     assert shown.endswith("\r")
     assert shown.split("\r")[-2].strip() == "", "the bar stays on the screen"
 
@@ -235,9 +241,8 @@ def test_a_variable_of_the_environment_switches_bars_off(off):
     code = (
         "import sys; sys.stderr.isatty = lambda: True\n"
         "from cosserat import progress\n"
-        "progress._AFTER = 0\n"
-        "import time\n"
-        "with progress.bar('x') as report: time.sleep(0.15); report(0.5, 'half')"
+        "progress._AFTER = progress._EVERY = 0\n"
+        "with progress.bar('x') as report: report(0.5, 'half')"
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
     environment |= {"TQDM_DISABLE": "1"} if off else {}

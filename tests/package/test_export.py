@@ -36,7 +36,8 @@ def two_instants(data):
 def test_the_table_of_any_kind_holds_every_number_and_no_other(solved, kind):
     data = two_instants(solved[case_of_kind(kind)])
     found = cosserat.to_dataframe(data)
-    assert not found.duplicated(["place", "number", *found.columns[2:3]]).any()
+    instants = [c for c in found.columns if c in (*table.INSTANTS, "time [s]")]
+    assert not found.duplicated(["place", "number", *instants]).any()
     for name, values in data.variables.items():
         if values.dtype.kind not in "fi":
             continue
@@ -87,6 +88,26 @@ def test_the_points_of_a_path_have_their_load_in_every_row(solved):
     found = cosserat.to_dataframe(data, "vertex")
     assert list(found["point"]) == sorted(list(range(data.sizes["point"])) * data.sizes["vertex"])
     np.testing.assert_array_equal(found.groupby("point")["load_factor [1]"].first(), data.load_factor)
+
+
+def test_special_points_of_a_path_are_rows_of_their_own():
+    """Of the same name twice, beside the points of the path."""
+    fields = {
+        "x": (("point", "vertex"), np.arange(6.0).reshape(2, 3), {"units": "m"}),
+        "special_x": (("special", "vertex"), np.arange(6.0, 12).reshape(2, 3), {"units": "m"}),
+        "special_load": (("special",), np.array([0.3, 0.7]), {"units": "1"}),
+        "xi": (("vertex",), np.array([0.0, 1, 2]), {"units": "m"}),
+    }
+    data = xr.Dataset(fields, {"special": ["bifurcation", "bifurcation"]})
+    found = cosserat.to_dataframe(data, "vertex")
+    assert list(found["x [m]"].dropna()) == [0, 1, 2, 3, 4, 5]
+    special = found[found["special"].notna()]
+    assert list(special["special_x [m]"]) == [6, 7, 8, 9, 10, 11]
+    assert list(special["special"]) == [0, 0, 0, 1, 1, 1]
+    assert set(special["special_name"]) == {"bifurcation"}
+    assert list(special["xi [m]"]) == [0, 1, 2, 0, 1, 2]
+    whole = cosserat.to_dataframe(data, "whole")
+    assert list(whole["special_load [1]"]) == [0.3, 0.7]
 
 
 def test_csv_reads_back_to_the_same_bits(capsys, solved, tmp_path):
