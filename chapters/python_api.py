@@ -34,6 +34,12 @@
 # .. autofunction:: cosserat.load
 #
 # .. autofunction:: cosserat.case_of
+#
+# .. autofunction:: cosserat.to_dataframe
+#
+# .. autofunction:: cosserat.plot
+#
+# .. autofunction:: cosserat.animate
 # ```
 #
 # ## Errors

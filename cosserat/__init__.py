@@ -3,7 +3,9 @@
     import cosserat
     beam = cosserat.run("clamped_free")                       # a published case, as an xarray.Dataset
     long = cosserat.case("clamped_free").vary("long", rod={"length": "10 m"})
-    print(cosserat.run(long).u.sel(axis="E2")[-1].item())     # its tip displacement in m
+    bent = cosserat.run(long)
+    print(bent.u.sel(axis="E2")[-1].item())                   # its tip displacement in m
+    cosserat.plot(bent, "long.png")                           # its picture
 
 Names are imported when first used, which keeps the command line quick.
 """
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from cosserat.cases.catalogue import load as load_cases
     from cosserat.data.dataset import case_of, load, save
     from cosserat.errors import CosseratError, InputError, NotConvergedError, UnsupportedRodError
+    from cosserat.export.table import to_dataframe
+    from cosserat.figures.doors import animate, plot
     from cosserat.runner import run
 
 _HOMES = {
@@ -31,6 +35,9 @@ _HOMES = {
     "InputError": ("cosserat.errors", "InputError"),
     "NotConvergedError": ("cosserat.errors", "NotConvergedError"),
     "UnsupportedRodError": ("cosserat.errors", "UnsupportedRodError"),
+    "to_dataframe": ("cosserat.export.table", "to_dataframe"),
+    "animate": ("cosserat.figures.doors", "animate"),
+    "plot": ("cosserat.figures.doors", "plot"),
     "run": ("cosserat.runner", "run"),
 }
 
@@ -40,13 +47,16 @@ __all__ = [
     "InputError",
     "NotConvergedError",
     "UnsupportedRodError",
+    "animate",
     "case",
     "case_of",
     "load",
     "load_cases",
+    "plot",
     "published",
     "run",
     "save",
+    "to_dataframe",
 ]
 
 

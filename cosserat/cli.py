@@ -6,15 +6,49 @@ import argparse
 import gc
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, InputError, NotConvergedError
-from cosserat.publications import Command, publications
+from cosserat.parameters import nearest
+from cosserat.publications import AddCommand, Command, publications
 
 if TYPE_CHECKING:
     from cosserat.cases.catalogue import Case
 
+_OWN = "commands"
+_EXAMPLE = """\
+example:
+  cosserat run clamped_free        solves it and writes clamped_free.nc here
+  cosserat show clamped_free.nc    prints its contents
+  cosserat plot clamped_free.nc    draws it into clamped_free.svg
+  cosserat COMMAND --help          tells all about a command
+
+a case of your own, in my.toml, may start from a published one:
+  [long_beam]
+  like = "clamped_free"
+  rod.length = "10 m"
+
+  cosserat run long_beam --file my.toml"""
+_EXPORT = """\
+CSV: one tidy table.
+  A row is one place of the body at one instant: the column 'place' says vertex, edge or section, and
+  'number' counts them from 0. What belongs to the body as a whole, such as energies, has rows of its
+  own: 'whole'. Each variable and component is a column with its unit, such as 'x_E2 [m]'. A value stands
+  where it was computed and nowhere else: other cells are empty, and nothing is interpolated.
+  In Python: cosserat.to_dataframe(result).
+
+VTK: the body as a mesh, for ParaView; it needs meshio ('pip install meshio').
+  A single state is one file, .vtu. A motion, a path or a crawl is a .pvd file, to be opened, and a folder
+  with a .vtu for each instant. A rod is a row of quadrilaterals between its lateral surfaces, a crawler a
+  closed surface; x is along E3, y along E2. Points have the numbers of their vertex or section, and for a
+  rod displacement and velocity; cells have those of their edge.
+
+examples:
+  cosserat export elastica.nc --to csv
+  cosserat export elastica.nc -o vertices.csv --place vertex
+  cosserat export worm.nc -o worm.pvd"""
 _INTERRUPTED = "cosserat: interrupted; no incomplete file was written"
 
 
@@ -25,7 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
     """
     gc.set_threshold(100_000)  # a tenth of the time of a short run, mostly imports
     try:
-        options = _parser().parse_args(arguments)
+        options = _read(sys.argv[1:] if arguments is None else arguments)
         command: Command = options.command
         command(options)
         sys.stdout.flush()
@@ -47,26 +81,69 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def _parser() -> argparse.ArgumentParser:
+def _read(arguments: list[str]) -> argparse.Namespace:
+    """The options of a command; without any word, those of `--help`.
+
+    Raises
+    ------
+    InputError : there is no such command or option.
+    """
+    parser = parser_of_commands()
+    actions = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
+    commands: dict[str, argparse.ArgumentParser] = dict(actions[0].choices or {})
+    word = arguments[0] if arguments else "--help"
+    if not word.startswith("-") and word not in commands:
+        raise InputError(f"there is no command '{word}'{nearest(word, list(commands), 0.6)}")
+    options, unknown = parser.parse_known_args(arguments or [word])
+    if unknown and unknown[0].startswith("-"):
+        known = [name for name in commands[word]._option_string_actions if name.startswith("--")]
+        given = unknown[0].partition("=")[0]
+        raise InputError(f"'cosserat {word}' has no option '{given}'{nearest(given, known)}")
+    if unknown:
+        raise InputError(
+            f"'{unknown[0]}' is one word too many; 'cosserat {word} --help' tells what it takes"
+        )
+    return options
+
+
+def parser_of_commands() -> argparse.ArgumentParser:
+    """The reader of the command line, with the commands of the publications."""
+    listed: dict[str, list[tuple[str, str]]] = {_OWN: []}
     parser = argparse.ArgumentParser(
         prog="cosserat",
-        description="Solve directed-rod problems and reproduce E. G. Hemingway's thesis (Berkeley, 2020).",
-        epilog=_epilog(),
+        usage="cosserat [-h] [--version] COMMAND ...",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "--version", action=_Version, help="print the version and the digest of the computing code"
     )
-    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+    commands = parser.add_subparsers(
+        prog="cosserat", required=True, metavar="COMMAND", help=argparse.SUPPRESS
+    )
 
     def add(name: str, command: Command, text: str) -> argparse.ArgumentParser:
-        sub = commands.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+        sub = commands.add_parser(
+            name,
+            description=text[0].upper() + text[1:] + ".",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
         sub.set_defaults(command=command)
+        listed[next(reversed(listed))].append((name, text))
         return sub
 
-    sub = add("cases", _cases, "list the cases: the published ones, or those of your file")
-    sub.add_argument("--file", type=Path, help="TOML file of cases (default: the published ones)")
+    _add_commands(add)
+    for publication in publications():
+        listed[publication.title] = []
+        publication.add_commands()(add)
+    width = 2 + max(len(name) for group in listed.values() for name, _ in group)
+    own, *others = ("\n".join([f"{title}:", *_lines(group, width)]) for title, group in listed.items())
+    parser.description = f"Solve rods, worms and soft robots of your own.\n\n{own}"
+    parser.epilog = "\n\n".join([_EXAMPLE, *others, "\n".join(["published cases:", *_published()])])
+    return parser
 
+
+def _add_commands(add: AddCommand) -> None:
+    """Add the commands for cases and results of one's own."""
     sub = add("run", _run, "solve one case and write its netCDF file")
     sub.add_argument(
         "case",
@@ -88,13 +165,55 @@ def _parser() -> argparse.ArgumentParser:
         help="if a growing load cannot be followed to its end, write the part that was reached and still fail",
     )
 
-    sub = add("show", _show, "print what a result holds: parameters, solver, range of each variable")
-    sub.add_argument("file", type=Path)
+    _add_results(add)
+    _add_listings(add)
 
-    sub = add("plot", _plot, "draw a stored result: the body, its displacement and its strains")
+
+def _add_results(add: AddCommand) -> None:
+    """Add the commands for results."""
+    sub = add("plot", _plot, "draw a result, or animate it")
     sub.add_argument("file", type=Path, help="netCDF file of cosserat")
-    sub.add_argument("-o", "--output", type=Path, help="SVG file to write (default: beside the file)")
+    written = sub.add_mutually_exclusive_group()
+    written.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        help="picture to write: .svg, .pdf or .png (default: an SVG beside the file)",
+    )
+    written.add_argument(
+        "--animate",
+        type=Path,
+        metavar="FILE",
+        help="write an animation instead: .gif, or .html with buttons",
+    )
+    sub.add_argument(
+        "--frames", type=int, default=100, help="most frames of an animation (default: %(default)s)"
+    )
 
+    sub = add("show", _show, "print what a result holds: parameters, solver, range of each variable")
+    sub.add_argument("file", type=Path, help="netCDF file of cosserat")
+
+    sub = add(
+        "export", _export, "write a result for other programs: a table as CSV, or the body for VTK"
+    )
+    sub.epilog = _EXPORT
+    sub.add_argument("file", type=Path, help="netCDF file of cosserat")
+    sub.add_argument(
+        "--to", choices=("csv", "vtk"), help="what to write (default: by the output's ending)"
+    )
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        help="file to write: .csv, .vtu or .pvd; or a folder (default: beside the file)",
+    )
+    sub.add_argument(
+        "--place", help="csv: only rows of this place, such as vertex, without empty columns"
+    )
+
+
+def _add_listings(add: AddCommand) -> None:
+    """Add the commands that tell what there is."""
     sub = add("describe", _describe, "list the kinds of cases, or the keys of one kind")
     sub.add_argument("kind", nargs="*", help="such as rod statics (default: list the kinds)")
 
@@ -105,9 +224,8 @@ def _parser() -> argparse.ArgumentParser:
         help="of one case with all keys inherited by 'like' (default: of a file as it is written)",
     )
 
-    for publication in publications():
-        publication.add_commands()(add)
-    return parser
+    sub = add("cases", _cases, "list the cases: the published ones, or those of your file")
+    sub.add_argument("--file", type=Path, help="TOML file of cases (default: the published ones)")
 
 
 class _Version(argparse.Action):
@@ -121,21 +239,16 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _epilog() -> str:
+def _lines(named: Iterable[tuple[str, str]], width: int) -> list[str]:
+    return [f"  {name:<{width}}{text}" for name, text in named]
+
+
+def _published() -> list[str]:
+    """Names and titles of the published cases."""
     from cosserat.publications import titles
 
-    width = max(map(len, titles()))
-    listed = "\n".join(f"  {name:<{width}}  {title}" for name, (title, _) in titles().items())
-    return (
-        f"published cases:\n{listed}\n\n"
-        "example:\n"
-        "  cosserat run clamped_free        solves it and writes clamped_free.nc here\n"
-        "  cosserat show clamped_free.nc    prints its contents\n"
-        "  cosserat plot clamped_free.nc    draws it into clamped_free.svg\n\n"
-        "a case of your own, in my.toml, may start from a published one:\n"
-        '  [long_beam]\n  like = "clamped_free"\n  rod.length = "10 m"\n\n'
-        "  cosserat run long_beam --file my.toml"
-    )
+    width = 2 + max(map(len, titles()))
+    return _lines(((name, title) for name, (title, _) in titles().items()), width)
 
 
 def _cases(options: argparse.Namespace) -> None:
@@ -179,7 +292,7 @@ def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
     from cosserat.runner import run
 
     try:
-        dataset = run(case, result=path, progress=_report_progress)
+        dataset = run(case, result=path)
     except (NotConvergedError, CrossingError, DivergedError, KeyboardInterrupt) as stopped:
         kept, reached = Parts(path).folder, getattr(stopped, "dataset", None)
         if reached is not None and keep_last:
@@ -202,12 +315,6 @@ def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
     print(f"{case.name}: {effort(dataset)}; wrote {path}")
     for warning in warnings_of(dataset):
         print(f"warning: {warning}", file=sys.stderr)
-
-
-def _report_progress(done: float, words: str) -> None:
-    """A line that overwrites itself on a terminal, and nothing elsewhere."""
-    if sys.stderr.isatty():
-        print(f"\r{done:4.0%}  {words}   ", end="" if done < 1 else "\n", file=sys.stderr, flush=True)
 
 
 def _describe(options: argparse.Namespace) -> None:
@@ -252,21 +359,18 @@ def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]
 
 
 def _plot(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import case_of, load, warnings_of
-    from cosserat.data.files import check_destination
-    from cosserat.figures.style import note, settings, write
-    from cosserat.publications import kinds
+    from cosserat.figures.doors import animate, plot
 
-    path = options.output or options.file.with_suffix(".svg")
-    check_destination(path, ".svg")
-    data = load(options.file)
-    kind = case_of(data).problem.kind
-    if not kinds()[kind].picture:
-        raise InputError(
-            f"{options.file} is of kind '{kind}', which has no picture; see it with 'cosserat show'"
-        )
-    with settings():
-        figure = kinds()[kind].picture_function()(data)
-        note(figure, warnings_of(data))
-    write(figure, path)
+    if options.animate is not None:
+        path = options.animate
+        animate(options.file, path, options.frames)
+    else:
+        path = options.output or options.file.with_suffix(".svg")
+        plot(options.file, path)
     print(f"wrote {path}")
+
+
+def _export(options: argparse.Namespace) -> None:
+    from cosserat.export.doors import export
+
+    print(f"wrote {export(options.file, options.to, options.output, options.place)}")

@@ -1,6 +1,6 @@
 """The registry of the kinds of problems.
 
-A kind is a class of parameters that can be solved, and a function that draws its result.  Both are named by
+A kind is a class of parameters that can be solved, and functions that draw its result.  They are named by
 "module:object" and imported when needed, which keeps the command line quick.
 """
 
@@ -21,12 +21,14 @@ class Kind:
 
     problem : a subclass of `cosserat.problem.Problem`.
     picture : a function from a Dataset to a figure; empty if `cosserat plot` has none.
-    animate : a function from a Dataset to an animation of Matplotlib; empty if nothing moves.
+    animate : a function from a Dataset and a number of frames to an animation of Matplotlib; empty if nothing moves.
+    mesh : a function from a Dataset to the body as a `cosserat.export.mesh.Body`; empty if there is no body.
     """
 
     problem: str
     picture: str = ""
     animate: str = ""
+    mesh: str = ""
 
     def problem_class(self) -> type[Problem]:
         """The class of its parameters."""
@@ -40,18 +42,28 @@ class Kind:
         """The function that animates its result."""
         return cast("Callable[..., Any]", pkgutil.resolve_name(self.animate))
 
+    def mesh_function(self) -> Callable[..., Any]:
+        """The function that makes a mesh of its body."""
+        return cast("Callable[..., Any]", pkgutil.resolve_name(self.mesh))
+
+
+_ROD, _CRAWLER = "cosserat.export.mesh:rod", "cosserat.export.mesh:crawler"
 
 KINDS = {
-    "rod statics": Kind("cosserat.problems.static:RodStatics", "cosserat.figures.rod:picture"),
+    "rod statics": Kind(
+        "cosserat.problems.static:RodStatics", "cosserat.figures.rod:picture", mesh=_ROD
+    ),
     "rod motion": Kind(
         "cosserat.problems.motion:RodMotion",
         "cosserat.figures.motion:picture",
         "cosserat.figures.animations:motion",
+        _ROD,
     ),
     "rod path": Kind(
         "cosserat.problems.path:RodPath",
         "cosserat.figures.path:picture",
         "cosserat.figures.animations:path",
+        _ROD,
     ),
     "modes": Kind(
         "cosserat.problems.modes:RodModes",
@@ -63,11 +75,14 @@ KINDS = {
     ),
     "calibration": Kind("cosserat.studies.calibration:CalibrationProcedure"),
     "convergence": Kind("cosserat.studies.convergence:Convergence"),
-    "posture": Kind("cosserat.problems.crawl:Posture", "cosserat.figures.crawlers:picture"),
+    "posture": Kind(
+        "cosserat.problems.crawl:Posture", "cosserat.figures.crawlers:picture", mesh=_CRAWLER
+    ),
     "crawl": Kind(
         "cosserat.problems.crawl:Crawl",
         "cosserat.figures.crawlers:picture",
-        "cosserat.figures.animations:crawl",
+        "cosserat.figures.crawling:animate",
+        _CRAWLER,
     ),
 }
 """Kinds by the value of `kind` in a case; `cosserat.publications` adds those of each publication."""

@@ -24,7 +24,7 @@ class Checkpoints(Protocol):
         """Store a part; an incomplete one is stored separately, and no run resumes from it."""
 
 
-def _silent(fraction: float, words: str) -> None:
+def silent(fraction: float, words: str) -> None:
     """Report nothing."""
 
 
@@ -32,7 +32,7 @@ def _silent(fraction: float, words: str) -> None:
 class Run:
     """Services for a problem while it is solved: a progress report, and a store of parts."""
 
-    progress: Progress = _silent
+    progress: Progress = silent
     checkpoints: Checkpoints | None = None
 
 
@@ -47,6 +47,11 @@ class Problem(Parameters, ABC):
         kind: str  # each class names its own
     thinned: ClassVar[Mapping[str, int]] = {}
     """Dimensions thinned in a stored reference, with the approximate number of values kept; 0 keeps nothing."""
+
+    @property
+    def body(self) -> str:
+        """The body in a few words, with units; empty if there is none."""
+        return ""
 
     @abstractmethod
     def solve(self, name: str, run: Run = ALONE) -> Solution:

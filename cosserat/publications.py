@@ -30,6 +30,7 @@ PUBLICATIONS = ("cosserat.thesis:PUBLICATION",)
 class Publication:
     """Additions of one publication.
 
+    title : of its commands in `--help`.
     reference : its citation.
     kinds : its own kinds of problems.
     cases : its case files, in order; `folder` is their package.
@@ -37,6 +38,7 @@ class Publication:
         line, each as "module:object".
     """
 
+    title: str
     reference: str
     kinds: Mapping[str, Kind]
     folder: str

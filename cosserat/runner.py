@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from cosserat.data.dataset import statistics_of, to_dataset
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CrossingError, InputError, NotConvergedError, path_of
 from cosserat.problem import Progress, Run
+from cosserat.progress import bar
 from cosserat.solution import Solution
 
 
@@ -25,7 +27,7 @@ def run(
 
     result : the future file of the Dataset; a long run keeps its parts beside it, and an interrupted one resumes
         from them to the same numbers.
-    progress : called with the progress of a long run.
+    progress : called with the progress of a long run; by default a bar shows it in terminals and notebooks.
 
     Raises
     ------
@@ -36,11 +38,11 @@ def run(
     known = find(case) if isinstance(case, str) else case
     if not isinstance(known, Case):
         raise InputError(f"run takes a case or the name of a published one, not {case!r}")
-    about = Run(checkpoints=None if result is None else _Stored(known, Parts(path_of(result))))
-    if progress is not None:
-        about = Run(progress, about.checkpoints)
+    kept = None if result is None else _Stored(known, Parts(path_of(result)))
+    shown = bar(known.name) if progress is None else contextlib.nullcontext(progress)
     try:
-        solution = known.problem.solve(f"case '{known.name}'", about)
+        with shown as report:
+            solution = known.problem.solve(f"case '{known.name}'", Run(report, kept))
     except (NotConvergedError, CrossingError) as error:
         if error.reached is not None:
             error.dataset = to_dataset(known, error.reached)

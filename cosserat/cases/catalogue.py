@@ -42,6 +42,12 @@ class Case(Parameters):
     problem: SerializeAsAny[Problem]
     """The problem to solve."""
 
+    def __repr__(self) -> str:
+        about = (self.problem.kind, self.problem.body, self.source or "a case of the user")
+        return f"<Case '{self.name}': {'; '.join(filter(None, about))}>"
+
+    __str__ = __repr__
+
     def vary(self, name: str, **changes: Any) -> Case:
         """A case of another name with parts of the problem changed: `case.vary("long", rod={"length": "10 m"})`.
 

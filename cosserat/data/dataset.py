@@ -94,14 +94,16 @@ def case_of(dataset: xr.Dataset) -> Case:
     InputError : the Dataset carries no parameters of this version.
     """
     if "parameters" not in dataset.attrs:
-        raise InputError(f"{_name(dataset)} has no attribute 'parameters'; use one that cosserat wrote")
+        raise InputError(
+            f"{name_of(dataset)} has no attribute 'parameters'; use one that cosserat wrote"
+        )
     try:
         return parse(dataset.attrs["parameters"])
     except InputError as error:
-        raise InputError(f"{_name(dataset)}: {error}") from None
+        raise InputError(f"{name_of(dataset)}: {error}") from None
 
 
-def _name(dataset: xr.Dataset) -> str:
+def name_of(dataset: xr.Dataset) -> str:
     """Name of a Dataset in a sentence: the file that it was read from, if any."""
     return str(dataset.encoding.get("source", "this Dataset"))
 
@@ -127,7 +129,7 @@ def statistics_of(dataset: xr.Dataset) -> dict[str, int | float]:
         return dict(json.loads(dataset.attrs["solver"]))
     except (KeyError, ValueError, TypeError):
         raise InputError(
-            f"{_name(dataset)} has no readable attribute 'solver'; use one that cosserat wrote"
+            f"{name_of(dataset)} has no readable attribute 'solver'; use one that cosserat wrote"
         ) from None
 
 
@@ -181,6 +183,16 @@ def load(path: str | Path) -> xr.Dataset:
         raise InputError(
             f"cannot read {path} as netCDF ({error}); delete it and run its case again"
         ) from None
+
+
+def opened(result: xr.Dataset | str | Path) -> xr.Dataset:
+    """A result, given by itself or by the name of its file.
+
+    Raises
+    ------
+    InputError : the file is missing or cannot be read as netCDF.
+    """
+    return result if isinstance(result, xr.Dataset) else load(result)
 
 
 def _sorted_json(value: object) -> str:

@@ -15,7 +15,7 @@ from types import FrameType
 from cosserat.errors import InputError
 
 
-def check_destination(path: Path, suffix: str = "") -> None:
+def check_destination(path: Path, *suffixes: str) -> None:
     """Raise InputError for a file that cannot be written, before anything is computed.
 
     Raises
@@ -35,8 +35,10 @@ def check_destination(path: Path, suffix: str = "") -> None:
         raise InputError(f"{path} is not a regular file; {remedy}")
     if not os.access(path.parent, os.W_OK):
         raise InputError(f"the folder {path.parent} cannot be written to; {remedy}")
-    if suffix and path.suffix != suffix:
-        raise InputError(f"{path} would be written as {suffix[1:]}; let its name end in '{suffix}'")
+    if suffixes and path.suffix not in suffixes:
+        written = " or ".join(suffix[1:] for suffix in suffixes)
+        ends = " or ".join(f"'{suffix}'" for suffix in suffixes)
+        raise InputError(f"{path} would be written as {written}; let its name end in {ends}")
 
 
 @contextlib.contextmanager

@@ -18,6 +18,7 @@ _COMPUTING = (
     "problem.py",
     "kinds.py",
     "publications.py",
+    "progress.py",
     "runner.py",
     "exact",
     "solvers",

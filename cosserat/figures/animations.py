@@ -1,4 +1,4 @@
-"""Animations of results, as Matplotlib's: natural modes, motions, paths of equilibria and crawls.
+"""Animations of results, as Matplotlib's: natural modes, motions and paths of equilibria.
 
 Each takes a Dataset and the number of frames.
 """
@@ -16,11 +16,9 @@ from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.crawlers import draw_crawler
 from cosserat.figures.modes import SHOWN, amplitude, label, mode_shape, panels, spoken
 from cosserat.figures.rod import draw_outline, draw_supports, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas
-from cosserat.problems.crawl import CrawlerProblem
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
@@ -62,26 +60,6 @@ def path(data: xr.Dataset, frames: int = FRAMES) -> FuncAnimation:
         for load, rests in zip(loads, stable, strict=True)
     ]
     return _states(data, shown, said)
-
-
-def crawl(data: xr.Dataset, frames: int = FRAMES) -> FuncAnimation:
-    """A crawler on the ground through its instants; of a posture one frame."""
-    crawler = problem_of(data, CrawlerProblem).crawler
-    shown = _chosen(data.sizes.get("time", 1), frames)
-    figure, (ax,) = canvas(7.2, 2.2)
-    along, margin = 1e2 * data.along.to_numpy(), 1e2 * crawler.radius
-    top = 2.2e2 * crawler.radius * float(data.mu_1.max())
-
-    def show(frame: int) -> None:
-        ax.clear()
-        state = data.isel(time=int(shown[frame])) if "time" in data.sizes else data
-        draw_crawler(ax, state, crawler.radius)
-        ax.axhline(0.0, color=EXACT, linewidth=0.6)
-        ax.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=data.attrs["title"])
-        ax.set_aspect("equal")
-        ax.set(xlim=(along.min() - margin, along.max() + margin), ylim=(-0.1 * top, top))
-
-    return _animation(figure, show, shown.size)
 
 
 def _states(data: xr.Dataset, shown: NDArray[np.int64], said: list[str]) -> FuncAnimation:

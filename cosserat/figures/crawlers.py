@@ -46,7 +46,7 @@ def draw_crawler(
     top = 2 * tall * radius * state.mu_1.to_numpy() * 1e2 + base
     thin = state.advancing.to_numpy() > 0.5
     ax.fill_between(along, base, top, color=BODY, linewidth=0)
-    for run in _runs(thin):
+    for run in runs(thin):
         ax.fill_between(along[run], base, top[run], color=THINNED, linewidth=0)
     if "muscle_pressure" in state:
         for run in _runs((state.muscle_pressure == 0).to_numpy() & (state.muscle_force == 0).to_numpy()):
@@ -223,7 +223,7 @@ def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) ->
         )
 
     bodies = [outline(f, slice(None)) for f in frames]
-    thinned = ["".join(outline(f, run) for run in _runs(thin[f])) or "M0 0" for f in frames]
+    thinned = ["".join(outline(f, run) for run in runs(thin[f])) or "M0 0" for f in frames]
     feet = x(data.anchor_along.to_numpy())
     anchors = [f"M{a:.1f} {ground:.1f}l-6 11l12 0Z" for a in feet[:-1]]
     parts = [
@@ -246,7 +246,7 @@ def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) ->
     )
 
 
-def _runs(flags: NDArray[np.bool_]) -> list[slice]:
+def runs(flags: NDArray[np.bool_]) -> list[slice]:
     """Slices of set flags, each extended by one section so that neighbours meet."""
     edges = np.flatnonzero(np.diff(np.r_[False, flags, False].astype(int)))
     return [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import textwrap
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -27,6 +28,10 @@ INK, PAPER, EXACT, COMPUTED, VARIANT, BODY = (
     "#c9dced",
 )
 
+PICTURES = {".svg": "Date", ".pdf": "CreationDate", ".png": ""}
+"""Endings of pictures, and the name of the date that each format would carry."""
+
+_DPI = 150  # of a PNG
 _SETTINGS: Any = {
     "font.size": 9,
     "axes.spines.top": False,
@@ -52,9 +57,19 @@ def settings() -> AbstractContextManager[None]:
     return mpl.rc_context(_SETTINGS)
 
 
+class Picture(Figure):
+    """A figure that a notebook shows by itself, also where pyplot is not used."""
+
+    def _repr_png_(self) -> bytes:
+        drawn = io.BytesIO()
+        with settings():
+            self.savefig(drawn, format="png", dpi=_DPI)
+        return drawn.getvalue()
+
+
 def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tuple[Figure, list[Axes]]:
     """A figure of that size in inches with its axes in reading order."""
-    figure = Figure(figsize=(width, height), layout="constrained")
+    figure = Picture(figsize=(width, height), layout="constrained")
     axes = figure.subplots(rows, columns, squeeze=False)
     return figure, [ax for line in axes for ax in line]
 
@@ -68,12 +83,15 @@ def note(figure: Figure | str, warnings: list[str]) -> None:
 
 
 def write(figure: Figure | str, path: Path) -> None:
-    """Write an SVG without a date, whole or not at all; a text is already an SVG."""
+    """Write a picture without a date, whole or not at all, as the name ends; a text is already an SVG."""
     with settings(), whole_or_absent(path) as temporary:
         if isinstance(figure, str):
             temporary.write_text(figure, encoding="utf-8")
             return
-        figure.savefig(temporary, format="svg", metadata={"Date": None})
+        date = PICTURES[path.suffix]
+        figure.savefig(
+            temporary, format=path.suffix[1:], dpi=_DPI, metadata={date: None} if date else {}
+        )
 
 
 def exact_curve(ax: Axes, xi: Array, values: Array, label: str, *, dashed: bool = False) -> None:

@@ -60,6 +60,12 @@ class CrawlerProblem(Problem):
         return self
 
     @property
+    def body(self) -> str:
+        """Length, radius and material of the crawler."""
+        crawler = self.crawler
+        return f"crawler of {crawler.length:g} m, radius {crawler.radius:g} m, {crawler.material.kind}"
+
+    @property
     def places(self) -> Array:
         """z = xi / l_0 of the stored sections."""
         return np.linspace(0.0, 1.0, self.sections)

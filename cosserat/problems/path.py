@@ -93,6 +93,8 @@ class RodPath(RodProblem):
                 where = f"{name}, {point.factor:.4g} of the load"
                 check_crossing(geometry, x, d, self.rod.below, where)
                 points.append(point)
+                furthest = max(known.factor for known in points)
+                run.progress(min(furthest, 1.0), f"{point.factor:.4g} of the load")
         except (NotConvergedError, CrossingError) as error:
             if points:
                 error.reached = _solution(self.rod, geometry, points, solver)

@@ -146,6 +146,12 @@ class RodProblem(Problem):
         return self
 
     @property
+    def body(self) -> str:
+        """Length, number of vertices and energy of the rod."""
+        rod = self.rod
+        return f"rod of {rod.length:g} m, {rod.vertices} vertices, {rod.energy} energy"
+
+    @property
     def time_functions(self) -> list[tuple[str, TimeFunction]]:
         """The functions of time of its loads and constraints, with their keys."""
         items = [(key, load) for key in LOADS for load in self.loads_of(key)]

@@ -70,7 +70,10 @@ class CalibrationProcedure(Problem):
         ------
         NotConvergedError : a solve on the way failed.
         """
-        fits = {problem: [self.fit(problem, n, name) for n in self.meshes] for problem in ASSIGNED}
+        fits: dict[str, list[OptimizeResult]] = {}
+        for problem in ASSIGNED:
+            fits[problem] = [self.fit(problem, n, name) for n in self.meshes]
+            run.progress(len(fits) / (len(ASSIGNED) + 1), problem.replace("_", " "))
         mesh = ("mesh",)
         fields: dict[str, Field] = {"vertices": (mesh, np.array(self.meshes, dtype=np.float64))}
         for problem, results in fits.items():

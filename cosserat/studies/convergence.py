@@ -70,7 +70,11 @@ class Convergence(Problem):
         ------
         NotConvergedError : a solve on the way failed.
         """
-        errors = np.array([self.errors(n, name) for n in self.meshes]).T
+        table: list[list[float]] = []
+        for n in self.meshes:
+            table.append(self.errors(n, name))
+            run.progress(len(table) / len(self.meshes), f"{n} vertices")
+        errors = np.array(table).T
         fields: dict[str, Field] = {
             "vertices": (("mesh",), np.array(self.meshes, dtype=np.float64)),
             "errors": (("measure", "mesh"), errors),

@@ -8,6 +8,7 @@ from cosserat.kinds import Kind
 from cosserat.publications import Publication
 
 PUBLICATION = Publication(
+    title="commands that reproduce E. G. Hemingway's thesis (Berkeley, 2020)",
     reference=(
         "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
     ),

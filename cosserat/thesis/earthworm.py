@@ -126,7 +126,11 @@ class BodyMasses(Problem):
         worms = [(self.scaled(mass), f"{name}, {1e3 * mass:g} g") for mass in self.masses]
         for worm, called in worms:
             worm.check_collapse(worm.gait.instants(worm.step), called)
-        table = np.array([_measure(worm, called) for worm, called in worms])
+        rows = []
+        for worm, called in worms:
+            rows.append(_measure(worm, called))
+            run.progress(len(rows) / len(worms), called)
+        table = np.array(rows)
         duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
         values = {
             "body_mass": np.array(self.masses),

@@ -2,6 +2,7 @@
 
 import io
 import os
+import re
 import subprocess
 import sys
 
@@ -256,10 +257,46 @@ def test_the_version_names_the_code(capsys):
 
 
 def test_an_unknown_command_is_refused(capsys):
-    with pytest.raises(SystemExit) as done:
-        main(["ran", "clamped_free"])
-    assert done.value.code == 2
-    assert "invalid choice: 'ran'" in capsys.readouterr().err
+    for words, sentence in [
+        (["ran", "clamped_free"], "there is no command 'ran'; did you mean 'run'?"),
+        (["plto", "a.nc"], "there is no command 'plto'; did you mean 'plot'?"),
+        (["xyz"], "there is no command 'xyz'; known are: run, plot, show, export, "),
+        (
+            ["run", "necking", "--ouput=a.nc"],
+            "'cosserat run' has no option '--ouput'; did you mean '--output'?",
+        ),
+        (
+            ["show", "a.nc", "b.nc"],
+            "'b.nc' is one word too many; 'cosserat show --help' tells what it takes",
+        ),
+    ]:
+        code, out, err = call(capsys, *words)
+        assert (code, out) == (2, "")
+        assert err.startswith(f"cosserat: {sentence}")
+        assert err.count("\n") == 1
+
+
+def test_help_has_the_commands_of_a_user_first_and_the_published_work_last(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    text = capsys.readouterr().out
+    names = ["run", "plot", "show", "export", "describe", "schema", "cases"]
+    order = [
+        "commands:",
+        *names,
+        "example:",
+        "commands that reproduce",
+        "figure",
+        "book",
+        "published cases:",
+    ]
+    places = [re.search(rf"^ *{re.escape(word)}", text, flags=re.MULTILINE).start() for word in order]
+    assert places == sorted(places)
+    from cosserat.cli import parser_of_commands
+
+    (commands,) = [a for a in parser_of_commands()._actions if a.dest != "help" and a.choices]
+    for name in commands.choices:
+        assert re.search(rf"^  {name}  +\w", text, flags=re.MULTILINE), f"{name} is not listed"
 
 
 def test_the_commands_of_the_workflow_run_by_hand(capsys, solved, tmp_path):

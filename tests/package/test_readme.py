@@ -87,12 +87,12 @@ def test_shell_lines_of_the_readme_are_executed_in_their_order(tmp_path):
 
 def test_commands_within_sentences_have_the_options_that_they_name():
     """`cosserat run CASE --keep-last`: read by the command line, not run."""
-    from cosserat.cli import _parser
+    from cosserat.cli import parser_of_commands
 
     named = re.findall(r"`(cosserat [^`]+)`", TEXT)
     assert named
     for code in named:
-        assert _parser().parse_args(shlex.split(code)[1:]), code
+        assert parser_of_commands().parse_args(shlex.split(code)[1:]), code
 
 
 def test_files_named_in_the_readme_exist():

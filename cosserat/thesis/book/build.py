@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import io
+import os
 import shutil
 import tempfile
 from importlib import resources
@@ -80,7 +81,7 @@ def execute(chapter: Path, output: Path) -> None:
         resources={"metadata": {"path": str(chapter.resolve().parents[1])}},
     )
     try:
-        client.execute()
+        client.execute(env={**os.environ, "TQDM_DISABLE": "1"})  # a page shows no progress bars
     except CellExecutionError as error:
         raise CosseratError(f"{chapter}: a cell failed: {error}") from None
     with whole_or_absent(output) as temporary:

@@ -1,0 +1,78 @@
+"""Pictures and animations of any result, by its kind: `cosserat.plot`, `cosserat.animate`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from cosserat.data.dataset import case_of, name_of, opened, warnings_of
+from cosserat.data.files import check_destination
+from cosserat.errors import InputError, path_of
+from cosserat.figures.animated import ENDINGS, FRAMES, MOST_FRAMES, write_animation
+from cosserat.figures.style import PICTURES, note, settings, write
+from cosserat.publications import kinds
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+
+
+def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Figure:
+    """The picture of a result, as a matplotlib figure: its body, and curves of what its kind is about.
+
+    result : a Dataset, or the name of its file.
+    path : also write the picture there, as SVG, PDF or PNG, by the ending of its name.
+
+    Raises
+    ------
+    InputError : results of this kind have no picture, or a file cannot be read or written.
+    """
+    if path is not None:
+        check_destination(path_of(path), *PICTURES)
+    data = opened(result)
+    kind = case_of(data).problem.kind
+    if not kinds()[kind].picture:
+        raise InputError(
+            f"{name_of(data)} is of kind '{kind}', which has no picture; see it with 'cosserat show'"
+        )
+    with settings():
+        figure: Figure = kinds()[kind].picture_function()(data)
+        note(figure, warnings_of(data))
+    if path is not None:
+        write(figure, path_of(path))
+    return figure
+
+
+def animate(
+    result: xr.Dataset | str | Path, path: str | Path | None = None, frames: int = FRAMES
+) -> FuncAnimation:
+    """The animation of a result, by matplotlib.
+
+    A notebook shows it by "IPython.display.HTML(cosserat.animate(result).to_jshtml())".
+
+    result : a Dataset, or the name of its file.
+    path : also write the animation there: a GIF, or HTML with buttons.
+    frames : most instants that are shown, at equal distances, from 2 to 1000.
+
+    Raises
+    ------
+    InputError : results of this kind do not move, or a file cannot be read or written.
+    """
+    if path is not None:
+        check_destination(path_of(path), *ENDINGS)
+    if not 2 <= frames <= MOST_FRAMES:
+        raise InputError(f"an animation of {frames} frames cannot be drawn; take 2 to {MOST_FRAMES}")
+    data = opened(result)
+    kind = case_of(data).problem.kind
+    if not kinds()[kind].animate:
+        moving = ", ".join(f"'{name}'" for name, entry in kinds().items() if entry.animate)
+        raise InputError(
+            f"{name_of(data)} is of kind '{kind}', which has no animation; kinds with one are {moving}"
+        )
+    with settings():
+        animation: FuncAnimation = kinds()[kind].animation_function()(data, frames)
+        if path is not None:
+            write_animation(animation, path_of(path))
+    return animation
