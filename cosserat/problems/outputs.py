@@ -247,9 +247,9 @@ def of_instants(
 
 def energies(system: MechanicalSystem, point: Equilibrium) -> tuple[float, float]:
     """Strain energy, and potential of the loads at their load factor [J]."""
-    loads = system.nonlinear_load_energy(point.q, point.history)
-    loads -= float(system.dead_load @ (point.q - system.space.reference))
-    return system.internal.energy(point.q), point.factor * loads
+    coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
+    dead = float((point.factor * system.dead_load) @ (point.q - system.space.reference))
+    return system.internal.energy(point.q), coupled - dead
 
 
 def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> tuple[Array, Array]:

@@ -27,7 +27,8 @@ def reactions(system: MechanicalSystem, states: Sequence[State]) -> Fields:
         return forces
     for state, gradient, acceleration in zip(states, forces, given, strict=True):
         system.add_gradient(state.q, state.history, gradient)
-        acceleration[fixed] = system.constraints.at_time(state.time)[2][fixed]
+        _, _, gaining = system.constraints.at_time(state.time)
+        acceleration[fixed] = gaining[fixed]
     pull = np.array(
         [
             -gradient - band_product(system.inertia, system.damping_rate * state.v + acceleration)

@@ -145,6 +145,27 @@ def test_three_point_bending_has_the_stress_of_the_textbook():
     assert data.strain_energy.item() == pytest.approx(F * sag / 2, rel=3e-3)
 
 
+def test_points_and_supports_may_be_anywhere():
+    """A beam on hinges, the second 3/4 along: the sag of its middle, amid an edge, and the turn of its free end."""
+    F, EI, GA, span = 10.0, 200e9 * 0.03 * 0.02**3 / 12, 5 / 6 * 100e9 * 6e-4, 1.5
+    errors = []
+    for vertices in (21, 61):
+        data = solved_case(
+            rod={**STEEL, "poisson": 0.0, "vertices": vertices},
+            supports=[{"at": "first", "fixed": ["x3", "x2"]}, {"at": "75 %", "fixed": ["x2"]}],
+            forces=[{"at": "0.75 m", "along": "-E2", "force": F}],
+            probes=[{"at": "0.75 m", "name": "middle"}, {"at": "last", "name": "tip"}],
+        )
+        assert list(data.support.to_numpy()) == ["first", "75.0 %"]
+        np.testing.assert_allclose(data.reaction_force.sel(axis="E2"), F / 2, rtol=1e-5)
+        sag = -data.probe_displacement.sel(probe="middle", axis="E2").item()
+        turn = data.probe_rotation.sel(probe="tip").item()
+        right = F * span**3 / (48 * EI) + F * span / (4 * GA)
+        errors.append([sag / right - 1, turn / (F * span**2 / (16 * EI)) - 1])
+    assert np.abs(errors[0]).max() < 2e-2
+    np.testing.assert_allclose(np.log(np.divide(*errors)) / np.log(3), 2, atol=0.1)
+
+
 def test_a_clamp_that_cannot_stretch_gives_its_force_on_the_director():
     """The couple of the clamp is that of the free body; a bonded section of a pulled bar is held open."""
     data = solved_case(forces=[{"at": "last", "along": "E3", "force": 1e5}])
@@ -188,7 +209,7 @@ def test_without_a_held_section_rotations_follow_from_state_to_state():
 
 
 def pushed(longest):
-    """An inclined bar of slope 0.1 whose apex is pushed down by half its height: the shallow side of a toggle."""
+    """A bar on two hinges, one of which moves across it by a tenth of its length."""
     end = {"at": "last", "fixed": ["x3", "x2"]}
     down = [{"at": "last", "dof": "x2", "by": -0.1}]
     return solved_case(
@@ -201,7 +222,7 @@ def pushed(longest):
 
 
 def test_a_pulled_string_has_its_reactions_and_works_along_its_path():
-    """A hinged bar whose end moves across: tension EA (l/L - 1) along it, and work EA (l - L)^2 / 2 L at every point."""
+    """A hinged bar whose end moves across: tension EA (l/L - 1) along it, work EA (l - L)^2 / 2 L at every point."""
     errors = []
     for longest in (0.02, 0.01):
         data = pushed(longest)
@@ -285,8 +306,8 @@ def test_the_hinge_of_a_pendulum_has_the_force_of_mechanics():
     """5/2 m g sin along it and m g cos / 4 across it, at an angle below the level; of second order in the edges.
 
     derived: J theta'^2 / 2 = m g L/2 sin and J theta'' = m g L/2 cos about the hinge, so that with s = m L^2 / 4 J the
-    centre needs 2 s m g sin towards the hinge and s m g cos down.  s is 3/4 for a thin bar.  Across it the bar rings, as
-    its weight acts at once: the mean counts.
+    centre needs 2 s m g sin towards the hinge and s m g cos down.  s is 3/4 for a thin bar.  Across it the bar rings,
+    as its weight acts at once: the mean counts.
     """
     share = 0.5**2 / (1 / 3 + 0.1**2 / 12)
     errors = []

@@ -6,6 +6,7 @@ from conftest import make_rod, random_state
 
 import cosserat
 from cosserat.rods.resultants import (
+    Resultants,
     contact_director_forces,
     intrinsic_director_forces,
     resultants,
@@ -181,9 +182,9 @@ def test_stresses_of_a_pulled_and_bent_section_whichever_line_of_it_is_followed(
         rod = some_rod("consistent", centreline=place)
         b, h = rod.width, rod.height
         N, M, offset = 2e3, -70.0, (0.5 - place) * h
-        force = np.zeros((1, 6))
-        forces = resultants(np.zeros((1, 7, 2, 2)) + [[0, 0], [0, 1]], np.zeros((1, 7, 2, 2)))
-        forces = type(forces)(forces.force, force + N, force + 500.0, force + M - offset * N)
+        forces = Resultants(
+            np.zeros((1, 6, 2)), *(np.full((1, 6), value) for value in (N, 500.0, M - offset * N))
+        )
         stress = beam_stresses(edge_sections(rod, np.linspace(0, 1, 6)), forces)
         bending = 6 * M / (b * h**2)
         right = N / (b * h) + np.array([-bending, bending])

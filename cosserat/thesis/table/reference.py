@@ -67,7 +67,7 @@ def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
     ------
     InputError : different variables, shapes, units or parameters, or a value that is not finite.
     """
-    fresh = thin(fresh)
+    fresh, stored = thin(fresh), without_derived(stored)
     if set(fresh.variables) != set(stored.variables):
         raise InputError(
             f"variables differ: {sorted(map(str, set(fresh.variables) ^ set(stored.variables)))}"
