@@ -5,6 +5,7 @@ import pytest
 from conftest import make_rod, random_state
 
 import cosserat
+from cosserat.figures import conventions
 from cosserat.rods.resultants import (
     Resultants,
     contact_director_forces,
@@ -115,6 +116,25 @@ def test_sums_from_either_end_agree_to_rounding(name):
     other = resultants(turned, gradient)
     for one, two in ((found.force, other.force), (found.moment, other.moment)):
         assert np.abs(one + two[:, ::-1]).max() < 1e-13 * 7 * np.abs(one).max()
+
+
+def test_the_drawn_page_has_the_signs_of_the_code():
+    """What pulls the part before the cut along the drawn normal is N > 0, along the drawn director Q > 0."""
+    vectors = np.zeros((1, 3, 2, 2))
+    vectors[0, :, 0] = np.arange(3)[:, None] * conventions.NORMAL
+    vectors[0, :, 1] = conventions.SECTION
+    figure = conventions.picture()
+    drawn = [
+        np.subtract(text.xy, text.get_position()) for text in figure.axes[1].texts if not text.get_text()
+    ]
+    for arrow, name in zip(drawn[:2], ("normal", "shear"), strict=True):
+        gradient = np.zeros_like(vectors)
+        gradient[0, 2, 0] = arrow
+        found = resultants(vectors, gradient)
+        size = np.linalg.norm(arrow)
+        np.testing.assert_allclose(getattr(found, name), size, rtol=1e-12)
+        other = found.shear if name == "normal" else found.normal
+        assert np.abs(other).max() < 1e-12
 
 
 def director_forces(rod, q, energy):
