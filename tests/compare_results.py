@@ -2,7 +2,8 @@
 
 Prints the largest change of every variable of every case, and fails if one is larger than allowed: with `--bits` none
 at all, else 1e-9 of the variable's largest value or its round-off floor.  Variables and labels that were renamed are
-compared by the table below.  Variables that follow from others (attribute `derived`) may be new.  The attributes `source` and `parameters` may differ; every other one may not.
+compared by the table below.  Variables that follow from others, the attribute `derived` names them, may be new.  The
+attributes `source` and `parameters` may differ; every other one may not.
 """
 
 from __future__ import annotations
