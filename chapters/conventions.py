@@ -72,11 +72,12 @@ page.excerpt(resultants.resultants, "middle =", "return")
 #
 # ## Energy and work
 #
-# The strain energy by its terms is that above the reference. `load_potential` is minus the work that dead loads and couples of
-# their present size would do from the reference. In a motion `load_work` is the work of the loads since the start, `support_work` that
-# of moved supports, and `dissipated_energy` what damping took; kinetic and strain energy balance them. Along a path loads and
-# supports grow slowly; `load_work` and `support_work` add up their work from point to point by the trapezoidal rule, and
-# together they are the strain energy, to second order in the length of the arcs. A static problem stores no work: only its end is known.
+# The strain energy by its terms is that above the reference. `load_potential` is minus the work that constant loads of their
+# present size would do from the reference, and `attached_energy` is that of springs. In a motion `total_load_work` is the work of the loads since
+# the start, `load_work` the part of loads without a constant potential, `support_work` that of moved supports, and
+# `dissipated_energy` what damping took; kinetic and stored energy balance them. Along a path loads and
+# supports grow slowly; `total_load_work` and `support_work` add up their work from point to point by the trapezoidal rule, and
+# together they are the stored energy, to second order in the length of the arcs. A static problem stores no work: only its end is known.
 #
 # ## Stresses
 #
@@ -95,7 +96,8 @@ page.excerpt(resultants.resultants, "middle =", "return")
 # %% tags=["remove-input"]
 derived = (
     "contact_force normal_force shear_force bending_moment contact_director_force intrinsic_director_force "
-    "reaction_force reaction_moment reaction_director_force strain_energy load_potential load_work support_work "
+    "reaction_force reaction_moment reaction_director_force strain_energy attached_energy load_potential "
+    "total_load_work load_work support_work "
     "fibre_stress fibre_strain shear_stress rotation probe_displacement probe_rotation"
 )
 page.table(

@@ -159,8 +159,9 @@ class RodMotion(RodProblem):
             system, count = checkpointed.system, whole["time"].size
             instants = [state_of(whole, system, number) for number in range(count)]
             states = of_instants(self, checkpointed.geometry, system, instants, whole["first_angle"])
-            found, work = outputs(states), whole["load_potential"][0] - whole["load_potential"]
-            return replace(found, fields={**found.fields, "load_work": (("time",), work)})
+            found, potential = outputs(states), whole["load_potential"]
+            work = whole["load_work"] + potential[0] - potential
+            return replace(found, fields={**found.fields, "total_load_work": (("time",), work)})
 
         return replace(whole, warnings=checkpointed.warnings(whole), derive=derive)
 

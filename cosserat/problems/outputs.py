@@ -245,14 +245,20 @@ def of_instants(
     )
 
 
-def energies(system: MechanicalSystem, point: Equilibrium) -> tuple[float, float]:
-    """Strain energy, and potential of the loads at their load factor [J]."""
+def energies(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:
+    """Strain energy, energy of springs, and potential of the loads at their load factor, (S,) each [J]."""
+    each = np.array([_energies(system, point) for point in points]).T
+    return dict(zip(("strain_energy", "attached_energy", "load_potential"), each, strict=True))
+
+
+def _energies(system: MechanicalSystem, point: Equilibrium) -> tuple[float, float, float]:
     coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
     dead = float((point.factor * system.dead_load) @ (point.q - system.space.reference))
-    return system.internal.energy(point.q), coupled - dead
+    attached = system.attached_energy(point.q, point.history)
+    return system.internal.energy(point.q), attached, coupled - dead
 
 
-def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> tuple[Array, Array]:
+def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:
     """Work of the loads and of the moved supports from the first point of a path to each, (S,) each [J].
 
     By the trapezoidal rule from point to point: of second order in their distance.
@@ -263,4 +269,4 @@ def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> tuple
     moved = np.diff(q, axis=0)
     steps = [((forces[1:] + forces[:-1]) / 2 * moved).sum(axis=1) for forces in (loads, held)]
     by_loads, by_supports = (np.concatenate([[0.0], np.cumsum(step)]) for step in steps)
-    return by_loads, by_supports
+    return {"total_load_work": by_loads, "support_work": by_supports}

@@ -188,10 +188,8 @@ def _solution(
 
     def derive() -> Solution:
         found = outputs(of_equilibria(problem, geometry, solver.system, points, "point"))
-        stored = np.array([energies(solver.system, point) for point in points]).T
-        work = work_along(solver.system, points)
-        names = ("strain_energy", "load_potential", "load_work", "support_work")
-        more = {name: (along, values) for name, values in zip(names, (*stored, *work), strict=True)}
+        stored, work = energies(solver.system, points), work_along(solver.system, points)
+        more = {name: (along, values) for name, values in (stored | work).items()}
         return replace(found, fields={**found.fields, **more})
 
     return Solution(fields, statistics, {"axis": rod.kinematics.axes}, tuple(warnings), derive)

@@ -139,11 +139,8 @@ def _solution(
 
     def derive() -> Solution:
         found = outputs(of_equilibria(problem, geometry, system, [point], ""))
-        names = ("strain_energy", "load_potential")
-        more = {
-            name: ((), np.array(value))
-            for name, value in zip(names, energies(system, point), strict=True)
-        }
+        stored = energies(system, [point])
+        more = {name: ((), values[0]) for name, values in stored.items()}
         return replace(found, fields={**found.fields, **more})
 
     return Solution(fields, statistics, labels, derive=derive)

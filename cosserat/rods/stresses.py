@@ -41,11 +41,10 @@ def edge_sections(rod: Rod, xi: Array) -> Sections:
     """The sections at arc lengths xi; at a step those after it."""
     scale = Scales(*(scale_at(rod.stations, name, xi, before=False) for name in Scales._fields))
     centre = (0.5 - rod.centreline) * rod.height
-    second_moment = rod.second_moment - rod.area * centre**2
     _, _, young = moduli(rod.young * scale.young, rod.poisson * scale.poisson, rod.lateral_constraint)
     return Sections(
         rod.area * scale.width * scale.height,
-        second_moment * scale.width * scale.height**3,
+        rod.central_second_moment * scale.width * scale.height**3,
         rod.height * scale.height,
         centre * scale.height,
         young,

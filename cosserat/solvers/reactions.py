@@ -25,10 +25,10 @@ def reactions(system: MechanicalSystem, states: Sequence[State]) -> Fields:
     forces, given = np.zeros((len(states), fixed.size)), np.zeros((len(states), fixed.size))
     if not fixed.any():
         return forces
-    for state, gradient, acceleration in zip(states, forces, given, strict=True):
-        system.add_gradient(state.q, state.history, gradient)
-        _, _, gaining = system.constraints.at_time(state.time)
-        acceleration[fixed] = gaining[fixed]
+    for number, state in enumerate(states):
+        system.add_gradient(state.q, state.history, forces[number])
+        forces[number] -= system.forces_at(state.q, state.history, state.time)
+        given[number, fixed] = system.constraints.at_time(state.time)[-1][fixed]
     pull = np.array(
         [
             -gradient - band_product(system.inertia, system.damping_rate * state.v + acceleration)
@@ -46,9 +46,9 @@ def reactions(system: MechanicalSystem, states: Sequence[State]) -> Fields:
 
 
 def load_gradient(system: MechanicalSystem, q: Vector, history: History) -> Vector:
-    """The gradient of all loads at the load factor one, (n,) [N]: minus their force."""
+    """The gradient of the loads of an equilibrium at the load factor one, (n,) [N]: minus their force."""
     gradient = -system.dead_load
-    for load, own in zip(system.external, history[1:], strict=True):
-        if not load.linear:
+    for load, own in zip(system.external, history[len(system.own) :], strict=True):
+        if not load.linear and load.level is None:
             load.add_gradient(q, own, gradient)
     return gradient

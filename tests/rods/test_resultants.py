@@ -25,8 +25,9 @@ RODS = {
 every_rod = pytest.mark.parametrize("name", RODS)
 
 
-def some_rod(name, **changes):
-    return make_rod(vertices=7, **{**RODS[name], **changes})
+def some_rod(name, poisson=None, **changes):
+    rod = make_rod(vertices=7, **{**RODS[name], **changes})
+    return rod if poisson is None else rod.replace(material=rod.material.replace(poisson=poisson))
 
 
 def state_of(rod, seed=3, size=0.1):
