@@ -275,6 +275,23 @@ def test_along_a_path_loads_and_supports_give_what_the_rod_stores():
     np.testing.assert_allclose(data.u, data.x - data.x_ref, atol=1e-12)
 
 
+def test_a_follower_force_along_a_path_gives_what_the_rod_stores():
+    """It has no potential: its work is that of the path, and the trapezoidal rule is of second order."""
+    errors = []
+    for longest in (0.2, 0.1):
+        data = solved_case(
+            like="column_path",
+            rod=steel(height=0.002),
+            follower_forces=[{"at": "last", "along": "E2", "force": 4.0}],
+            arc={"first": longest, "longest": longest, "count": 500, "limit": 3.0},
+        )
+        assert data.load_factor[-1].item() == 1.0
+        assert data.load_potential[-1].item() == 0.0
+        errors.append(abs(data.total_load_work[-1].item() / data.strain_energy[-1].item() - 1))
+    assert errors[0] < 1e-2
+    assert np.log2(errors[0] / errors[1]) > 1.8
+
+
 # ---------------------------------------------------------------- motions
 
 
