@@ -35,6 +35,7 @@
 # results_table
 # errata
 # left_out
+# conventions
 # case_keys
 # python_api
 # ```

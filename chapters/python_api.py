@@ -122,6 +122,19 @@
 # .. autoclass:: cosserat.rods.constraints.Constraint
 #    :members:
 #
+# .. autoclass:: cosserat.rods.probes.Probe
+#    :members:
+#
+# .. autofunction:: cosserat.rods.resultants.resultants
+#
+# .. autoclass:: cosserat.rods.resultants.Resultants
+#    :members:
+#
+# .. autofunction:: cosserat.rods.stresses.beam_stresses
+#
+# .. autoclass:: cosserat.rods.stresses.Stresses
+#    :members:
+#
 # .. autoclass:: cosserat.rods.reference.Geometry
 #    :members:
 #

@@ -5,7 +5,7 @@ Units and meaning of the names are in `cosserat.data.variables`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -51,12 +51,14 @@ class Solution:
     statistics : of the solver, by name.
     labels : the names along a dimension without numbers, such as the axes of a vector.
     warnings : sentences about the use of the numbers, each begins with a name.
+    derive : gives further fields and labels that follow from these, when a Dataset is made.
     """
 
     fields: Mapping[str, Field]
     statistics: Mapping[str, int | float]
     labels: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    derive: Callable[[], Solution] | None = None
 
     def __getitem__(self, name: str) -> Array:
         """The values of one field."""

@@ -2,7 +2,8 @@
 
 Prints the largest change of every variable of every case, and fails if one is larger than allowed: with `--bits` none
 at all, else 1e-9 of the variable's largest value or its round-off floor.  Variables and labels that were renamed are
-compared by the table below.  The attributes `source` and `parameters` may differ; every other one may not.
+compared by the table below.  Variables that follow from others, the attribute `derived` names them, may be new.  The
+attributes `source` and `parameters` may differ; every other one may not.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 import xarray as xr
 
 import cosserat
+from cosserat.data.dataset import without_derived
 from cosserat.data.variables import VARIABLES
 
 RENAMED = {"unknown": "dof", "refused_increments": "cutbacks", "branchings": "branch_switches"}
@@ -30,6 +32,8 @@ def changes(old: xr.Dataset, new: xr.Dataset, *, bits: bool) -> list[tuple[str, 
     """Name, largest change and whether it is allowed, of every variable; a fault of another kind counts as infinite."""
     names = {key: RENAMED[key] for key in map(str, (*old.variables, *old.dims)) if key in RENAMED}
     old = old.rename(names)
+    if "derived" not in old.attrs:
+        new = without_derived(new)
     found = [
         (f"variable {name} is in one of both only", np.inf, False)
         for name in set(old.variables) ^ set(new.variables)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -28,12 +29,14 @@ _ALONG = ("time", "point")
 def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
     """A solution with `units`, `long_name`, `symbol` and `equation` on every variable.
 
-    Global attributes hold the case's parameters, the solver's statistics and the origin, but no date.
+    Global attributes hold the case's parameters, the solver's statistics and the origin, but no date.  The attribute
+    `derived` names the variables that follow from the others.
 
     Raises
     ------
     ValueError : a value is not finite, or a field is not known or has other dimensions than `data.variables` says.
     """
+    solution, derived = _completed(solution)
     unknown = sorted(set(solution.fields) - set(VARIABLES))
     if unknown:
         raise ValueError(f"case '{case.name}': no such variables: {', '.join(unknown)}")
@@ -78,7 +81,29 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
     }
     if solution.warnings:
         dataset.attrs["warnings"] = "\n".join(solution.warnings)
+    if derived:
+        dataset.attrs["derived"] = " ".join(name for name in VARIABLES if name in derived)
     return dataset
+
+
+def _completed(solution: Solution) -> tuple[Solution, set[str]]:
+    """A solution with the fields that follow from its own, and their names."""
+    if solution.derive is None:
+        return solution, set()
+    more = solution.derive()
+    fields, labels = {**more.fields, **solution.fields}, {**more.labels, **solution.labels}
+    names = set(more.fields) - set(solution.fields)
+    return replace(solution, fields=fields, labels=labels), names
+
+
+def without_derived(dataset: xr.Dataset) -> xr.Dataset:
+    """What a Dataset stores of its states, without what follows from them."""
+    names = str(dataset.attrs.get("derived", "")).split()
+    left = dataset.drop_vars(names)
+    used = {dim for variable in left.data_vars.values() for dim in variable.dims}
+    left = left.drop_vars([name for name, place in left.coords.items() if not set(place.dims) <= used])
+    left.attrs.pop("derived", None)
+    return left
 
 
 def warnings_of(dataset: xr.Dataset) -> list[str]:

@@ -15,6 +15,9 @@ LABELS = {
     "measure": "what is compared with an exact answer",
     "term": "term of the strain energy, eq. (3.4.11)",
     "special": "kind of a special point of a path of equilibria",
+    "surface": "surface of the rod; directors point to the upper one",
+    "support": "vertex with supports",
+    "probe": "point that the case names",
 }
 """Meaning of the dimensions whose values are names, not numbers."""
 
@@ -96,14 +99,95 @@ VARIABLES: dict[str, Variable] = {
     ),
     "kinetic_energy": Variable(("time",), "J", "kinetic energy", "T", "3.3.33", 1e-9),
     "strain_energy": Variable(
-        ("time",), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9
+        (), "J", "strain energy above that of the reference", r"\Pi_e", "3.4.11", 1e-9
     ),
-    "load_potential": Variable(("time",), "J", "potential of the constant loads", "-W", "3.3.40", 1e-9),
+    "load_potential": Variable((), "J", "potential of the constant loads", "-W", "3.3.40", 1e-9),
     "dissipated_energy": Variable(
         ("time",), "J", "energy that the damping has taken since the start", "", "section 3.5", 1e-9
     ),
     "support_work": Variable(
-        ("time",), "J", "work that moved supports have done since the start", "", "3.3.40", 1e-9
+        (), "J", "work that moved supports have done since the start", "", "3.3.40", 1e-9
+    ),
+    "total_load_work": Variable((), "J", "work of all loads since the start", "W", "3.3.40", 1e-9),
+    "contact_force": Variable(
+        ("edge", "axis"),
+        "N",
+        "force with which the part beyond an edge acts on the part before it",
+        r"\mathbf{n}",
+        "1.2.71",
+        1e-3,
+    ),
+    "normal_force": Variable(
+        ("edge",), "N", "normal force, positive in tension, across the section of an edge", "N", "", 1e-3
+    ),
+    "shear_force": Variable(
+        ("edge",),
+        "N",
+        "shear force in the section of an edge, positive along the director on the part before it",
+        "Q",
+        "",
+        1e-3,
+    ),
+    "bending_moment": Variable(
+        ("edge",),
+        "N m",
+        "bending moment about the centreline at the middle of an edge, positive from E3 towards E2",
+        "M",
+        "1.2.89",
+        1e-3,
+    ),
+    "contact_director_force": Variable(
+        ("edge", "axis"), "N", "contact director force across an edge", r"\mathbf{m}", "1.2.77", 1e-3
+    ),
+    "intrinsic_director_force": Variable(
+        ("vertex", "axis"),
+        "N",
+        "intrinsic director force of the part round a vertex",
+        r"\mathbf{k}\,{}_KL",
+        "1.2.78",
+        1e-3,
+    ),
+    "fibre_stress": Variable(
+        ("edge", "surface"),
+        "Pa",
+        "axial stress at a surface by beam theory, without stress concentrations",
+        r"N/A \mp M y/I",
+        "",
+        1e-3,
+    ),
+    "fibre_strain": Variable(
+        ("edge", "surface"), "1", "axial strain at a surface by beam theory", "", "", 1e-12
+    ),
+    "shear_stress": Variable(
+        ("edge",), "Pa", "mean shear stress of a section, without its distribution", "Q/A", "", 1e-3
+    ),
+    "reaction_force": Variable(
+        ("support", "axis"), "N", "force of the supports of a vertex on the rod", r"\mathbf{R}", "", 1e-3
+    ),
+    "reaction_moment": Variable(
+        ("support",),
+        "N m",
+        "moment of the supports of a vertex on its section, positive from E3 towards E2",
+        "",
+        "",
+        1e-3,
+    ),
+    "reaction_director_force": Variable(
+        ("support", "axis"), "N", "force of the supports of a vertex on its director", "", "", 1e-3
+    ),
+    "rotation": Variable(
+        ("vertex",),
+        "rad",
+        "rotation of the sections, from E3 towards E2, counted through whole turns",
+        "",
+        "3.3.26",
+        1e-9,
+    ),
+    "probe_displacement": Variable(
+        ("probe", "axis"), "m", "displacement of a named point", "", "", 1e-12
+    ),
+    "probe_rotation": Variable(
+        ("probe",), "rad", "rotation of the section of a named point, from E3 towards E2", "", "", 1e-9
     ),
     "load_work": Variable(
         ("time",),
@@ -113,7 +197,7 @@ VARIABLES: dict[str, Variable] = {
         "3.3.40",
         1e-9,
     ),
-    "attached_energy": Variable(("time",), "J", "energy of springs and foundations", "", "", 1e-9),
+    "attached_energy": Variable((), "J", "energy of springs and foundations", "", "", 1e-9),
     "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-7),
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7

@@ -210,25 +210,25 @@ class CheckpointedRun:
             )
 
 
-def resumed(part: Solution, system: MechanicalSystem) -> State:
-    """The state at the end of a stored part."""
+def state_of(part: Solution, system: MechanicalSystem, stop: int = -1) -> State:
+    """The state at one of the stops of a part, by default its end."""
     history, used = list(system.history), 0
     for number, own in enumerate(history):
         if number == _winding(system):
-            history[number] = part["first_angle"][-1:]
+            history[number] = part["first_angle"][stop : stop + 1 or None]
         elif own.size:
-            history[number] = part["internal_variables"][-1, used : used + own.size]
+            history[number] = part["internal_variables"][stop, used : used + own.size]
             used += own.size
-    others = part["other_dofs"][-1] if "other_dofs" in part else np.empty((part["x"].shape[1], 0))
-    rates = part["other_rates"][-1] if "other_dofs" in part else others
+    others = part["other_dofs"][stop] if "other_dofs" in part else np.empty((part["x"].shape[1], 0))
+    rates = part["other_rates"][stop] if "other_dofs" in part else others
     return State(
-        np.hstack([part["x"][-1], part["d"][-1], others]).ravel(),
-        np.hstack([part["x_rate"][-1], part["d_rate"][-1], rates]).ravel(),
+        np.hstack([part["x"][stop], part["d"][stop], others]).ravel(),
+        np.hstack([part["x_rate"][stop], part["d_rate"][stop], rates]).ravel(),
         tuple(history),
-        float(part["time"][-1]),
-        float(part["dissipated_energy"][-1]),
-        float(part["support_work"][-1]),
-        float(part["load_work"][-1]),
+        float(part["time"][stop]),
+        float(part["dissipated_energy"][stop]),
+        float(part["support_work"][stop]),
+        float(part["load_work"][stop]),
     )
 
 

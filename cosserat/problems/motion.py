@@ -14,7 +14,8 @@ from pydantic_core import PydanticCustomError
 from cosserat.exact import beams
 from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import ALONE, Run
-from cosserat.problems.checkpoints import CheckpointedRun, joined, resumed
+from cosserat.problems.checkpoints import CheckpointedRun, joined, state_of
+from cosserat.problems.outputs import of_instants, outputs
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
@@ -142,7 +143,7 @@ class RodMotion(RodProblem):
         for number in range(checkpointed.parts):
             part = run.checkpoints.load(number) if run.checkpoints else None
             if part is not None:
-                state = resumed(part, checkpointed.system)
+                state = state_of(part, checkpointed.system)
             else:
                 part, state, stopped = checkpointed.part(number, state)
                 if run.checkpoints and part.fields:
@@ -153,7 +154,16 @@ class RodMotion(RodProblem):
             reached = part["time"][-1]
             run.progress((number + 1) / checkpointed.parts, f"{reached:.4g} of {self.duration:g} s")
         whole = joined(done, checkpointed.substeps_per_frame)
-        return replace(whole, warnings=checkpointed.warnings(whole))
+
+        def derive() -> Solution:
+            system, count = checkpointed.system, whole["time"].size
+            instants = [state_of(whole, system, number) for number in range(count)]
+            states = of_instants(self, checkpointed.geometry, system, instants, whole["first_angle"])
+            found, potential = outputs(states), whole["load_potential"]
+            work = whole["load_work"] + potential[0] - potential
+            return replace(found, fields={**found.fields, "total_load_work": (("time",), work)})
+
+        return replace(whole, warnings=checkpointed.warnings(whole), derive=derive)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

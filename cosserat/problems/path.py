@@ -14,6 +14,7 @@ from pydantic_core import PydanticCustomError
 from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
+from cosserat.problems.outputs import energies, of_equilibria, outputs, work_along
 from cosserat.problems.special import special_fields
 from cosserat.problems.static import check_supports
 from cosserat.rods.problem import RodProblem
@@ -97,10 +98,10 @@ class RodPath(RodProblem):
                 run.progress(min(furthest, 1.0), f"{point.factor:.4g} of the load")
         except (NotConvergedError, CrossingError) as error:
             if points:
-                error.reached = _solution(self.rod, geometry, points, solver)
+                error.reached = _solution(self, geometry, points, solver)
             raise
         return _with_special_points(
-            _solution(self.rod, geometry, points, solver), self.rod, geometry, points, solver
+            _solution(self, geometry, points, solver), self.rod, geometry, points, solver
         )
 
     @classmethod
@@ -157,8 +158,9 @@ def _energy(solver: EquilibriumSolver, point: Equilibrium) -> float:
 
 
 def _solution(
-    rod: Rod, geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver
+    problem: RodProblem, geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver
 ) -> Solution:
+    rod = problem.rod
     x, d = (
         np.array(parts)
         for parts in zip(*(_placed(rod, geometry, point) for point in points), strict=True)
@@ -185,4 +187,11 @@ def _solution(
         warnings.append(
             "unstable end: the last point of the path is an unstable equilibrium, where a body does not stay"
         )
-    return Solution(fields, statistics, {"axis": rod.kinematics.axes}, tuple(warnings))
+
+    def derive() -> Solution:
+        found = outputs(of_equilibria(problem, geometry, solver.system, points, "point"))
+        stored, work = energies(solver.system, points), work_along(solver.system, points)
+        more = {name: (along, values) for name, values in (stored | work).items()}
+        return replace(found, fields={**found.fields, **more})
+
+    return Solution(fields, statistics, {"axis": rod.kinematics.axes}, tuple(warnings), derive)

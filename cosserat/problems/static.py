@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.problem import ALONE, Run
+from cosserat.problems.outputs import energies, of_equilibria, outputs
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, strains
 from cosserat.rods.resolution import check_crossing, coarse
@@ -43,7 +44,7 @@ class RodStatics(RodProblem):
         geometry = self.geometry
         system = self.system(geometry)
         point, solver = self.equilibrium(geometry, system, name)
-        found = _solution(self.rod, geometry, point, solver)
+        found = _solution(self, geometry, point, solver)
         check_crossing(geometry, found["x"], found["d"], self.rod.below, name)
         return replace(found, warnings=(*solver.warnings(), *coarse(found["d"])))
 
@@ -79,7 +80,7 @@ class RodStatics(RodProblem):
         except NotConvergedError as error:
             last = error.state
             if last is not None:
-                found = _solution(self.rod, geometry, last, solver)
+                found = _solution(self, geometry, last, solver)
                 reached = {"load_factor_reached": last.factor}
                 error.reached = replace(found, statistics=dict(found.statistics) | reached)
             raise
@@ -96,7 +97,10 @@ def check_supports(rod: Rod, geometry: Geometry, constrained: NDArray[np.bool_],
         )
 
 
-def _solution(rod: Rod, geometry: Geometry, point: Equilibrium, solver: EquilibriumSolver) -> Solution:
+def _solution(
+    problem: RodProblem, geometry: Geometry, point: Equilibrium, solver: EquilibriumSolver
+) -> Solution:
+    rod = problem.rod
     system, shape = solver.system, (rod.vertices, rod.kinematics.per_vertex)
     load = point.factor * system.dead_load.reshape(shape)
     u, vectors = rod.kinematics.split(point.q), rod.vectors(geometry, point.q)
@@ -132,4 +136,11 @@ def _solution(rod: Rod, geometry: Geometry, point: Equilibrium, solver: Equilibr
         "tolerance_N": point.tolerance,
         "rounding_N": point.rounding,
     }
-    return Solution(fields, statistics, labels)
+
+    def derive() -> Solution:
+        found = outputs(of_equilibria(problem, geometry, system, [point], ""))
+        stored = energies(system, [point])
+        more = {name: ((), values[0]) for name, values in stored.items()}
+        return replace(found, fields={**found.fields, **more})
+
+    return Solution(fields, statistics, labels, derive=derive)

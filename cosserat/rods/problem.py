@@ -25,6 +25,7 @@ from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
 from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.loads.pressure import Pressure
 from cosserat.rods.places import check_place, mesh
+from cosserat.rods.probes import Probe, check_names
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.rods.space import RodSpace
@@ -82,6 +83,8 @@ class RodProblem(Problem):
     """Prescribed displacements of fixed degrees of freedom."""
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()
     """Prescribed rotations of fixed sections."""
+    probes: tuple[Probe, ...] = ()
+    """Points whose displacements and rotations are stored by name."""
 
     def loads_of(self, key: str) -> tuple[Load, ...]:
         """The loads of one kind."""
@@ -107,11 +110,12 @@ class RodProblem(Problem):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         loads = [(key, load) for key in LOADS for load in self.loads_of(key)]
-        named = [at for _, load in loads for at in load.places]
+        named = [at for _, load in loads for at in load.places] + [probe.at for probe in self.probes]
         for at in [*(item.at for _, item in self.constraints()), *named]:
             check_place(at, self.rod.vertices, self.rod.length)
         for key, load in loads:
             load.check(self.rod, key)
+        check_names(self.probes)
         return self
 
     @model_validator(mode="after")

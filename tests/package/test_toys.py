@@ -13,7 +13,7 @@ from cosserat.errors import InputError
 from cosserat.kinds import KINDS, Kind
 from cosserat.parameters import Parameters
 from cosserat.problem import ALONE, Problem
-from cosserat.problems.checkpoints import CheckpointedRun, resumed
+from cosserat.problems.checkpoints import CheckpointedRun, state_of
 from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
 from cosserat.publications import kinds
@@ -362,7 +362,7 @@ def test_internal_variables_of_a_load_are_kept_between_parts_of_a_run(monkeypatc
     run = CheckpointedRun.of(problem, "counted")
     part, state, stopped = run.part(0, problem.begin())
     assert stopped is None
-    again = resumed(part, run.system)
+    again = state_of(part, run.system)
     assert state.history[-1] == 1 + 20  # the start and every step
     for one, other in zip(state.history, again.history, strict=True):
         np.testing.assert_array_equal(one, other)

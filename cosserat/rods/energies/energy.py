@@ -24,11 +24,14 @@ class Energy(ABC):
 
     kinematics : the layout of its DOFs; the first two vectors of a vertex are its position and its director.
     options : fields of `Rod` that only this energy reads.
+    between : fields of the constants with the stiffnesses of an edge that couple its two directors, for the contact
+        director forces; without them these are not stored.
     large_rotations : whether sections may rotate by more than a quarter turn and paths may pass limit points.
     """
 
     kinematics: ClassVar[Kinematics] = PLANAR
     options: ClassVar[tuple[str, ...]] = ()
+    between: ClassVar[tuple[str, ...]] = ()
     large_rotations: ClassVar[bool] = False
 
     @abstractmethod

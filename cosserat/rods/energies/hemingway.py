@@ -27,6 +27,7 @@ class Hemingway(Energy):
     """The published energy, with the averages of Table 3.1 and I about the centreline."""
 
     options = ("calibration", "end_sections", "poisson_coupling", "intrinsic_curvature")
+    between = ("k5", "k6")
 
     def check(self, rod: Rod) -> None:
         """Require a calibration and a section of one material."""

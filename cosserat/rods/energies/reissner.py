@@ -30,6 +30,7 @@ class Reissner(Energy):
     """The convergent energy, with the compliances of its edges and I about the area centres."""
 
     options = ("lateral_constraint", "barrier")
+    between = ("k_axial", "k_volume", "k_shear", "k_bending", "k_stretch_gradient")
     large_rotations = True
 
     def check(self, rod: Rod) -> None:

@@ -106,6 +106,7 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_paths": Entry("Paths of equilibria", "consistent", ("column_path", "arch_path")),
     "fig_tumbling": Entry("A tumbling rod", "consistent", ("tumbling",)),
+    "fig_conventions": Entry("Frames and signs", "conventions", ()),
     "fig_modes": Entry("The lowest modes of the vibrating beam", "motion", ("vibration_c4_20",)),
     "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
     "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),

@@ -1,0 +1,272 @@
+"""Outputs of every kind of rod problem, computed from its states when the Dataset is made and not in the solver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.rods.kinematics import rotated
+from cosserat.rods.places import vertex_at
+from cosserat.rods.probes import at_probes
+from cosserat.rods.problem import RodProblem
+from cosserat.rods.reference import Geometry
+from cosserat.rods.resultants import (
+    Resultants,
+    contact_director_forces,
+    cross,
+    intrinsic_director_forces,
+    resultants,
+    strain_gradients,
+)
+from cosserat.rods.stresses import SURFACES, beam_stresses, edge_sections
+from cosserat.solution import Field, Solution
+from cosserat.solvers.equilibrium import Equilibrium
+from cosserat.solvers.integrate import State
+from cosserat.solvers.potential import Potential
+from cosserat.solvers.reactions import load_gradient, reactions
+from cosserat.solvers.system import MechanicalSystem
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class States:
+    """States of a rod whose outputs are asked for.
+
+    energy : strain energy, a potential of displacements.  along : name of the dimension of the states; empty for one.
+    u : (S, n) displacements [m].  reactions : (S, n) forces of the constrained DOFs [N].
+    couples : (S,) energy of the loads that are not dead [J].
+    sense : (vertex, (S,)) a vertex, and the rotation of its section to within half a turn [rad]; None if not known.
+    """
+
+    problem: RodProblem
+    geometry: Geometry
+    energy: Potential
+    along: str
+    u: Array
+    reactions: Array
+    couples: Array
+    sense: tuple[int, Array] | None
+
+    def vectors(self) -> Array:
+        """Positions and directors, (S, N, m, 2) [m]."""
+        rod = self.problem.rod
+        at_rest = rod.strain_energy.reference(self.geometry)
+        return rod.kinematics.split(at_rest + self.u)
+
+
+Maker = Callable[[States], Solution]
+
+
+def outputs(states: States) -> Solution:
+    """Internal forces, stresses, reactions, rotations, probes and parts of the energy."""
+    made = Solution({}, {}, {"axis": states.problem.rod.kinematics.axes})
+    for maker in (_internal, _reactions, _places, _parts_of_energy):
+        more = maker(states)
+        made = Solution({**made.fields, **more.fields}, {}, {**made.labels, **more.labels})
+    if states.along:
+        return made
+    one = {
+        name: (dims[1:], values[0]) if dims[0] == states.along else (dims, values)
+        for name, (dims, values) in made.fields.items()
+    }
+    return replace(made, fields=one)
+
+
+def _internal(states: States) -> Solution:
+    """N, Q, M, the director forces, and stresses as beams have them."""
+    rod, arc = states.problem.rod, states.geometry.arc_length
+    gradient = rod.kinematics.split(strain_gradients(states.energy, states.u))
+    found = resultants(states.vectors(), gradient)
+    edge, vector = (states.along, "edge"), (states.along, "edge", "axis")
+    fields: dict[str, Field] = {
+        "xi_edge": (("edge",), (arc[1:] + arc[:-1]) / 2),
+        "contact_force": (vector, found.force),
+        "normal_force": (edge, found.normal),
+        "shear_force": (edge, found.shear),
+        "bending_moment": (edge, found.moment),
+    }
+    between = rod.strain_energy.between
+    if between:
+        contact = contact_director_forces(states.energy, between, states.u, len(rod.kinematics.vectors))
+        intrinsic = intrinsic_director_forces(contact, gradient[..., 1, :])
+        fields["contact_director_force"] = (vector, contact)
+        fields["intrinsic_director_force"] = ((states.along, "vertex", "axis"), intrinsic)
+    return Solution(fields | _stresses(states, found), {}, {"surface": SURFACES})
+
+
+def _stresses(states: States, found: Resultants) -> dict[str, Field]:
+    arc = states.geometry.arc_length
+    stress = beam_stresses(edge_sections(states.problem.rod, (arc[1:] + arc[:-1]) / 2), found)
+    edge = (states.along, "edge")
+    return {
+        "fibre_stress": ((*edge, "surface"), stress.fibre),
+        "fibre_strain": ((*edge, "surface"), stress.strain),
+        "shear_stress": (edge, stress.shear),
+    }
+
+
+def _reactions(states: States) -> Solution:
+    """Force and couple of the supports of each vertex that has some."""
+    rod = states.problem.rod
+    held = rod.kinematics.split(states.problem.constrained()).any(axis=(1, 2))
+    vertices = np.flatnonzero(held)
+    if not vertices.size:
+        return Solution({}, {})
+    force = rod.kinematics.split(states.reactions)[:, vertices]
+    along = (states.along, "support")
+    directors = states.vectors()[:, vertices, 1:]
+    fields: dict[str, Field] = {
+        "reaction_force": ((*along, "axis"), force[:, :, 0]),
+        "reaction_moment": (along, cross(directors, force[:, :, 1:]).sum(axis=-1)),
+        "reaction_director_force": ((*along, "axis"), force[:, :, 1]),
+    }
+    arc = states.geometry.arc_length
+    names = {vertex_at(item.at, arc): str(item.at) for _, item in states.problem.constraints()}
+    return Solution(fields, {}, {"support": tuple(names[int(vertex)] for vertex in vertices)})
+
+
+def _places(states: States) -> Solution:
+    """Rotations of the sections, and what the named points do."""
+    problem, vectors = states.problem, states.vectors()
+    turned = rotations(vectors[:, :, 1], states.geometry.D, states.sense)
+    moved = vectors[:, :, 0] - states.geometry.X
+    fields: dict[str, Field] = {
+        "u": ((states.along, "vertex", "axis"), moved),
+        "rotation": ((states.along, "vertex"), turned),
+    }
+    if not problem.probes:
+        return Solution(fields, {})
+    arc = states.geometry.arc_length
+    read = at_probes(problem.probes, arc, np.concatenate([moved, turned[..., None]], axis=-1))
+    fields["probe_displacement"] = ((states.along, "probe", "axis"), read[..., :2])
+    fields["probe_rotation"] = ((states.along, "probe"), read[..., 2])
+    return Solution(fields, {}, {"probe": tuple(probe.name for probe in problem.probes)})
+
+
+def _parts_of_energy(states: States) -> Solution:
+    """The energy by term, and what else the energy itself gives of a state."""
+    energy = states.problem.rod.strain_energy
+    each = [
+        energy.fields(states.problem.rod, states.geometry, states.energy, u, coupled)
+        for u, coupled in zip(states.u, states.couples, strict=True)
+    ]
+    labels, own = each[0]
+    fields: dict[str, Field] = {
+        name: ((states.along, *dims), np.array([values[name][1] for _, values in each]))
+        for name, (dims, _) in own.items()
+    }
+    return Solution(fields, {}, labels)
+
+
+def rotations(d: Array, D: Array, sense: tuple[int, Array] | None) -> Array:
+    """Angles of directors (S, N, 2) from those of the reference (N, 2), counted through whole turns: (S, N) [rad].
+
+    Neighbouring sections are within half a turn of each other, and so are those of one vertex in neighbouring states.
+    sense : as in `States`; without it the first section of the first state is within half a turn of its reference.
+    """
+    own = rotated_back(d, D)
+    steps = np.arctan2(cross(own[:, :-1], own[:, 1:]), (own[:, :-1] * own[:, 1:]).sum(axis=-1))
+    first = np.arctan2(own[:, :1, 1], own[:, :1, 0])
+    angles = np.cumsum(np.concatenate([first, steps], axis=1), axis=1)
+    if sense is None:
+        return np.asarray(angles + (np.unwrap(first, axis=0) - first))
+    vertex, near = sense
+    whole = np.round((near - angles[:, vertex]) / (2 * np.pi))
+    return np.asarray(angles + 2 * np.pi * whole[:, None])
+
+
+def rotated_back(d: Array, D: Array) -> Array:
+    """Directors (S, N, 2) seen from those of the reference (N, 2), as if these were along E3."""
+    back = np.broadcast_to(-np.arctan2(D[:, 1], D[:, 0]), d.shape[:-1])
+    return rotated(d.reshape(-1, 2), back.reshape(-1, 1)).reshape(d.shape)
+
+
+def of_equilibria(
+    problem: RodProblem,
+    geometry: Geometry,
+    system: MechanicalSystem,
+    points: Sequence[Equilibrium],
+    along: str,
+) -> States:
+    """States of equilibria; the system is one of displacements."""
+    factors = np.array([point.factor for point in points])
+    coupled = [system.nonlinear_load_energy(point.q, point.history) for point in points]
+    return States(
+        problem,
+        geometry,
+        system.internal,
+        along,
+        np.array([point.q for point in points]),
+        np.array([point.reaction for point in points]),
+        factors * np.array(coupled),
+        _held_section(problem, factors),
+    )
+
+
+def _held_section(problem: RodProblem, factors: Array) -> tuple[int, Array] | None:
+    """A section that supports hold, and its rotation at some load factors [rad]."""
+    rod = problem.rod
+    held = rod.kinematics.split(problem.constrained())[:, 1].all(axis=-1)
+    if not held.any():
+        return None
+    vertex = int(np.argmax(held))
+    arc = problem.arc_length
+    turns = [turn.by for turn in problem.prescribed_rotations if vertex_at(turn.at, arc) == vertex]
+    return vertex, factors * sum(turns)
+
+
+def of_instants(
+    problem: RodProblem,
+    geometry: Geometry,
+    system: MechanicalSystem,
+    instants: Sequence[State],
+    first_angle: Array,
+) -> States:
+    """States of a motion, whose system is one of positions.
+
+    first_angle : angle of the first director through whole turns, (S,) [rad].
+    """
+    rod = problem.rod
+    q = np.array([state.q for state in instants])
+    start = float(np.arctan2(geometry.D[0, 1], geometry.D[0, 0]))
+    return States(
+        problem,
+        geometry,
+        rod.strain_energy.potential(rod, geometry, displacements=True),
+        "time",
+        q - rod.strain_energy.reference(geometry),
+        reactions(system, instants),
+        np.array([system.nonlinear_load_energy(state.q, state.history) for state in instants]),
+        (0, first_angle - start),
+    )
+
+
+def energies(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:
+    """Strain energy, energy of springs, and potential of the loads at their load factor, (S,) each [J]."""
+    each = np.array([_energies(system, point) for point in points]).T
+    return dict(zip(("strain_energy", "attached_energy", "load_potential"), each, strict=True))
+
+
+def _energies(system: MechanicalSystem, point: Equilibrium) -> tuple[float, float, float]:
+    coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
+    dead = float((point.factor * system.dead_load) @ (point.q - system.space.reference))
+    attached = system.attached_energy(point.q, point.history)
+    return system.internal.energy(point.q), attached, coupled - dead
+
+
+def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:
+    """Work of the loads and of the moved supports from the first point of a path to each, (S,) each [J].
+
+    By the trapezoidal rule from point to point: of second order in their distance.
+    """
+    q = np.array([point.q for point in points])
+    loads = np.array([-point.factor * load_gradient(system, point.q, point.history) for point in points])
+    held = np.array([point.reaction for point in points])
+    moved = np.diff(q, axis=0)
+    steps = [((forces[1:] + forces[:-1]) / 2 * moved).sum(axis=1) for forces in (loads, held)]
+    by_loads, by_supports = (np.concatenate([[0.0], np.cumsum(step)]) for step in steps)
+    return {"total_load_work": by_loads, "support_work": by_supports}
