@@ -49,7 +49,7 @@ def draw_crawler(
     for run in runs(thin):
         ax.fill_between(along[run], base, top[run], color=THINNED, linewidth=0)
     if "muscle_pressure" in state:
-        for run in _runs((state.muscle_pressure == 0).to_numpy() & (state.muscle_force == 0).to_numpy()):
+        for run in runs((state.muscle_pressure == 0).to_numpy() & (state.muscle_force == 0).to_numpy()):
             ax.fill_between(along[run], base, top[run], color=RELAXED, linewidth=0)
     outline = (np.r_[along, along[::-1]], np.r_[top, np.full_like(top, base)])
     ax.fill(*outline, facecolor="none", edgecolor=INK, linewidth=0.8)

@@ -102,11 +102,11 @@ def _stresses(states: States, found: Resultants) -> dict[str, Field]:
     arc = states.geometry.arc_length
     stress = beam_stresses(edge_sections(states.problem.rod, (arc[1:] + arc[:-1]) / 2), found)
     edge = (states.along, "edge")
-    return {
-        "fibre_stress": ((*edge, "surface"), stress.fibre),
-        "fibre_strain": ((*edge, "surface"), stress.strain),
-        "shear_stress": (edge, stress.shear),
-    }
+    fields: dict[str, Field] = {"fibre_strain": ((*edge, "surface"), stress.strain)}
+    if stress.fibre is not None and stress.shear is not None:
+        fields["fibre_stress"] = ((*edge, "surface"), stress.fibre)
+        fields["shear_stress"] = (edge, stress.shear)
+    return fields
 
 
 def _reactions(states: States) -> Solution:

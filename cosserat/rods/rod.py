@@ -43,7 +43,7 @@ class Rod(Parameters):
     """Length of the centreline in the reference configuration."""
     section: AnySection
     """Cross-section of the rod."""
-    material: Annotated[Material | None, NONE_BY_WORD] = None
+    material: Material | None = None
     """Material of the rod; layers have their own."""
     stations: tuple[Station, ...] = ()
     """Variation of width, height, modulus, Poisson's ratio and density along the rod."""

@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.energies.compliance import moduli
+from cosserat.rods.elasticity import moduli
 from cosserat.rods.resultants import Resultants
 from cosserat.rods.rod import Rod
+from cosserat.rods.sections.section import Homogeneous
 from cosserat.rods.variation import Scales, scale_at
 
 Array = NDArray[np.float64]
@@ -25,51 +26,64 @@ SURFACES = ("upper", "lower")
 class Sections(NamedTuple):
     """Sections at the middles of the edges, each (N - 1,).
 
-    area [m^2].  second_moment : about the area centre [m^4].  height [m].
-    centre : height of the area centre above the centreline [m].
-    young : stress over strain of a fibre [Pa], E if the section is free across the plane.
+    axial, bending : stiffnesses EA [N] and EI about the elastic centre [N m^2].
+    upper, lower : heights of both surfaces above the elastic centre, the lower one negative [m].
+    centre : height of the elastic centre above the centreline [m].
+    young : stress over strain of a fibre [Pa], E if the section is free across the plane; area [m^2]; both None for a
+        section without a single material.
     """
 
-    area: Array
-    second_moment: Array
-    height: Array
+    axial: Array
+    bending: Array
+    upper: Array
+    lower: Array
     centre: Array
-    young: Array
+    young: Array | None
+    area: Array | None
 
 
 def edge_sections(rod: Rod, xi: Array) -> Sections:
     """The sections at arc lengths xi; at a step those after it."""
     scale = Scales(*(scale_at(rod.stations, name, xi, before=False) for name in Scales._fields))
-    centre = (0.5 - rod.centreline) * rod.height
-    _, _, young = moduli(rod.young * scale.young, rod.poisson * scale.poisson, rod.lateral_constraint)
+    elastic = rod.section.along(rod.material, rod.lateral_constraint)(scale)
+    height, centre = rod.height * scale.height, rod.section.centre
+    young = area = None
+    if isinstance(rod.section, Homogeneous):
+        nu = rod.poisson * scale.poisson
+        _, _, young = moduli(rod.young * scale.young, nu, rod.lateral_constraint)
+        area = rod.area * scale.width * scale.height
     return Sections(
-        rod.area * scale.width * scale.height,
-        rod.central_second_moment * scale.width * scale.height**3,
-        rod.height * scale.height,
-        centre * scale.height,
+        elastic.pulled,
+        elastic.bending,
+        (1 - centre) * height,
+        -centre * height,
+        (centre - rod.centreline) * height,
         young,
+        area,
     )
 
 
 class Stresses(NamedTuple):
     """Stresses and strains of the sections of the edges.
 
-    fibre : (..., N - 1, 2) axial stress at the upper and the lower surface, positive in tension [Pa].
-    strain : (..., N - 1, 2) its axial strain [1].  shear : (..., N - 1) mean shear stress Q/A [Pa].
+    strain : (..., N - 1, 2) axial strain at the upper and the lower surface, positive in tension [1].
+    fibre : (..., N - 1, 2) its axial stress [Pa].  shear : (..., N - 1) mean shear stress Q/A [Pa].  None for a section
+        without a single material.
     """
 
-    fibre: Array
     strain: Array
-    shear: Array
+    fibre: Array | None
+    shear: Array | None
 
 
 def beam_stresses(sections: Sections, forces: Resultants) -> Stresses:
     """Stresses by N, Q and M.
 
-    derived: the force n at the centreline is the same force at the area centre, e above it, with the couple M + e N.
+    derived: the force n at the centreline is the same force at the elastic centre, e above it, with the couple M + e N.
     """
-    about_centre = forces.moment + sections.centre * forces.normal
-    bending = about_centre * sections.height / 2 / sections.second_moment
-    mean = forces.normal / sections.area
-    fibre = np.stack([mean - bending, mean + bending], axis=-1)
-    return Stresses(fibre, fibre / sections.young[:, None], forces.shear / sections.area)
+    curvature = (forces.moment + sections.centre * forces.normal) / sections.bending
+    mean = forces.normal / sections.axial
+    strain = np.stack([mean - curvature * sections.upper, mean - curvature * sections.lower], axis=-1)
+    if sections.young is None or sections.area is None:
+        return Stresses(strain, None, None)
+    return Stresses(strain, strain * sections.young[:, None], forces.shear / sections.area)

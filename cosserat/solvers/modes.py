@@ -187,10 +187,10 @@ def _symmetric(
         return np.where(np.abs(squared) > rounding, squared, 0.0)[:count], vectors[:, :count]
     if not negative:
         return _lowest(stiffness.toarray(), mass.toarray(), count, supported)
-    inverse, vectors = _inverted(stiffness, mass, symmetric=True)
+    inverse, shapes = _inverted(stiffness, mass, symmetric=True)
     squared = 1 / inverse.real
     order = np.argsort(squared)[:count]
-    return squared[order], vectors.real[:, order]
+    return squared[order], shapes.real[:, order]
 
 
 def _general(

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import NONE_BY_WORD, Parameters, Quantity
+from cosserat.parameters import Parameters, Quantity
 from cosserat.rods.elasticity import Along, Elastic, LateralConstraint
 from cosserat.rods.material import Material
 from cosserat.rods.sections.section import Section, ShearFactor
@@ -234,19 +234,17 @@ class Stiffnesses(Composite):
     """Height in the plane of motion, whose middle is the elastic centre; directors reach the upper surface."""
     poisson: Annotated[float, Quantity("1", r"\nu", above=-1, below=0.5)] = 0.0
     """Contraction of the section along E2 over the strain along the rod.  ASSUME none by default."""
-    section_stiffness: Annotated[Annotated[float, Quantity("N", above=0)] | None, NONE_BY_WORD] = None
+    section_stiffness: Annotated[float, Quantity("N", above=0)] | None = None
     """Stiffness against a stretch of the section along E2 without strain along the rod.
 
     ASSUME by default that of one material, EA / (1 - nu^2).
     """
-    section_gradient_stiffness: Annotated[
-        Annotated[float, Quantity("N*m^2", above=0)] | None, NONE_BY_WORD
-    ] = None
+    section_gradient_stiffness: Annotated[float, Quantity("N*m^2", above=0)] | None = None
     """Stiffness against a stretch of the section that changes along the rod.
 
     ASSUME by default that of one material, EI / (2 (1 + nu)).
     """
-    gyration: Annotated[Annotated[float, Quantity("m", above=0)] | None, NONE_BY_WORD] = None
+    gyration: Annotated[float, Quantity("m", above=0)] | None = None
     """Radius of gyration of the mass about E1, for the rotary inertia.
 
     ASSUME by default that of the stiffness, the square root of EI / EA.
