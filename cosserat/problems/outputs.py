@@ -100,7 +100,10 @@ def _internal(states: States) -> Solution:
 
 def _stresses(states: States, found: Resultants) -> dict[str, Field]:
     arc = states.geometry.arc_length
-    stress = beam_stresses(edge_sections(states.problem.rod, (arc[1:] + arc[:-1]) / 2), found)
+    sections = edge_sections(states.problem.rod, (arc[1:] + arc[:-1]) / 2)
+    if sections is None:
+        return {}
+    stress = beam_stresses(sections, found)
     edge = (states.along, "edge")
     return {
         "fibre_stress": ((*edge, "surface"), stress.fibre),

@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.energies.compliance import moduli
+from cosserat.rods.elasticity import moduli
 from cosserat.rods.resultants import Resultants
 from cosserat.rods.rod import Rod
+from cosserat.rods.sections.section import Homogeneous
 from cosserat.rods.variation import Scales, scale_at
 
 Array = NDArray[np.float64]
@@ -37,16 +38,18 @@ class Sections(NamedTuple):
     young: Array
 
 
-def edge_sections(rod: Rod, xi: Array) -> Sections:
-    """The sections at arc lengths xi; at a step those after it."""
+def edge_sections(rod: Rod, xi: Array) -> Sections | None:
+    """The sections at arc lengths xi; at a step those after it.  None if a section has no single material."""
+    if not isinstance(rod.section, Homogeneous):
+        return None
     scale = Scales(*(scale_at(rod.stations, name, xi, before=False) for name in Scales._fields))
-    centre = (0.5 - rod.centreline) * rod.height
+    nominal = rod.area * rod.height**2 / rod.section.thinness
     _, _, young = moduli(rod.young * scale.young, rod.poisson * scale.poisson, rod.lateral_constraint)
     return Sections(
         rod.area * scale.width * scale.height,
-        rod.central_second_moment * scale.width * scale.height**3,
+        nominal * scale.width * scale.height**3,
         rod.height * scale.height,
-        centre * scale.height,
+        (rod.section.centre - rod.centreline) * rod.height * scale.height,
         young,
     )
 
