@@ -84,7 +84,7 @@ page.excerpt(resultants.resultants, "middle =", "return")
 # $N/A \mp M h / 2I$ at the upper and the lower surface, with $M$ about the area centre, and $Q/A$ on average. These are the
 # formulas of beams, not results of the directed rod: no concentration of stress at supports, loads, steps or notches, no
 # distribution of the shear, and the section of the reference. The strains are those of a fibre that is free across the plane, or kept by
-# `rod.lateral_constraint`.
+# `rod.lateral_constraint`. A section of layers or of given stiffnesses has none of them.
 #
 # ## Points
 #

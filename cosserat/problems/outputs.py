@@ -100,7 +100,10 @@ def _internal(states: States) -> Solution:
 
 def _stresses(states: States, found: Resultants) -> dict[str, Field]:
     arc = states.geometry.arc_length
-    stress = beam_stresses(edge_sections(states.problem.rod, (arc[1:] + arc[:-1]) / 2), found)
+    sections = edge_sections(states.problem.rod, (arc[1:] + arc[:-1]) / 2)
+    if sections is None:
+        return {}
+    stress = beam_stresses(sections, found)
     edge = (states.along, "edge")
     fields: dict[str, Field] = {"fibre_strain": ((*edge, "surface"), stress.strain)}
     if stress.fibre is not None and stress.shear is not None:

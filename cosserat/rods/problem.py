@@ -84,7 +84,7 @@ class RodProblem(Problem):
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()
     """Prescribed rotations of fixed sections."""
     probes: tuple[Probe, ...] = ()
-    """Points whose displacements and rotations are stored by name."""
+    """Points whose displacements and rotations are stored by name; "modes" and "critical loads" have none to store."""
 
     def loads_of(self, key: str) -> tuple[Load, ...]:
         """The loads of one kind."""

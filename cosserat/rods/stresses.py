@@ -42,8 +42,10 @@ class Sections(NamedTuple):
     area: Array | None
 
 
-def edge_sections(rod: Rod, xi: Array) -> Sections:
-    """The sections at arc lengths xi; at a step those after it."""
+def edge_sections(rod: Rod, xi: Array) -> Sections | None:
+    """The sections at arc lengths xi; at a step those after it.  None if a section has no single material."""
+    if not isinstance(rod.section, Homogeneous):
+        return None
     scale = Scales(*(scale_at(rod.stations, name, xi, before=False) for name in Scales._fields))
     elastic = rod.section.along(rod.material, rod.lateral_constraint)(scale)
     height, centre = rod.height * scale.height, rod.section.centre

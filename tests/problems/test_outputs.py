@@ -473,6 +473,25 @@ def test_what_follows_from_the_states_is_named_and_not_in_references(solved):
         assert set(without_derived(left).variables) == set(left.variables)
 
 
+def test_layers_have_forces_and_no_stresses():
+    """A beam of two layers under a force at its end: M = P (L - x), and no formula of one material."""
+    core = {"young": 2e9, "poisson": 0.0, "density": 1000.0}
+    layers = [{"thickness": 0.01, "width": 0.03, "material": {**core, "young": e}} for e in (2e9, 8e9)]
+    made = {
+        **steel(),
+        "calibration": None,
+        "section": {"shape": "layers", "layers": layers},
+        "material": None,
+    }
+    problem = cosserat.case("elastica").problem.replace(
+        rod=made, forces=[{"at": "last", "along": "E2", "force": 0.1}]
+    )
+    found = problem.solve("layers").derive()
+    middles = found["xi_edge"]
+    np.testing.assert_allclose(found["bending_moment"], 0.1 * (2.0 - middles), rtol=1e-4)
+    assert "fibre_stress" not in found
+
+
 def test_a_solver_computes_no_outputs():
     found = cosserat.case("clamped_free").problem.solve("beam", ALONE)
     assert "bending_moment" not in found
