@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 
 import cosserat
 from cosserat.errors import InputError
+from cosserat.problems.modes import RodModes
 from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.load import LoadedRod
 from cosserat.rods.loads.pressure import Pressure
@@ -244,6 +245,24 @@ def test_other_pressures_have_none(changes):
     given |= {"pressures": [{"side": "lower", "pressure": 50}]} | changes
     problem = slender(9, **given)
     assert not problem.system(problem.geometry).symmetric
+
+
+def flutter_load(vertices):
+    """The follower load along a cantilever [EI / L^2] above which a mode grows, by bisection."""
+    low, high = 18.0, 22.0
+    while high - low > 1e-3:
+        load = (low + high) / 2
+        pushed = slender(vertices, follower_forces=[{"at": "last", "along": "-E3", "force": load}])
+        growing = RodModes.of(pushed, 3).solve("it").statistics["growing_modes"]
+        low, high = (low, load) if growing else (load, high)
+    return low
+
+
+def test_becks_column_flutters_where_it_should():
+    """20.0509 EI / L^2, Beck (1952); it never has another equilibrium than the straight one."""
+    found = [flutter_load(vertices) for vertices in (21, 41)]
+    assert found[1] == pytest.approx(20.0509, rel=3e-3)
+    assert found[1] + (found[1] - found[0]) / 3 == pytest.approx(20.0509, rel=1e-4)
 
 
 # ---------------------------------------------------------------- in motion
