@@ -107,6 +107,15 @@
 # .. autoclass:: cosserat.rods.rod.Rod
 #    :members:
 #
+# .. autoclass:: cosserat.rods.sections.section.Section
+#    :members:
+#
+# .. autoclass:: cosserat.rods.sections.section.Homogeneous
+#    :members:
+#
+# .. autoclass:: cosserat.rods.material.Material
+#    :members:
+#
 # .. autoclass:: cosserat.rods.variation.Station
 #    :members:
 #

@@ -244,9 +244,7 @@ Choice = list[type[BaseModel]]
 
 def chooser(choice: Sequence[type[BaseModel]]) -> str:
     """The key by which several classes for one place differ: each has its own word for it; empty if there is none."""
-    if len(choice) < 2:
-        return ""
-    for name in choice[0].model_fields:
+    for name in choice[0].model_fields if len(choice) > 1 else ():
         fields = [c.model_fields.get(name) for c in choice]
         words = [f.default for f in fields if f is not None and get_origin(f.annotation) is Literal]
         if len(set(words)) == len(choice):

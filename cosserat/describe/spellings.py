@@ -21,8 +21,8 @@ _WORDS = (
 WORDS = (*_WORDS.split(), *_PREFIXED)
 """Units of one word in the patterns."""
 COMPOUNDS = (
-    *("m^2", "m^3", "m^-1", "s^-1", "kg/m", "kg/m^2", "kg/m^3", "kg*m"),
-    *("m/s", "m/s^2", "N/m", "N/m^2", "N/m^3", "N*m", "rad/m", "rad/s"),
+    *("m^2", "m^3", "m^4", "m^-1", "s^-1", "kg/m", "kg/m^2", "kg/m^3", "kg*m"),
+    *("m/s", "m/s^2", "N/m", "N/m^2", "N/m^3", "N*m", "N*m^2", "rad/m", "rad/s"),
 )
 """Compound units; the patterns have each of their spellings with these words."""
 

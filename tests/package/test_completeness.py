@@ -459,7 +459,17 @@ def resolves(name):
     return False
 
 
-NAMED_ELSEWHERE = {"rod.energy", "kind", "Equilibrium", "factor", "state", "anyOf", "oneOf"}
+NAMED_ELSEWHERE = {
+    "rod.energy",
+    "rod.section",
+    "shape",
+    "kind",
+    "Equilibrium",
+    "factor",
+    "state",
+    "anyOf",
+    "oneOf",
+}
 """Keys of a case, a class that errors cannot import, attributes of that and of an error, words of schemas."""
 
 

@@ -18,6 +18,7 @@ from cosserat.errors import InputError
 from cosserat.parameters import FROM_FILE, Count, Quantity
 from cosserat.problem import Problem
 from cosserat.publications import kinds, published_tables
+from cosserat.rods.problem import LOADS as LOADED
 
 KINDS = list(kinds())
 
@@ -94,6 +95,7 @@ def test_a_field_without_a_meaning_is_noticed(monkeypatch):
     )
     found = listing.keys.__wrapped__("rod path")
     assert [key.path for key in found if not key.meaning] == [
+        "rod.section.layers[].material.young",
         "rod.material.young",
         "rod.stations[].young",
     ]
@@ -157,6 +159,10 @@ gravity = { g = "9.81 m/s^2", along = "-E2" }
 line_loads = [{ along = "E2", density = "1 N/m", start = "0 m" }]
 forces = [{ at = "last", along = "E2", force = "1 N" }]
 couples = [{ at = 1, moment = "1 N*m" }]
+line_couples = [{ density = "1 N", start = "0 m" }]
+follower_forces = [{ at = "last", along = "E2", force = "1 N" }]
+follower_line_loads = [{ along = "E2", density = "1 N/m", start = "0 m" }]
+pressures = [{ side = "upper", pressure = "1 Pa", start = "0 m" }]
 rod.stations = [{ at = "0 m" }]
 supports = [{ at = "first", fixed = ["x3", "x2"] }, { at = "last", fixed = ["d3", "d2"] }]
 prescribed_displacements = [{ at = "first", dof = "x2", by = "1 cm" }]
@@ -207,10 +213,26 @@ def said(table):
     return ""
 
 
+ELASTIC = {"young": "1 GPa", "poisson": 0.3, "density": "1 g/cm^3"}
+SIDES = {"height": "0.3 m", "width": "0.2 m", "shear_factor": 0.5}
 CHOICES = {
     "compressible": {"kind": "compressible", "young": "10 kPa", "poisson": 0.3},
     "incompressible": {"kind": "incompressible", "young": "2 kPa"},
-    "rectangle": {"shape": "rectangle", "height": "5 cm", "width": "4 cm", "shear_factor": 1},
+    "rectangle": SIDES,
+    "square": {"side": "0.2 m", "shear_factor": 1},
+    "hollow rectangle": SIDES | {"wall": "2 cm"},
+    "circle": {"diameter": "0.2 m", "shear_factor": 1},
+    "tube": {"diameter": "0.2 m", "wall": "2 cm", "shear_factor": 1},
+    "ellipse": SIDES,
+    "I": SIDES | {"flange": "1 cm", "web": "1 cm"},
+    "given": {"area": "1 m^2", "second_moment": "1 m^4", "height": "3 m", "shear_factor": 1},
+    "layers": {"layers": [{"thickness": "1 cm", "width": "1 cm", "material": ELASTIC}]},
+    "stiffnesses": {
+        "axial_stiffness": "4 N",
+        "bending_stiffness": "1 N*m^2",
+        "shear_stiffness": "1 N",
+        "height": "2 m",
+    },
     "ramp": {"kind": "ramp", "duration": "1 s"},
     "sine": {"kind": "sine", "frequency": "1 Hz"},
     "pulse": {"kind": "pulse", "duration": "1 s"},
@@ -223,7 +245,7 @@ CHOICES = {
     },
     "table": {"kind": "table", "rows": [["0 s", 0], ["1 s", 1]]},
 }
-"""Tables with a choice, by their `kind`."""
+"""Tables with a choice, by their `kind` or `shape`."""
 CHAMBERS = {  # in place of fronts
     "phases": ["1 s"],
     "anchor": [[[0, 0], [1, 0]]],
@@ -231,11 +253,30 @@ CHAMBERS = {  # in place of fronts
         {"begin": 0, "end": 1, "schedule": [[0, 0.5, "advancing"]], "force": "1 N", "pressure": "1 kPa"}
     ],
 }
+
+
+def chosen(case, key):
+    """The case with the table of the word that brings a key."""
+    if not key.when:
+        return case
+    place = "rod.section" if key.by == "shape" else key.path.rpartition(".")[0]
+    case = put(case, place, {**CHOICES[key.when], key.by: key.when})
+    if key.when == "layers":
+        case = case | {"rod": {name: own for name, own in case["rod"].items() if name != "material"}}
+    if key.when == "stiffnesses":
+        case = put(case, "rod.material", {"line_density": "1 kg/m"})
+    return case
+
+
 # Just inside of its range, a key may break a rule that joins several keys, which has a sentence of its own.
 JOINED = {
     "rod.calibration": "is missing",  # of a path, whose rod has none
     "crawler.length": "let them be equal",
     "crawler.segments[].length": "let them be equal",
+    "rod.section": "it must be (below half|at most|below)|radius of gyration|whose stiffnesses energy",
+    "rod.section.layers[]": "whose stiffnesses energy",
+    "rod.section.layers[].material": "whose stiffnesses energy|give two of|has both",
+    "rod.material": "give two of|has both",
     "crawler.radius": "length / radius",
     "crawler.material.poisson": "has a Poisson's ratio",
     "crawler.material.bulk": "give two of young, poisson and bulk",
@@ -248,7 +289,7 @@ JOINED = {
     "step": "more than 100000 instants",
     **{
         f"{load}.time_function": "only kind = 'rod motion' has a time"
-        for load in ("gravity", *(f"{key}[]" for key in ("line_loads", "forces", "couples")))
+        for load in ("gravity", *(f"{key}[]" for key in LOADED if key != "gravity"))
     },
     **{
         f"prescribed_{key}[].time_function": "only kind = 'rod motion' has a time"
@@ -264,7 +305,7 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
     for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
         if path == "gait.chambers":
             case = put(case, "gait", CHAMBERS)
-        there = put(case, path.rpartition(".")[0], CHOICES[key.when]) if key.when else case
+        there = chosen(case, key)
         for mark in marks(whole(field))[:1]:
             unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit
             plain = re.escape(path).replace(r"\[\]", r"\.0")
@@ -274,7 +315,7 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
                 assert re.search(refused, said(put(there, path, beyond))), (path, beyond)
                 answer = said(put(there, path, within))
                 joined = JOINED.get(path) or JOINED.get(path.rpartition(".")[0])
-                assert not answer or (joined and joined in answer), (path, within, answer)
+                assert not answer or (joined and re.search(joined, answer)), (path, within, answer)
 
 
 def test_kinds_and_common_keys_are_listed_without_a_kind(capsys):

@@ -26,6 +26,8 @@ README = re.findall(r"```toml\n(.*?)```", (ROOT / "README.md").read_text(), flag
 NAMES = {
     "1": "ratio",
     "m": "length",
+    "m^2": "area",
+    "m^4": "second-moment-of-area",
     "m^-1": "curvature",
     "kg": "mass",
     "kg/m": "mass-per-length",
@@ -37,6 +39,7 @@ NAMES = {
     "N": "force",
     "N/m": "force-per-length",
     "N*m": "moment",
+    "N*m^2": "bending-stiffness",
     "Pa": "pressure",
     "rad": "angle",
     "rad/s": "angular-speed",
