@@ -10,6 +10,7 @@ import meshio
 import numpy as np
 import pytest
 import xarray as xr
+from conftest import case_of_kind
 
 import cosserat
 from cosserat.cli import main
@@ -24,7 +25,7 @@ def call(capsys, *arguments):
 
 
 def case_of_kind(kind):
-    return next(name for name, case in cosserat.published().items() if case.problem.kind == kind)
+    return case_of_kind(kind).name
 
 
 def two_instants(data):
