@@ -69,9 +69,12 @@ KINDS = {
         "cosserat.problems.modes:RodModes",
         "cosserat.figures.modes:picture",
         "cosserat.figures.animations:modes",
+        _ROD,
     ),
     "critical loads": Kind(
-        "cosserat.problems.critical:RodCriticalLoads", "cosserat.figures.modes:critical_picture"
+        "cosserat.problems.critical:RodCriticalLoads",
+        "cosserat.figures.modes:critical_picture",
+        "cosserat.figures.animations:critical",
     ),
     "calibration": Kind("cosserat.studies.calibration:CalibrationProcedure"),
     "convergence": Kind("cosserat.studies.convergence:Convergence"),

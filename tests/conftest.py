@@ -28,6 +28,16 @@ def examples():
     return cosserat.load_cases(ROOT / "tests" / "examples.toml")
 
 
+def case_of_kind(kind):
+    """The first published case of that kind, or else the first of `tests/examples.toml`."""
+    import cosserat
+
+    known = [*cosserat.published().values(), *examples().values()]
+    found = [case for case in known if case.problem.kind == kind]
+    assert found, f"no case is of kind '{kind}'; add one to a case file or to tests/examples.toml"
+    return found[0]
+
+
 def make_rod(**changes):
     """The rod of section 3.5 with changes."""
     import cosserat

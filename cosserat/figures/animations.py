@@ -1,4 +1,4 @@
-"""Animations of results, as Matplotlib's: natural modes, motions and paths of equilibria.
+"""Animations of results, as Matplotlib's: natural modes, critical loads, motions and paths.
 
 Each takes a Dataset and the number of frames.
 """
@@ -16,7 +16,7 @@ from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.modes import SHOWN, amplitude, label, mode_shape, panels, spoken
+from cosserat.figures.modes import SHOWN, amplitude, buckled, label, mode_shape, panels, spoken
 from cosserat.figures.rod import draw_outline, draw_supports, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas
 from cosserat.rods.problem import RodProblem
@@ -41,6 +41,21 @@ def modes(data: xr.Dataset, frames: int = FRAMES) -> FuncAnimation:
         moved = x + size * (cycle * u).real, d + size * (cycle * delta).real
         bodies.append(_body(ax, outline(*moved, problem)))
         label(ax, spoken(data, mode))
+    return _animation(figure, lambda frame: [show(frame) for show in bodies], frames)
+
+
+def critical(data: xr.Dataset, frames: int = FRAMES) -> FuncAnimation:
+    """The rod moves to and fro along each mode of its critical loads."""
+    problem, shown = problem_of(data, RodProblem), buckled(data)
+    figure, axes = panels(len(shown))
+    bodies = []
+    swing = np.sin(2 * np.pi * (np.arange(frames) + 0.5) / frames)[:, None, None]
+    for ax, (x, d, u, delta, title) in zip(axes, shown, strict=True):
+        size = amplitude(problem, u, delta, d) * swing
+        draw_outline(ax, x, d, problem, facecolor="none", edgecolor=EXACT, linestyle=":")
+        draw_supports(ax, problem, x, data.d_ref.to_numpy())
+        bodies.append(_body(ax, outline(x + size * u, d + size * delta, problem)))
+        label(ax, title)
     return _animation(figure, lambda frame: [show(frame) for show in bodies], frames)
 
 

@@ -44,19 +44,9 @@ def critical_picture(data: xr.Dataset) -> Figure:
     """The picture of `cosserat plot` for critical loads: the rod under its loads in each mode."""
     problem = problem_of(data, RodProblem)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
-    shown: list[tuple[Array, Array, Array, Array, str]] = []
-    for k in range(data.sizes.get("special", 0)):
-        load, kind = float(data.special_load_factor[k]), str(data.special.to_numpy()[k])
-        at = (data[f"special_{name}"].to_numpy()[k] for name in ("x", "d", "u", "delta"))
-        shown.append((*at, f"true criterion: {load:.6g} × the loads, {kind.partition(',')[0]}"))
-    for mode in range(data.sizes.get("mode", 0)):
-        load = float(data.linear_load_factor[mode])
-        moved = (data[name].to_numpy()[mode] for name in ("linear_u", "linear_delta"))
-        shown.append((X, D, *moved, f"linear criterion: {load:.6g} × the loads"))
-    if not shown:
-        shown.append((X, D, np.zeros_like(X), np.zeros_like(D), "no critical load was found"))
-    figure, axes = panels(min(SHOWN, len(shown)))
-    for ax, (x, d, u, delta, title) in zip(axes, shown[:SHOWN], strict=True):
+    shown = buckled(data)
+    figure, axes = panels(len(shown))
+    for ax, (x, d, u, delta, title) in zip(axes, shown, strict=True):
         size = amplitude(problem, u, delta, d)
         moved_x, moved_d = x + size * u, d + size * delta
         draw_outline(ax, X, D, problem, **_ghost())
@@ -66,6 +56,23 @@ def critical_picture(data: xr.Dataset) -> Figure:
         label(ax, title)
     figure.suptitle(data.attrs["title"], fontsize=9)
     return figure
+
+
+def buckled(data: xr.Dataset) -> list[tuple[Array, Array, Array, Array, str]]:
+    """Of the first critical loads, the true one before the linear ones: x, d, the mode's u, delta, and words."""
+    X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
+    shown: list[tuple[Array, Array, Array, Array, str]] = []
+    for k in range(data.sizes.get("special", 0)):
+        load, kind = float(data.special_load_factor[k]), str(data.special.to_numpy()[k])
+        x, d, u, delta = (data[f"special_{name}"].to_numpy()[k] for name in ("x", "d", "u", "delta"))
+        words = f"true criterion: {load:.6g} × the loads, {kind.partition(',')[0]}"
+        shown.append((x, d, u, delta, words))
+    for mode in range(data.sizes.get("mode", 0)):
+        u, delta = (data[name].to_numpy()[mode] for name in ("linear_u", "linear_delta"))
+        load = float(data.linear_load_factor[mode])
+        shown.append((X, D, u, delta, f"linear criterion: {load:.6g} × the loads"))
+    nothing = (X, D, np.zeros_like(X), np.zeros_like(D), "no critical load was found")
+    return shown[:SHOWN] or [nothing]
 
 
 def mode_shape(data: xr.Dataset, mode: int) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:

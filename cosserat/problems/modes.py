@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -12,32 +12,20 @@ from numpy.typing import NDArray
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Run
 from cosserat.problems.special import leading
-from cosserat.problems.static import check_supports
+from cosserat.problems.static import check_supports, equilibrium_solution
 from cosserat.rods.problem import LOADS, RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import Vector, band_product
-from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
-from cosserat.solvers.incremental import solve_full_load
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
+from cosserat.solvers.incremental import solve_full_load, without_load
 from cosserat.solvers.modes import SmallMotions, small_motions
-from cosserat.solvers.system import History, MechanicalSystem
+from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
 _MOVED = ("prescribed_displacements", "prescribed_rotations")  # keys of constraints that move supports
 _GROWS = 1e-7  # growth per radian of oscillation below which it is round-off
-
-
-@dataclass(frozen=True)
-class _Rest:
-    """What a rod moves about: DOFs q, internal variables, positions and directors (n,), fields and warnings."""
-
-    system: MechanicalSystem
-    q: Vector
-    history: History
-    placed: Vector
-    fields: Mapping[str, Field]
-    warnings: tuple[str, ...]
 
 
 class RodModes(RodProblem):
@@ -78,22 +66,23 @@ class RodModes(RodProblem):
         CrossingError : neighbouring sections of the equilibrium cross.
         """
         geometry = self.geometry
-        rest = self._rest(geometry, name)
-        check_crossing(geometry, rest.fields["x"][1], rest.fields["d"][1], self.rod.below, name)
-        found = small_motions(
-            rest.system, rest.q, self.count, supported=self._held(geometry), history=rest.history
-        )
-        fields = {**rest.fields, **self._shapes(found), **self._masses(rest, found)}
+        point, solver = self._rest(geometry, name)
+        rest = equilibrium_solution(self, geometry, point, solver)
+        check_crossing(geometry, rest["x"], rest["d"], self.rod.below, name)
+        system, held = solver.system, self._held(geometry)
+        found = small_motions(system, point.q, self.count, supported=held, history=point.history)
+        placed = self.rod.strain_energy.reference(geometry) + point.q
+        fields = {**rest.fields, **self._shapes(found), **self._masses(system, placed, found)}
         speed = np.hypot(found.growth, found.angular_frequency)
-        statistics = {
+        statistics = dict(rest.statistics) | {
             "mode_count": found.growth.size,
             "rigid_modes": int((speed == 0).sum()),
             "growing_modes": int((found.growth > _GROWS * speed).sum()),
             "lowest_Hz": float(found.angular_frequency[0] / (2 * np.pi)),
             "highest_Hz": float(found.angular_frequency[-1] / (2 * np.pi)),
         }
-        labels = {"axis": self.rod.kinematics.axes, "dof": self.rod.kinematics.dofs}
-        return Solution(fields, statistics, labels, (*rest.warnings, *_growing(found)))
+        warnings = (*solver.warnings(), *coarse(rest["d"]), *_growing(found))
+        return replace(rest, fields=fields, statistics=statistics, warnings=warnings)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -113,35 +102,16 @@ class RodModes(RodProblem):
         at_rest = self.rod.strain_energy.reference(geometry)
         return not self.rod.kinematics.free_motions(at_rest, self.constrained()).any()
 
-    def _rest(self, geometry: Geometry, name: str) -> _Rest:
-        """What the rod moves about."""
+    def _rest(self, geometry: Geometry, name: str) -> tuple[Equilibrium, EquilibriumSolver]:
+        """What the rod moves about, in displacements, with its solver."""
         system = self.system(geometry)
         loaded = any(self.loads_of(key) for key in LOADS) or system.constraints.moving
-        warnings: tuple[str, ...] = ()
-        if self.about == "reference" or not (loaded or self._held(geometry)):
-            system = system.unloaded()
-            q, history = system.space.reference, system.history
-            reaction, factor = np.zeros_like(q), 0.0
-        else:
+        if self.about == "equilibrium" and (loaded or self._held(geometry)):
             check_supports(self.rod, geometry, system.constrained, name)
             solver = EquilibriumSolver(system, self.newton, name)
-            point = solve_full_load(solver, stay=self.branch == "stay")
-            q, history, reaction, factor = point.q, point.history, point.reaction, point.factor
-            turned = self.rod.vectors(geometry, q)[:, 1]
-            warnings = (*solver.warnings(), *coarse(turned))
-        placed = self.rod.strain_energy.reference(geometry) + q
-        vectors, shape = self.rod.kinematics.split(placed), (self.rod.vertices, -1)
-        vector, force = ("vertex", "axis"), ("vertex", "dof")
-        fields: dict[str, Field] = {
-            "xi": (("vertex",), geometry.arc_length),
-            "x_ref": (vector, geometry.X),
-            "d_ref": (vector, geometry.D),
-            "x": (vector, vectors[:, 0]),
-            "d": (vector, vectors[:, 1]),
-            "applied_force": (force, (factor * system.dead_load).reshape(shape)),
-            "support_force": (force, reaction.reshape(shape)),
-        }
-        return _Rest(system, q, history, placed, fields, warnings)
+            return solve_full_load(solver, stay=self.branch == "stay"), solver
+        bare = system.unloaded()
+        return without_load(bare), EquilibriumSolver(bare, self.newton, name)
 
     def _shapes(self, found: SmallMotions) -> dict[str, Field]:
         """Frequencies, rates of growth and shapes; imaginary parts where there are any."""
@@ -161,19 +131,19 @@ class RodModes(RodProblem):
             }
         return fields
 
-    def _masses(self, rest: _Rest, found: SmallMotions) -> dict[str, Field]:
+    def _masses(self, system: MechanicalSystem, placed: Vector, found: SmallMotions) -> dict[str, Field]:
         """Total and effective masses and moments of inertia; loads without a potential leave no modes for them."""
         kinematics = self.rod.kinematics
-        first = np.zeros_like(kinematics.split(rest.placed))
-        first[:, 0] = kinematics.split(rest.placed)[0, 0]
-        rigid = kinematics.rigid_motions(rest.placed - first.ravel())
-        momenta = np.array([band_product(rest.system.inertia, motion) for motion in rigid])
+        first = np.zeros_like(kinematics.split(placed))
+        first[:, 0] = kinematics.split(placed)[0, 0]
+        rigid = kinematics.rigid_motions(placed - first.ravel())
+        momenta = np.array([band_product(system.inertia, motion) for motion in rigid])
         total = np.einsum("ij,ij->i", rigid, momenta)
         fields: dict[str, Field] = {
             "total_mass": (("axis",), total[: kinematics.dimension]),
             "total_inertia": ((), total[kinematics.dimension]),
         }
-        if rest.system.symmetric:
+        if system.symmetric:
             shared = (found.shape.real @ momenta.T) ** 2
             fields |= {
                 "effective_mass": (("mode", "axis"), shared[:, : kinematics.dimension]),

@@ -44,7 +44,7 @@ class RodStatics(RodProblem):
         geometry = self.geometry
         system = self.system(geometry)
         point, solver = self.equilibrium(geometry, system, name)
-        found = _solution(self, geometry, point, solver)
+        found = equilibrium_solution(self, geometry, point, solver)
         check_crossing(geometry, found["x"], found["d"], self.rod.below, name)
         return replace(found, warnings=(*solver.warnings(), *coarse(found["d"])))
 
@@ -80,7 +80,7 @@ class RodStatics(RodProblem):
         except NotConvergedError as error:
             last = error.state
             if last is not None:
-                found = _solution(self, geometry, last, solver)
+                found = equilibrium_solution(self, geometry, last, solver)
                 reached = {"load_factor_reached": last.factor}
                 error.reached = replace(found, statistics=dict(found.statistics) | reached)
             raise
@@ -97,9 +97,10 @@ def check_supports(rod: Rod, geometry: Geometry, constrained: NDArray[np.bool_],
         )
 
 
-def _solution(
+def equilibrium_solution(
     problem: RodProblem, geometry: Geometry, point: Equilibrium, solver: EquilibriumSolver
 ) -> Solution:
+    """Fields of one equilibrium, in displacements, and what follows from them."""
     rod = problem.rod
     system, shape = solver.system, (rod.vertices, rod.kinematics.per_vertex)
     load = point.factor * system.dead_load.reshape(shape)

@@ -22,7 +22,7 @@ from cosserat.solvers.banded import Vector, to_sparse
 from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.incremental import unloaded
-from cosserat.solvers.modes import MOST_DENSE
+from cosserat.solvers.modes import FEW, MOST_DENSE
 from cosserat.solvers.special import SpecialPoint, special_points
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
@@ -78,7 +78,7 @@ def _inverse_factors(
     geometric: dia_array, stiffness: dia_array, count: int, *, symmetric: bool
 ) -> tuple[Vector, Fields]:
     """Real g of geometric v = g stiffness v, the largest ones among them, and their v as columns."""
-    if symmetric and geometric.shape[0] > MOST_DENSE:
+    if symmetric and geometric.shape[0] > max(MOST_DENSE, FEW * count):
         from scipy.sparse.linalg import eigsh
 
         start = np.ones(geometric.shape[0])

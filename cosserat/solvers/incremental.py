@@ -10,7 +10,7 @@ import numpy as np
 
 from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
-from cosserat.solvers.system import Fields
+from cosserat.solvers.system import Fields, MechanicalSystem
 
 _PREDICTION_TOLERANCE = 0.3  # largest prediction error, as a fraction of the increment
 _NEGLIGIBLE_ROTATION = 1e-5  # rotation below which an increment needs no prediction [rad]
@@ -63,6 +63,12 @@ def unloaded(solver: EquilibriumSolver) -> Equilibrium:
     if point is None:
         raise solver.failure(0.0, 0.0, None)
     return point
+
+
+def without_load(system: MechanicalSystem) -> Equilibrium:
+    """The reference of a body without loads as an equilibrium, which it is also where rigid motions are free."""
+    at_rest, still = system.space.reference, np.zeros_like(system.space.reference)
+    return Equilibrium(at_rest, 0.0, system.history, still, 0, 0.0, 0.0, 0.0, 0)
 
 
 def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium:

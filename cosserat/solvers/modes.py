@@ -21,9 +21,9 @@ Dense = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 MOST_DENSE = 1200
 """Free DOFs up to which all eigenvalues are found by dense methods; beyond, a few by sparse ones."""
-_SHIFT = (
-    100.0  # of the round-off of squared frequencies, from which those of a free body are first sought
-)
+FEW = 4
+"""Free DOFs for each mode that is asked for, below which all are found."""
+_SHIFT = 100.0  # of the round-off, from which squared frequencies of a free body are first sought
 _ROUND_OFF_FRACTION = 16 * float(np.finfo(float).eps)  # of the largest squared frequency
 
 
@@ -176,7 +176,7 @@ def _symmetric(
     stiffness: dia_array, mass: dia_array, count: int, negative: int, *, supported: bool
 ) -> tuple[Vector, Dense]:
     """The lowest eigenvalues k and their v, v . M v = 1, as columns; zero where they are round-off."""
-    if mass.shape[0] > MOST_DENSE:
+    if mass.shape[0] > max(MOST_DENSE, FEW * count):
         more = count + negative * supported  # those nearest zero, on both sides
         squared, vectors = _sparse(stiffness, mass, more, supported=supported)
         return squared[:count], vectors[:, :count]
@@ -197,7 +197,7 @@ def _general(
     stiffness: dia_array, mass: dia_array, count: int, *, supported: bool
 ) -> tuple[Complex, Complex]:
     """The eigenvalues k of the smallest modulus and their v, conj(v) . M v = 1, as columns."""
-    if mass.shape[0] > MOST_DENSE:
+    if mass.shape[0] > max(MOST_DENSE, FEW * count):
         from scipy.sparse.linalg import eigs
 
         squared, vectors = eigs(stiffness, count, mass, sigma=0.0, v0=np.ones(mass.shape[0]))

@@ -8,10 +8,9 @@ import itertools
 
 import numpy as np
 import pytest
-from conftest import ROOT, examples
+from conftest import ROOT, case_of_kind
 from PIL import Image, ImageSequence
 
-import cosserat
 from cosserat.cases.catalogue import parse
 from cosserat.cli import main
 from cosserat.data.checkpoints import Parts
@@ -29,14 +28,6 @@ NAMES = {  # files of the package that may hold the names of kinds, and why
     "thesis/__init__.py": "the registry of what one publication adds",
 }
 every_kind = pytest.mark.parametrize("kind", kinds())
-
-
-def case_of_kind(kind):
-    """The first published case of that kind, or else the first of `tests/examples.toml`."""
-    known = [*cosserat.published().values(), *examples().values()]
-    found = [case for case in known if case.problem.kind == kind]
-    assert found, f"no case is of kind '{kind}'; add one to a case file or to tests/examples.toml"
-    return found[0]
 
 
 def concrete(base):

@@ -1,8 +1,10 @@
 """Special points of paths and small motions of little bodies, against closed forms."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from bodies import body, circulating, dead, wells
+from bodies import body, circulating, dead, springs, wells
 
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.critical import ScaledSystem, first_special_point, linear_criterion
@@ -94,3 +96,19 @@ def test_an_unstable_body_diverges_at_the_root_of_its_curvature():
     found = small_motions(system, np.zeros(2), 2, supported=True)
     np.testing.assert_allclose(found.growth, [2, 0], rtol=1e-14)
     np.testing.assert_allclose(found.angular_frequency, [0, np.sqrt(6)], rtol=1e-14)
+
+
+def test_the_linear_criterion_of_two_bars_is_the_third_derivative_of_their_energy():
+    """Of E = k (L - l)^2, L^2 = b^2 + y^2: E'' = 2 k h^2 / l^2 and E''' = 6 k h b^2 / l^4 at rest, where y = h.
+
+    The apex moves by -P / E'', so that the stiffness vanishes at E''^2 / (E''' P) = 2 k h^3 / (3 b^2 P).
+    """
+    k, b, h, load = 7.0, 1.0, 0.3, 0.02
+    at = np.array([[-b, 0, 0], [0, h, 0], [b, 0, 0]])
+    bars = springs([(0, 1, k, np.hypot(b, h)), (1, 2, k, np.hypot(b, h))])
+    push = np.zeros(9)
+    push[4] = -load
+    system = body(replace(bars, origin=at.ravel()), dead(push), held=(0, 1, 2, 5, 6, 7, 8), n=9)
+    found = linear_criterion(solver_of(system), 3)
+    np.testing.assert_allclose(found.factor, [2 * k * h**3 / (3 * b**2 * load)], rtol=1e-10)
+    np.testing.assert_allclose(found.mode[0], np.eye(9)[4], atol=1e-12)
