@@ -48,7 +48,7 @@ def animate(data: xr.Dataset, frames: int) -> FuncAnimation:
         ax.set_title(f"{data.attrs['title']}, t = {data.time.to_numpy()[frame]:.2f} s")
         return [body, advancing, anchor]
 
-    return FuncAnimation(figure, draw, frames=chosen.tolist(), interval=_INTERVAL, init_func=list)
+    return FuncAnimation(figure, draw, frames=chosen.tolist(), interval=_INTERVAL)
 
 
 def _outline(along: Array, top: Array) -> Array:
