@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from cosserat.errors import CosseratError, InputError, NotConvergedError, UnsupportedRodError
     from cosserat.export.table import to_dataframe
     from cosserat.figures.doors import animate, plot
-    from cosserat.runner import run
+    from cosserat.runner import modes, run
 
 _HOMES = {
     "Case": ("cosserat.cases.catalogue", "Case"),
@@ -38,6 +38,7 @@ _HOMES = {
     "to_dataframe": ("cosserat.export.table", "to_dataframe"),
     "animate": ("cosserat.figures.doors", "animate"),
     "plot": ("cosserat.figures.doors", "plot"),
+    "modes": ("cosserat.runner", "modes"),
     "run": ("cosserat.runner", "run"),
 }
 
@@ -52,6 +53,7 @@ __all__ = [
     "case_of",
     "load",
     "load_cases",
+    "modes",
     "plot",
     "published",
     "run",

@@ -69,6 +69,7 @@ KINDS = {
         "cosserat.problems.modes:RodModes",
         "cosserat.figures.modes:picture",
         "cosserat.figures.animations:modes",
+        _ROD,
     ),
     "critical loads": Kind(
         "cosserat.problems.critical:RodCriticalLoads", "cosserat.figures.modes:critical_picture"

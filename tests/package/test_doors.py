@@ -19,8 +19,6 @@ import cosserat
 from cosserat import progress
 from cosserat.cli import main
 from cosserat.errors import InputError
-from cosserat.export.table import INSTANTS
-from cosserat.publications import kinds
 
 
 def call(capsys, *arguments):
@@ -92,6 +90,25 @@ def test_pictures_and_animations_that_cannot_be_are_one_sentence(solved, tmp_pat
         cosserat.plot(numbers_only)
 
 
+def test_the_modes_of_any_rod_are_one_call():
+    """Of a slender cantilever without load, beside Euler and Bernoulli's closed form."""
+    case = cosserat.case("elastica").vary("free", forces=[])
+    found, rod = cosserat.modes(case, 2), case.problem.rod
+    bending = rod.young * rod.width * rod.height**3 / 12
+    roots = np.array([1.8751040687, 4.6940911330])
+    exact = (roots / rod.length) ** 2 * np.sqrt(bending / rod.line_density) / (2 * np.pi)
+    np.testing.assert_allclose(found.natural_frequency, exact, rtol=5e-4)
+    assert found.attrs["case"] == "free_modes"
+    for args, sentence in [
+        (("worm", 2), "is of kind 'crawl'; use one of kind 'rod statics' or"),
+        (("elastica", 0), "'count' is 0; it must be at least 1"),
+        (("elastic", 2), "did you mean 'elastica'?"),
+        ((3, 2), "modes takes a case or the name of a published one, not 3"),
+    ]:
+        with pytest.raises(InputError, match=re.escape(sentence)):
+            cosserat.modes(*args)
+
+
 # ---------------------------------------------------------------- animations
 
 
@@ -159,16 +176,6 @@ def test_a_page_holds_its_frames_and_needs_no_network(crawled, tmp_path, capsys)
     assert page.count("data:image/png;base64") == 3
     assert not re.search(r"https?:|fa fa-|src=\"(?!data:)", page)
     assert sorted(found.name for found in tmp_path.iterdir()) == ["a.html", "a.nc", "b.html"]
-
-
-@pytest.mark.parametrize("kind", [name for name, entry in kinds().items() if entry.animate])
-def test_any_kind_that_moves_is_animated(solved, kind, tmp_path):
-    name = next(name for name, case in cosserat.published().items() if case.problem.kind == kind)
-    data = solved[name]
-    few = data.isel({dim: [0, -1] for dim in INSTANTS if dim in data.sizes})
-    cosserat.animate(few, tmp_path / "a.gif")
-    with Image.open(tmp_path / "a.gif") as drawn:
-        assert drawn.n_frames >= 2
 
 
 def test_an_animation_that_was_stopped_leaves_the_old_file(crawled, tmp_path, monkeypatch):
