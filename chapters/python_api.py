@@ -20,6 +20,8 @@
 # ```{eval-rst}
 # .. autofunction:: cosserat.run
 #
+# .. autofunction:: cosserat.modes
+#
 # .. autofunction:: cosserat.case
 #
 # .. autofunction:: cosserat.published

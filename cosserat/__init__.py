@@ -21,25 +21,37 @@ if TYPE_CHECKING:
     from cosserat.errors import CosseratError, InputError, NotConvergedError, UnsupportedRodError
     from cosserat.export.table import to_dataframe
     from cosserat.figures.doors import animate, plot
-    from cosserat.runner import run
+    from cosserat.runner import modes, run
 
 _HOMES = {
-    "Case": ("cosserat.cases.catalogue", "Case"),
-    "case": ("cosserat.cases.catalogue", "find"),
-    "published": ("cosserat.cases.catalogue", "published"),
-    "load_cases": ("cosserat.cases.catalogue", "load"),
-    "case_of": ("cosserat.data.dataset", "case_of"),
-    "load": ("cosserat.data.dataset", "load"),
-    "save": ("cosserat.data.dataset", "save"),
-    "CosseratError": ("cosserat.errors", "CosseratError"),
-    "InputError": ("cosserat.errors", "InputError"),
-    "NotConvergedError": ("cosserat.errors", "NotConvergedError"),
-    "UnsupportedRodError": ("cosserat.errors", "UnsupportedRodError"),
-    "to_dataframe": ("cosserat.export.table", "to_dataframe"),
-    "animate": ("cosserat.figures.doors", "animate"),
-    "plot": ("cosserat.figures.doors", "plot"),
-    "run": ("cosserat.runner", "run"),
+    "cosserat.cases.catalogue": (
+        ("Case", "Case"),
+        ("case", "find"),
+        ("published", "published"),
+        ("load_cases", "load"),
+    ),
+    "cosserat.data.dataset": (
+        ("case_of", "case_of"),
+        ("load", "load"),
+        ("save", "save"),
+    ),
+    "cosserat.errors": (
+        ("CosseratError", "CosseratError"),
+        ("InputError", "InputError"),
+        ("NotConvergedError", "NotConvergedError"),
+        ("UnsupportedRodError", "UnsupportedRodError"),
+    ),
+    "cosserat.export.table": (("to_dataframe", "to_dataframe"),),
+    "cosserat.figures.doors": (
+        ("animate", "animate"),
+        ("plot", "plot"),
+    ),
+    "cosserat.runner": (
+        ("modes", "modes"),
+        ("run", "run"),
+    ),
 }
+"""Public names and what they are called in each module."""
 
 __all__ = [
     "Case",
@@ -52,6 +64,7 @@ __all__ = [
     "case_of",
     "load",
     "load_cases",
+    "modes",
     "plot",
     "published",
     "run",
@@ -61,11 +74,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module 'cosserat' has no attribute '{name}'")
-    module, attribute = _HOMES[name]
-    value = globals()[name] = getattr(importlib.import_module(module), attribute)
-    return value
+    for module, names in _HOMES.items():
+        if name in dict(names):
+            value = globals()[name] = getattr(importlib.import_module(module), dict(names)[name])
+            return value
+    raise AttributeError(f"module 'cosserat' has no attribute '{name}'")
 
 
 def __dir__() -> list[str]:

@@ -391,9 +391,6 @@ def tables_with_a_choice(
 
 
 def nearest(word: str, known: list[str], cutoff: float = 0.8) -> str:
-    """The clause after a misspelt word: the nearest known one, or all of them.
-
-    cutoff : likeness, up to 1, from which a word counts as near.
-    """
+    """The clause after a misspelt word: the nearest known one, as like as `cutoff` of 1 or more, or all of them."""
     close = difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
     return f"; did you mean '{close[0]}'?" if close else f"; known are: {', '.join(known)}"

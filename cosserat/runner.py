@@ -50,6 +50,28 @@ def run(
     return to_dataset(known, solution)
 
 
+def modes(case: Case | str, count: int = 6) -> xr.Dataset:
+    """The lowest natural modes of the rod of a case, given by itself or by the name of a published one.
+
+    They are those about its equilibrium under all loads, or of a motion about the reference.  The Dataset is that of a
+    case of kind "modes", called like this one with "_modes" behind.
+
+    Raises
+    ------
+    InputError : the case is of no rod, or `count` is not a number of modes.
+    NotConvergedError : the loads lead to no equilibrium.
+    """
+    from cosserat.problems.modes import RodModes
+    from cosserat.rods.problem import RodProblem
+
+    known = find(case) if isinstance(case, str) else case
+    if not isinstance(known, Case):
+        raise InputError(f"modes takes a case or the name of a published one, not {case!r}")
+    problem = RodModes.of(known.problem_as(RodProblem), count)
+    title = f"{known.title}: natural modes"
+    return run(Case(name=f"{known.name}_modes", title=title, source=known.source, problem=problem))
+
+
 @dataclass(frozen=True)
 class _Stored:
     """Parts of a run on disk, as `cosserat.problem.Checkpoints`."""

@@ -12,7 +12,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cosserat.peristalsis.crawler import Crawler
 from cosserat.problems.crawl import CrawlerProblem
 from cosserat.rods.problem import RodProblem
 
@@ -69,10 +68,12 @@ def crawler(state: xr.Dataset, problem: CrawlerProblem) -> Body:
 
     Every point has the values of its section.
     """
-    body, sections = problem.crawler, state.sizes["section"]
+    sections, radius = state.sizes["section"], np.full(state.sizes["section"], problem.crawler.radius)
+    if "resting_radius" in state:
+        radius = state.resting_radius.to_numpy()
     angle = 2 * np.pi * np.arange(AROUND) / AROUND
-    around = _section(state, body, np.cos(angle), np.sin(angle))
-    centres = _section(state, body, np.zeros(1), np.zeros(1))[[0, -1]]
+    around = _section(state, radius, np.cos(angle), np.sin(angle))
+    centres = _section(state, radius, np.zeros(1), np.zeros(1))[[0, -1]]
     start = AROUND * np.arange(sections - 1)[:, None] + np.arange(AROUND)
     after = AROUND * np.arange(sections - 1)[:, None] + (np.arange(AROUND) + 1) % AROUND
     sides = np.stack([start, start + AROUND, after + AROUND, after], axis=-1).reshape(-1, 4)
@@ -92,12 +93,13 @@ def crawler(state: xr.Dataset, problem: CrawlerProblem) -> Body:
     return Body(points, (("quad", sides), ("triangle", ends)), values, {})
 
 
-def _section(state: xr.Dataset, body: Crawler, across: Array, up: Array) -> Array:
+def _section(state: xr.Dataset, radius: Array, across: Array, up: Array) -> Array:
     """Points of every section at fractions of its semi-axes, shape (sections, points, 3)."""
-    along, tall, wide = (state[name].to_numpy()[:, None] for name in ("along", "mu_1", "mu_2"))
+    along = state.along.to_numpy()[:, None]
+    tall, wide = ((radius * state[name].to_numpy())[:, None] for name in ("mu_1", "mu_2"))
     place = np.broadcast_to(along, (along.size, across.size))
     # the sections touch the ground, (2.2.16)
-    return np.stack([place, body.radius * tall * (1 + up), body.radius * wide * across], axis=-1)
+    return np.stack([place, tall * (1 + up), wide * across], axis=-1)
 
 
 def _scalars(state: xr.Dataset, place: str) -> dict[str, Array]:

@@ -109,7 +109,7 @@ def _rows(
     size = 1 if place == WHOLE else dataset.sizes[place]
     columns: dict[str, Any] = {"place": place, "number": np.tile(np.arange(size), count)}
     if instant is not None:
-        columns |= {name: np.repeat(of, size) for name, of in _labels(dataset, instant).items()}
+        columns |= {name: _whole(np.repeat(of, size)) for name, of in _labels(dataset, instant).items()}
     order = [dim for dim in (instant, place) if dim is not None and dim != WHOLE]
     for name, split in known.items():
         # coordinates of the instants, such as the load factor, stand in every row
@@ -127,10 +127,18 @@ def _rows(
 
 def _labels(dataset: xr.Dataset, instant: str) -> dict[str, NDArray[Any]]:
     """Columns that tell instants apart: their times, or their numbers and, if they have any, their names."""
+    numbers = np.arange(dataset.sizes[instant])
+    if instant not in dataset.coords:
+        return {instant: numbers}
     labels = dataset[instant].to_numpy()
     if labels.dtype.kind in "fiub":
         return {_named(dataset, instant): labels}
-    return {instant: np.arange(labels.size), f"{instant}_name": labels}
+    return {instant: numbers, f"{instant}_name": labels}
+
+
+def _whole(values: NDArray[Any]) -> Any:
+    """Whole numbers stay so beside empty cells."""
+    return pd.array(values, dtype="Int64") if values.dtype.kind == "i" else values
 
 
 def _label(dataset: xr.Dataset, dim: str, number: int) -> str:

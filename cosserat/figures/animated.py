@@ -10,8 +10,6 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import matplotlib as mpl
-
 from cosserat.data.files import whole_or_absent
 from cosserat.progress import bar
 
@@ -65,7 +63,11 @@ def write_animation(animation: FuncAnimation, path: Path) -> None:
             if path.suffix == ".gif"
             else HTMLWriter(fps=pace, embed_frames=True, default_mode="loop", embed_limit=1000)
         )
-        with bar(path.name) as progress, mpl.rc_context({"figure.facecolor": "white"}):
+        figure = animation._fig  # type: ignore[attr-defined]
+        animation._init_draw()  # type: ignore[attr-defined]
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # the axes stay where they are in the first frame
+        with bar(path.name) as progress:
             animation.save(
                 drawn,
                 writer=writer,

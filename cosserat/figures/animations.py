@@ -16,14 +16,13 @@ from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
+from cosserat.figures.animated import FRAMES
 from cosserat.figures.modes import SHOWN, amplitude, buckled, label, mode_shape, panels, spoken
 from cosserat.figures.rod import draw_outline, draw_supports, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
-FRAMES = 48
-"""Frames of an animation by default."""
 _INTERVAL = 50  # from one frame to the next [ms]
 
 

@@ -9,25 +9,25 @@ from matplotlib.artist import Artist
 from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
-from cosserat.data.dataset import problem_of
-from cosserat.figures.crawlers import ANCHOR, THINNED, legend_of_bodies, runs
+from cosserat.figures.animated import FRAMES
+from cosserat.figures.crawlers import ANCHOR, THINNED, legend_of_bodies, resting_radius, runs
 from cosserat.figures.style import BODY, INK, canvas
-from cosserat.problems.crawl import Crawl
 
 Array = NDArray[np.float64]
 _INTERVAL = 80  # from one frame to the next [ms]
 
 
-def animate(data: xr.Dataset, frames: int) -> FuncAnimation:
+def animate(data: xr.Dataset, frames: int = FRAMES) -> FuncAnimation:
     """A crawl seen from the side, with the time in the title; lengths are true to scale, in cm.
 
     frames : most instants shown, at equal distances.
     """
-    radius, count = 1e2 * problem_of(data, Crawl).crawler.radius, data.sizes["time"]
+    radius, count = 1e2 * resting_radius(data), data.sizes["time"]
     chosen = np.unique(np.linspace(0, count - 1, min(count, frames)).round().astype(int))
     along, top = 1e2 * data.along.to_numpy(), 2 * radius * data.mu_1.to_numpy()
     thin, foot = data.advancing.to_numpy() > 0.5, 1e2 * data.anchor_along.to_numpy()
-    limits = (along.min() - 2 * radius, along.max() + 2 * radius), (-radius, top.max() + radius)
+    margin = float(np.max(radius))
+    limits = (along.min() - 2 * margin, along.max() + 2 * margin), (-margin, top.max() + margin)
     flat = (limits[1][1] - limits[1][0]) / (limits[0][1] - limits[0][0])
     figure, (ax,) = canvas(7.2, 1.3 + 6.3 * flat)
     body, advancing = (PolyCollection([], facecolor=colour, edgecolor=INK) for colour in (BODY, THINNED))
@@ -48,7 +48,7 @@ def animate(data: xr.Dataset, frames: int) -> FuncAnimation:
         ax.set_title(f"{data.attrs['title']}, t = {data.time.to_numpy()[frame]:.2f} s")
         return [body, advancing, anchor]
 
-    return FuncAnimation(figure, draw, frames=chosen.tolist(), interval=_INTERVAL, init_func=list)
+    return FuncAnimation(figure, draw, frames=chosen.tolist(), interval=_INTERVAL)
 
 
 def _outline(along: Array, top: Array) -> Array:

@@ -92,6 +92,25 @@ def test_pictures_and_animations_that_cannot_be_are_one_sentence(solved, tmp_pat
         cosserat.plot(numbers_only)
 
 
+def test_the_modes_of_any_rod_are_one_call():
+    """Of a slender cantilever without load, beside Euler and Bernoulli's closed form."""
+    case = cosserat.case("elastica").vary("free", forces=[])
+    found, rod = cosserat.modes(case, 2), case.problem.rod
+    bending = rod.young * rod.width * rod.height**3 / 12
+    roots = np.array([1.8751040687, 4.6940911330])
+    exact = (roots / rod.length) ** 2 * np.sqrt(bending / rod.line_density) / (2 * np.pi)
+    np.testing.assert_allclose(found.natural_frequency, exact, rtol=5e-4)
+    assert found.attrs["case"] == "free_modes"
+    for args, sentence in [
+        (("worm", 2), "is of kind 'crawl'; use one of kind 'rod statics' or"),
+        (("elastica", 0), "'count' is 0; it must be at least 1"),
+        (("elastic", 2), "did you mean 'elastica'?"),
+        ((3, 2), "modes takes a case or the name of a published one, not 3"),
+    ]:
+        with pytest.raises(InputError, match=re.escape(sentence)):
+            cosserat.modes(*args)
+
+
 # ---------------------------------------------------------------- animations
 
 
