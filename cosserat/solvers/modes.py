@@ -21,7 +21,7 @@ Dense = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 MOST_DENSE = 1200
 """Free DOFs up to which all eigenvalues are found by dense methods; beyond, a few by sparse ones."""
-FEW = 4
+FEW = 5
 """Free DOFs for each mode that is asked for, below which all are found."""
 _SHIFT = 100.0  # of the round-off, from which squared frequencies of a free body are first sought
 _ROUND_OFF_FRACTION = 16 * float(np.finfo(float).eps)  # of the largest squared frequency

@@ -12,7 +12,7 @@ from matplotlib.text import Annotation, Text
 
 import cosserat
 from cosserat.errors import InputError
-from cosserat.figures import crawlers, motion, rod
+from cosserat.figures import crawlers, motion, path, rod
 from cosserat.figures.style import settings, write
 from cosserat.thesis.figures.catalogue import FIGURES, draw, draw_to
 from cosserat.thesis.table import readouts
@@ -454,3 +454,17 @@ def test_necking_is_drawn_over_the_range_of_the_data_with_the_decay_that_each_ro
     assert min(value for label, value in off.items() if label != free) > 2e-2
     lowest = min(points[:, 1].min() for points in curves(printed).values())
     assert lowest < -4  # the misprint's curve has a range of its own
+
+
+def test_the_picture_of_a_path_marks_its_special_points(solved):
+    data = solved["arch_path"]
+    right = path.picture(data).axes[1]
+    shown = {label: line for label, line in curves(right).items() if "limit point" in label}
+    loads = data.special_load_factor.to_numpy()
+    assert list(shown) == [
+        f"limit point, first instability at {loads[0]:.4g}",
+        f"limit point at {loads[1]:.4g}",
+    ]
+    assert [line[0, 1] for line in shown.values()] == list(loads)
+    placed = np.linalg.norm(data.special_x.to_numpy() - data.x_ref.to_numpy(), axis=2).max(axis=1)
+    assert [line[0, 0] for line in shown.values()] == list(placed)

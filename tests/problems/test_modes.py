@@ -186,6 +186,15 @@ def test_the_modes_of_a_motion_are_about_its_reference():
     np.testing.assert_allclose(found["x"], found["x_ref"], atol=0)
 
 
+def test_about_the_reference_no_load_counts():
+    force = [{"at": "last", "along": "E2", "force": 500.0}]
+    bent, straight = (modes(11, 3, forces=force, about=about) for about in ("equilibrium", "reference"))
+    free = modes(11, 3)["natural_frequency"]
+    np.testing.assert_allclose(straight["natural_frequency"], free, rtol=1e-12)
+    assert np.abs(bent["natural_frequency"] / free - 1).max() > 1e-3
+    assert not straight["support_force"].any()
+
+
 def test_a_fine_mesh_has_the_same_modes_by_the_sparse_method(monkeypatch):
     from cosserat.solvers import modes as solver
 
