@@ -6,12 +6,13 @@ of the reference length: 0 the rear end, 1 the front end.
 
 from __future__ import annotations
 
+import bisect
+import functools
 import itertools
 import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Self
 
-import numpy as np
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
@@ -107,8 +108,16 @@ class Gait(Parameters):
     def tracks(self, kind: str) -> tuple[Track, ...]:
         """The tracks of the fronts "gamma" or "eta", or of the "anchor", those measured in phases and fractions."""
         given: tuple[Track, ...] = getattr(self, kind)
-        own = (m for m in self.measured if m.front == kind)
-        return given + tuple(tuple((self.phase(t), at / m.length) for t, at in m.table) for m in own)
+        return given + tuple(
+            track for m, track in zip(self.measured, self._converted, strict=True) if m.front == kind
+        )
+
+    @functools.cached_property
+    def _converted(self) -> tuple[Track, ...]:
+        """The measured tracks in phases and fractions."""
+        return tuple(
+            tuple((self.phase(time), at / m.length) for time, at in m.table) for m in self.measured
+        )
 
     def breaks(self) -> list[float]:
         """Phases at which a track or a load begins, ends or turns, and the ends of all phases, increasing."""
@@ -383,7 +392,11 @@ def _follow(track: Track, phase: float) -> float | None:
 
 
 def _place(track: Track, phase: float) -> float:
-    return float(np.interp(phase, *np.transpose(track)))
+    ahead = bisect.bisect_right(track, phase, key=lambda point: point[0])
+    if ahead in (0, len(track)):
+        return track[max(0, ahead - 1)][1]
+    (begin, start), (end, stop) = track[ahead - 1], track[ahead]
+    return (stop - start) / (end - begin) * (phase - begin) + start
 
 
 def _load_behind(kind: str) -> Muscle:
