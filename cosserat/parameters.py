@@ -182,7 +182,7 @@ class Parameters(BaseModel):
         """The values without dropped keys; a "none" that drops nothing is an error."""
         if not isinstance(values, Mapping):
             return values
-        kept = {}
+        kept: dict[str, Any] = {}
         for key, value in values.items():
             field = cls.model_fields.get(key)
             word = field is not None and (
