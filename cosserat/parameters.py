@@ -155,10 +155,8 @@ def _reads_none(annotation: Any) -> bool:
     """Whether "none" is a word of this type, and not the name of a file or the like."""
     if isinstance(annotation, Reader):
         return _reads_none(annotation.alternatives)
-    if isinstance(annotation, OneOf):
-        return "none" in annotation.registry
-    if get_origin(annotation) is Literal:
-        return "none" in get_args(annotation)
+    if isinstance(annotation, OneOf) or get_origin(annotation) is Literal:
+        return "none" in (annotation.registry if isinstance(annotation, OneOf) else get_args(annotation))
     marks = getattr(
         annotation, "__metadata__", ()
     )  # with a mark, the type is only that of the checked value
@@ -184,7 +182,7 @@ class Parameters(BaseModel):
         """The values without dropped keys; a "none" that drops nothing is an error."""
         if not isinstance(values, Mapping):
             return values
-        kept = {}
+        kept: dict[str, Any] = {}
         for key, value in values.items():
             field = cls.model_fields.get(key)
             word = field is not None and (
@@ -192,8 +190,7 @@ class Parameters(BaseModel):
                 or any(map(_reads_none, field.metadata or [field.annotation]))
             )
             if isinstance(value, Dropped):
-                if value and word:
-                    kept[key] = str(value)
+                kept |= {key: str(value)} if value and word else {}
                 continue
             if isinstance(value, str) and value == "none" and field is not None and not word:
                 raise PydanticCustomError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cosserat.data.crawler_variables import CRAWLERS
 from cosserat.publications import publications
 from cosserat.solution import Variable
 
@@ -202,38 +203,7 @@ VARIABLES: dict[str, Variable] = {
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7
     ),
-    "xi_section": Variable(
-        ("section",), "m", "reference arc length of the cross-sections", r"\xi", "1.3.1", 1e-14
-    ),
-    "resting_radius": Variable(
-        ("section",), "m", "radius of the resting sections of a body that varies", "R", "2.2.8", 1e-14
-    ),
-    "mu_1": Variable(("section",), "1", "vertical stretch of the sections", r"\mu_1", "1.3.6", 1e-9),
-    "mu_2": Variable(("section",), "1", "stretch of the sections across", r"\mu_2", "1.3.6", 1e-9),
-    "mu_3": Variable(("section",), "1", "stretch of the centreline", r"\mu_3", "1.3.6", 1e-9),
-    "mu_1_slope": Variable(
-        ("section",), "m-1", "gradient of the vertical stretch", r"\mu_1'", "1.3.7", 1e-6
-    ),
-    "along": Variable(("section",), "m", "position along the ground", "z", "2.5.11", 1e-10),
-    "height": Variable(
-        ("section",), "m", "height of the centreline over its reference", "x", "2.5.7", 1e-11
-    ),
-    "p_coelom": Variable(("section",), "Pa", "coelomic pressure", r"p_{coelom}", "2.8.8", 1e-6),
-    "advancing": Variable(
-        ("section",), "1", "one where advancing loads act, else zero", "", "2.2.9", 1e-9
-    ),
-    "muscle_force": Variable(
-        ("section",), "N", "force of the longitudinal muscles", r"\bar{D}", "2.2.7", 1e-12
-    ),
-    "muscle_pressure": Variable(
-        ("section",), "Pa", "pressure of the circular muscles", "p", "2.2.8", 1e-9
-    ),
-    "anchor": Variable(
-        ("time",), "m", "reference arc length of the anchored point", r"\xi_A", "2.5.10", 1e-14
-    ),
-    "anchor_along": Variable(
-        ("time",), "m", "position of the anchored point", r"z(\xi_A)", "2.5.10", 1e-10
-    ),
+    **CRAWLERS,
     "load_factor": Variable(("point",), "1", "fraction of the full load", "", "3.3.40", 1e-9),
     "stable": Variable(
         ("point",), "1", "one where the potential has a minimum, else zero", "", "3.4.7", 1e-9

@@ -6,26 +6,23 @@ of the reference length: 0 the rear end, 1 the front end.
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Self
 
-import numpy as np
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters, Quantity
 from cosserat.peristalsis import chambers as scheduled
-from cosserat.peristalsis.chambers import Chamber, Phase, Place, RampForm, State
+from cosserat.peristalsis.chambers import Chamber, RampForm, State
 from cosserat.peristalsis.measured import Measured
 from cosserat.peristalsis.region import Muscle, Region
+from cosserat.peristalsis.tracks import PHASE_TOLERANCE, Track, follow, place_of
 
-Track = tuple[tuple[Phase, Place], ...]
-"""A piecewise-linear path: points (phase, place)."""
-
-_PHASE_TOLERANCE = 1e-9  # phases closer than this are one
 _BREAK_OFFSET = 1e-7  # distance from a break at which its two sides are compared, in phases
 _CHANGE_TOLERANCE = 1e-4  # fraction of the body that fronts pass between those sides, and the clearance
 _MAX_INSTANTS = 100_000
@@ -107,8 +104,16 @@ class Gait(Parameters):
     def tracks(self, kind: str) -> tuple[Track, ...]:
         """The tracks of the fronts "gamma" or "eta", or of the "anchor", those measured in phases and fractions."""
         given: tuple[Track, ...] = getattr(self, kind)
-        own = (m for m in self.measured if m.front == kind)
-        return given + tuple(tuple((self.phase(t), at / m.length) for t, at in m.table) for m in own)
+        return given + tuple(
+            track for m, track in zip(self.measured, self._converted, strict=True) if m.front == kind
+        )
+
+    @functools.cached_property
+    def _converted(self) -> tuple[Track, ...]:
+        """The measured tracks in phases and fractions."""
+        return tuple(
+            tuple((self.phase(time), at / m.length) for time, at in m.table) for m in self.measured
+        )
 
     def breaks(self) -> list[float]:
         """Phases at which a track or a load begins, ends or turns, and the ends of all phases, increasing."""
@@ -138,7 +143,7 @@ class Gait(Parameters):
         whole = max(
             n
             for n, start in enumerate(starts)
-            if n == 0 or time >= start - _PHASE_TOLERANCE * self.phases[n]
+            if n == 0 or time >= start - PHASE_TOLERANCE * self.phases[n]
         )
         return whole + max(0.0, (time - starts[whole]) / self.phases[whole])
 
@@ -172,11 +177,11 @@ class Gait(Parameters):
         found = []
         for kind in ("gamma", "eta"):
             for track in self.tracks(kind):
-                place = _follow(track, phase)
+                place = follow(track, phase)
                 if place is not None:
                     inside = phase - _BREAK_OFFSET if phase > track[0][0] else phase + _BREAK_OFFSET
                     found.append(
-                        (place, _place(track, inside), kind)
+                        (place, place_of(track, inside), kind)
                     )  # two at one end: in their order inside the body
         return [(place, kind) for place, _, kind in sorted(found)]
 
@@ -202,7 +207,7 @@ class Gait(Parameters):
     def anchored(self, phase: float) -> float:
         """The place anchored to the ground."""
         for track in self.tracks("anchor"):
-            place = _follow(track, phase)
+            place = follow(track, phase)
             if place is not None:
                 return place
         raise AssertionError("the tracks of the anchor were checked to cover the stride")
@@ -223,7 +228,7 @@ class Gait(Parameters):
             )
         phases = self.breaks()
         for number, duration in enumerate(self.phases):
-            count = math.ceil(duration / step - _PHASE_TOLERANCE)
+            count = math.ceil(duration / step - PHASE_TOLERANCE)
             phases.extend(number + k / count for k in range(count + 1))
         return [Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in _distinct(phases)]
 
@@ -231,7 +236,7 @@ class Gait(Parameters):
         for number, measured in enumerate(self.measured):
             for time, place in measured.table:
                 if not (
-                    0 <= time <= self.duration * (1 + _PHASE_TOLERANCE) and 0 <= place <= measured.length
+                    0 <= time <= self.duration * (1 + PHASE_TOLERANCE) and 0 <= place <= measured.length
                 ):
                     raise PydanticCustomError(
                         "gait",
@@ -253,7 +258,7 @@ class Gait(Parameters):
         for number, chamber in enumerate(self.chambers):
             for state in scheduled.states(chamber, self.at_rest, self.last):
                 lasts = self.time(state.end) - self.time(state.begin)
-                if (state.rises + state.falls) * self.ramp > lasts * (1 + _PHASE_TOLERANCE):
+                if (state.rises + state.falls) * self.ramp > lasts * (1 + PHASE_TOLERANCE):
                     raise PydanticCustomError(
                         "gait",
                         f"'ramp' is {self.ramp:g} s, too long for the state '{state.load}' of 'chambers.{number}', "
@@ -270,7 +275,7 @@ class Gait(Parameters):
                 raise PydanticCustomError(
                     "gait", f"{name} goes from phase {a:g} to phase {b:g}; let its times increase"
                 )
-        if track[-1][0] > len(self.phases) + _PHASE_TOLERANCE:
+        if track[-1][0] > len(self.phases) + PHASE_TOLERANCE:
             raise PydanticCustomError(
                 "gait",
                 f"{name} ends at phase {track[-1][0]:g}, but 'phases' has {len(self.phases)}; end it there",
@@ -287,7 +292,7 @@ class Gait(Parameters):
         anchors = sorted(self.tracks("anchor"), key=lambda track: track[0][0])
         for track in (*anchors, None):
             begins = len(self.phases) if track is None else track[0][0]
-            if abs(begins - expected) > _PHASE_TOLERANCE:
+            if abs(begins - expected) > PHASE_TOLERANCE:
                 what = "overlaps" if begins < expected else "has a gap"
                 raise PydanticCustomError(
                     "gait",
@@ -319,10 +324,10 @@ class Gait(Parameters):
             (kind, track)
             for kind in ("gamma", "eta", "anchor")
             for track in self.tracks(kind)
-            if _follow(track, middle) is not None
+            if follow(track, middle) is not None
         ]
         for (first, one), (second, other) in itertools.combinations(active, 2):
-            before, after = (_place(one, p) - _place(other, p) for p in (begin, end))
+            before, after = (place_of(one, p) - place_of(other, p) for p in (begin, end))
             if before * after < 0:
                 phase = begin + (end - begin) * before / (before - after)
                 raise PydanticCustomError(
@@ -370,20 +375,7 @@ def _changed(before: tuple[Region, ...], after: tuple[Region, ...]) -> float:
 def _distinct(phases: list[float]) -> list[float]:
     """Phases in increasing order, without duplicates."""
     ordered = sorted(phases)
-    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > _PHASE_TOLERANCE]
-
-
-def _follow(track: Track, phase: float) -> float | None:
-    """The place of a track at a time; it begins just after its first point, except at the start of the stride."""
-    begin, end = track[0][0], track[-1][0]
-    near = _PHASE_TOLERANCE
-    if phase > end + near or phase < begin - near or (phase < begin + near and begin > near):
-        return None
-    return _place(track, phase)
-
-
-def _place(track: Track, phase: float) -> float:
-    return float(np.interp(phase, *np.transpose(track)))
+    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > PHASE_TOLERANCE]
 
 
 def _load_behind(kind: str) -> Muscle:
