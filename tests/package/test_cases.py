@@ -175,8 +175,7 @@ def test_all_faults_of_a_case_are_named_together(load_mine):
         ),
         (
             'kind = "rod statics"\nsupports = []\nrod.section = { shape = "rectangle" }',
-            "'rod.section.shear_factor' is missing, factor of the shear stiffness k mu A, k of eq. (3.4.13): "
-            "write a number, such as 0.3",
+            "'rod.section.shear_factor' is missing, factor k of the shear stiffness k mu A: write a number above 0",
         ),
         (
             'kind = "rod statics"\nsupports = []\nrod.length = "1 m"',

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import ROOT
+from conftest import ROOT, examples
 
 import cosserat
 from cosserat.data import dataset as files
@@ -42,11 +42,12 @@ def test_every_variable_has_a_description(solved):
 
 
 def test_every_described_variable_is_written(solved):
-    """Variables of a user's energy, load, point or varying crawler are not in a published case."""
-    own = {"internal_variables", "other_dofs", "other_rates"}
+    """Variables of a user's energy, load, point or varying crawler are in no published case and no example."""
+    own = {"mode_u_imaginary", "mode_delta_imaginary", "internal_variables", "other_dofs", "other_rates"}
     own |= {"resting_radius", "muscle_force", "muscle_pressure"}
     own |= {"probe", "probe_displacement", "probe_rotation"}
-    written = {str(name) for data in solved.values() for name in data.variables}
+    every = [solved[name] for name in (*solved, *examples())]
+    written = {str(name) for data in every for name in data.variables}
     assert written | own == set(VARIABLES) | set(LABELS)
     assert not written & own
 

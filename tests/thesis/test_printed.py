@@ -1,6 +1,7 @@
 """Every case of the thesis has the inputs that the thesis prints."""
 
 import re
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -60,16 +61,24 @@ def flat(table, defaults, prefix=""):
         if field is not None and not field.is_required() and value == plain(field.default):
             continue
         if isinstance(value, dict):
-            inner = getattr(field.annotation, "model_fields", {}) if field is not None else {}
+            inner = fields_of(field.annotation) if field is not None else {}
             yield from flat(value, inner, f"{prefix}{key}.")
         else:
             yield f"{prefix}{key}"
+
+
+def fields_of(annotation):
+    """The keys of a table that may be left out or not."""
+    classes = [annotation, *get_args(annotation)]
+    return next((c.model_fields for c in classes if hasattr(c, "model_fields")), {})
 
 
 def holds(held, value):
     """A number to rounding; of a table only the keys that the page gives."""
     if isinstance(held, float):
         return value == pytest.approx(held, rel=1e-12)
+    if isinstance(held, list) and len(held) == len(value):
+        return all(map(holds, held, value))
     if isinstance(held, dict):
         return all(value[key] == inner for key, inner in held.items())
     return value == held
