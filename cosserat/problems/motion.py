@@ -63,11 +63,11 @@ class RodMotion(RodProblem):
 
     @model_validator(mode="after")
     def _starts_as_it_can(self) -> Self:
-        if self.start.shape != "reference" and self.rod.curvature:
+        if self.start.shape != "reference" and not self.rod.rest.straight:
             raise PydanticCustomError(
                 "start",
-                f"has start.shape = '{self.start.shape}', which is that of a straight rod, and 'rod.curvature' = "
-                f"{self.rod.curvature:g}; begin from the 'reference' or take a straight rod",
+                f"has start.shape = '{self.start.shape}', which is that of a straight rod, but 'rod.rest' is not "
+                "straight; begin from the 'reference' or take a straight rod",
             )
         return self
 

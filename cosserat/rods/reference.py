@@ -60,17 +60,27 @@ class Geometry:
         return cls(X, D)
 
     @classmethod
-    def arc(cls, arc: Array, director_length: Array, curvature: float) -> Geometry:
-        """A rod bent from the origin into an arc from E3 towards E2, its directors along b, eq. (3.3.25).
+    def arc(
+        cls,
+        arc: Array,
+        director_length: Array,
+        curvature: float | Array,
+        origin: Array | None = None,
+        angle: float = 0.0,
+    ) -> Geometry:
+        """A rod bent into an arc from E3 towards E2, or into several, its directors along b, eq. (3.3.25).
 
         arc : (N,) arc length of the vertices along the polygon, which lie on a circle [m].  The directors are
         orthogonal to the vertex tangents, so there is no intrinsic shear between equal edges.
+        curvature : of every edge, or one for all [1/m].  origin : (2,) [m], zero by default, and angle [rad]: where
+        and in which direction from E3 the arc begins.
         """
         edge = np.diff(arc)
         turn = 2 * np.arcsin(curvature * edge / 2)
-        angles = np.cumsum(turn) - turn / 2
+        angles = angle + np.cumsum(turn) - turn / 2
         steps = edge[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
         X = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
+        X = X if origin is None else X + origin
         tangents = vertex_tangents(X)
         return cls(X, director_length[:, None] * np.column_stack([-tangents[:, 1], tangents[:, 0]]))
 

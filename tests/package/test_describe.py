@@ -218,6 +218,7 @@ SIDES = {"height": "0.3 m", "width": "0.2 m", "shear_factor": 0.5}
 CHOICES = {
     "compressible": {"kind": "compressible", "young": "10 kPa", "poisson": 0.3},
     "incompressible": {"kind": "incompressible", "young": "2 kPa"},
+    "arc": {"kind": "arc", "curvature": "0 1/m"},
     "rectangle": SIDES,
     "square": {"side": "0.2 m", "shear_factor": 1},
     "hollow rectangle": SIDES | {"wall": "2 cm"},

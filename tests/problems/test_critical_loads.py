@@ -187,7 +187,11 @@ ARCH = reissner.Rod.rectangle(SPAN, 0.02, 0.02, YOUNG, curvature=CURVATURE)
 
 def arch(vertices, force=1.0):
     """A shallow clamped arch, pushed in at its crown."""
-    rod = {"vertices": vertices, "curvature": CURVATURE, "section": {"height": 0.02, "width": 0.02}}
+    rod = {
+        "vertices": vertices,
+        "rest": {"kind": "arc", "curvature": CURVATURE},
+        "section": {"height": 0.02, "width": 0.02},
+    }
     inward = [-np.sin(CURVATURE / 2), np.cos(CURVATURE / 2)]
     given = {
         "rod": rod,

@@ -57,7 +57,7 @@ def rod(name, number):
         "length": 1.0,
         "section": given_rod.section.replace(height=0.2, width=0.1),
         "material": MATERIAL | {"line_density": given_rod.line_density},
-        "curvature": 0.6,
+        "rest": {"kind": "arc", "curvature": 0.6},
         "centreline": 0.4,
         "stations": [{"at": 0.2}, {"at": 0.8, "height": 0.7, "young": 1.5}],
     }
@@ -65,7 +65,7 @@ def rod(name, number):
         changes["calibration"] = given_rod.calibration.replace(c5=0.3, c6=0.2)
     options = dict(OPTIONS[name][number])
     if options.get("intrinsic_curvature"):
-        changes["curvature"] = 0.0
+        changes["rest"] = {"kind": "straight"}
     return Rod.read({**dict(given_rod), **changes, **options}, "rod", units_required=False)
 
 

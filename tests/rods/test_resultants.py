@@ -20,7 +20,7 @@ RODS = {
     "published": {},
     "consistent": CONSISTENT,
     "off-centre": {**CONSISTENT, "centreline": 0.3},
-    "curved": {**CONSISTENT, "curvature": 0.1},
+    "curved": {**CONSISTENT, "rest": {"kind": "arc", "curvature": 0.1}},
 }
 every_rod = pytest.mark.parametrize("name", RODS)
 

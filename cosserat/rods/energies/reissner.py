@@ -50,7 +50,7 @@ class Reissner(Energy):
             geometry.arc_length,
             rod.section.along(rod.material, rod.lateral_constraint),
             offset=(rod.section.centre - rod.centreline) * rod.height,
-            curvature=rod.curvature,
+            curvature=rod.rest.curvatures(geometry.arc_length),
         )
         heights = rod.height_fractions(geometry.arc_length)
         return potential(
