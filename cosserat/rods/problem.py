@@ -19,6 +19,7 @@ from cosserat.rods.constraints import (
     RodConstraints,
     Support,
 )
+from cosserat.rods.imperfections import AnyImperfection
 from cosserat.rods.loads.couples import Couple, LineCouple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
 from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
@@ -86,6 +87,9 @@ class RodProblem(Problem):
     probes: tuple[Probe, ...] = ()
     """Points whose displacements and rotations are stored by name; "modes" and "critical loads" have none to store."""
 
+    imperfection: AnyImperfection | None = None
+    """Small deviation of the unloaded rod from its shape at rest, without stress."""
+
     def loads_of(self, key: str) -> tuple[Load, ...]:
         """The loads of one kind."""
         given = getattr(self, key, None)
@@ -104,8 +108,14 @@ class RodProblem(Problem):
 
     @property
     def geometry(self) -> Geometry:
-        """The reference configuration of the rod."""
-        return self.rod.geometry(self.arc_length)
+        """The reference configuration of the rod, with its imperfection.
+
+        Raises
+        ------
+        InputError : the imperfection does not fit the rod.
+        """
+        perfect = self.rod.geometry(self.arc_length)
+        return self.imperfection.applied(self, perfect) if self.imperfection else perfect
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -194,6 +204,10 @@ class RodProblem(Problem):
             for level in dict.fromkeys(load.time_function for load in loads if load.time_function):
                 alike = [load for load in loads if load.time_function == level]
                 yield replace(kind.potential(alike, body), level=level)
+
+    def unloaded_rod(self, geometry: Geometry) -> MechanicalSystem:
+        """The supported rod without loads and damping, in displacements."""
+        return RodProblem.system(self, geometry).unloaded()
 
     def _constraints(self, geometry: Geometry) -> RodConstraints:
         parts = [item.part(self.rod, geometry) for _, item in self.constraints()]

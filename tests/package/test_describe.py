@@ -219,6 +219,8 @@ CHOICES = {
     "compressible": {"kind": "compressible", "young": "10 kPa", "poisson": 0.3},
     "incompressible": {"kind": "incompressible", "young": "2 kPa"},
     "arc": {"kind": "arc", "curvature": "0 1/m"},
+    "bow": {"kind": "bow", "amplitude": "1 mm"},
+    "mode": {"kind": "mode", "amplitude": "1 mm"},
     "rectangle": SIDES,
     "square": {"side": "0.2 m", "shear_factor": 1},
     "hollow rectangle": SIDES | {"wall": "2 cm"},
