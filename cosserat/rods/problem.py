@@ -25,6 +25,7 @@ from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
 from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
 from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.loads.pressure import Pressure
+from cosserat.rods.loads.strains import PreStrain, Temperature
 from cosserat.rods.places import check_place, mesh
 from cosserat.rods.probes import Probe, check_names
 from cosserat.rods.reference import Geometry
@@ -45,6 +46,8 @@ LOADS: dict[str, type[Load]] = {
     "follower_forces": FollowerForce,
     "follower_line_loads": FollowerLineLoad,
     "pressures": Pressure,
+    "prestrains": PreStrain,
+    "temperatures": Temperature,
 }
 """Kinds of loads by their key in a case."""
 CONSTRAINTS: dict[str, type[Constraint]] = {
@@ -80,6 +83,10 @@ class RodProblem(Problem):
     """Forces per length that turn with the sections, each over a stretch of the rod."""
     pressures: tuple[Pressure, ...] = ()
     """Pressures on the upper or the lower surface, each over a stretch of the rod."""
+    prestrains: tuple[PreStrain, ...] = ()
+    """Prescribed extensions and curvatures, each over a stretch of the rod."""
+    temperatures: tuple[Temperature, ...] = ()
+    """Changes of temperature, each over a stretch of the rod."""
     prescribed_displacements: tuple[PrescribedDisplacement, ...] = ()
     """Prescribed displacements of fixed degrees of freedom."""
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()

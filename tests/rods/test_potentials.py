@@ -34,6 +34,12 @@ LOAD_EXAMPLES = {
     "gravity": [{"g": 3.0, "along": "-E2"}],
     "line_loads": [{"along": "E2", "density": 2.0, "start": 0.1}],
     "forces": [{"at": "last", "along": "E3", "force": 0.7}, {"at": 2, "along": "E2", "force": -0.2}],
+    "prestrains": [
+        {"extension": 0.1, "start": 0.1, "end": 0.7},
+        {"curvature": 0.4},
+        {"section": -0.2, "start": 0.3},
+    ],
+    "temperatures": [{"change": 4e3, "gradient": 5e3, "expansion": 2e-5, "end": 0.9}],
     "couples": [{"at": "last", "moment": 0.4}, {"at": 1, "moment": -0.3}],
     "line_couples": [{"density": 0.4, "start": 0.13}],
     "follower_forces": [

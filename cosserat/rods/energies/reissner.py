@@ -145,6 +145,32 @@ def potential(
     )
 
 
+def stressed(energy: Potential, extension: Array, curvature: Array, section: Array) -> Potential:
+    """Minus the work of the stresses that some strains need, on the measures of the rod.
+
+    energy : without barrier.  extension [1], curvature [1/m] : (N - 1,) of the edges.  section : (N,) strain of the
+    sections [1].
+    """
+    stress = energy.constants.copy()
+    wide = (section[:-1] + section[1:]) / 2
+    volume = (1 + extension) * (1 + wide) - 1 if stress["product"][0] else extension + wide
+    measures = {
+        "k_axial": extension,
+        "k_volume": volume,
+        "k_bending": curvature,
+        "k_stretch_gradient": np.diff(section),
+    }
+    for name, values in measures.items():
+        stress[name][:-1] *= values
+    stress["k_section"] *= section
+    return Potential(
+        evaluate=reissner_kernel.stressed,
+        constants=stress,
+        terms=("stress-free strains",),
+        half_bandwidth=energy.half_bandwidth,
+    )
+
+
 def centre_edges(constants: NDArray[np.void], x: Array, d: Array) -> Array:
     """Edges between area centres, (N - 1, 2) [m], of vertices and directors (N, 2) [m]."""
     low, high = constants["low"][:-1, None], constants["high"][:-1, None]
