@@ -113,14 +113,18 @@ class Rod(Parameters):
                 "range",
                 f"'stations' has one at {places[-1]:g} m, but the rod goes from 0 to {self.length:g} m; move it",
             )
-        self.rest.check("rest", self.length)
-        turns = np.diff(self.rest.angles(np.linspace(0.0, self.length, self.vertices)))
+        self.check_shape("rest", self.rest)
+        return self
+
+    def check_shape(self, key: str, shape: Shape) -> None:
+        """Raise PydanticCustomError if it cannot have a shape; key : the name of the shape."""
+        shape.check(key, self.length)
+        turns = np.diff(shape.angles(np.linspace(0.0, self.length, self.vertices)))
         if np.abs(turns).max() >= 1:
             raise PydanticCustomError(
                 "range",
-                "'rest' rotates an edge by more than a radian; use more 'vertices' or a smaller curvature",
+                f"'{key}' rotates an edge by more than a radian; use more 'vertices' or a smaller curvature",
             )
-        return self
 
     @property
     def strain_energy(self) -> Energy:

@@ -169,6 +169,12 @@ prescribed_displacements = [{ at = "first", dof = "x2", by = "1 cm" }]
 prescribed_rotations = [{ at = "last", by = "1 deg" }]
 """
 """One rule at a time: only loads that bear any number of vertices and any length."""
+STRAINS = {
+    "rod": {"energy": "consistent", "calibration": "none"},
+    "prestrains": [{"extension": 0.0}],
+    "temperatures": [{"expansion": "1e-5 1/K"}],
+}
+"""Loads that only one energy takes."""
 
 
 def base(kind):
@@ -308,6 +314,8 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
     for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
         if path == "gait.chambers":
             case = put(case, "gait", CHAMBERS)
+        if path.startswith(("prestrains", "temperatures")):
+            case = catalogue._merge(case, STRAINS)
         there = chosen(case, key)
         for mark in marks(whole(field))[:1]:
             unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit

@@ -180,7 +180,7 @@ def test_the_load_shifts_the_strains_of_the_energy(constraint, centreline):
     thick = rod(6, rod=changes).problem.rod
     energy = thick.strain_energy.potential(thick, thick.geometry())
     extension, curvature = np.linspace(0.01, 0.05, 5), np.linspace(-0.3, 0.2, 5)
-    load = stressed(energy, extension, curvature, np.linspace(0.02, -0.03, 6))
+    load = stressed(energy, extension, curvature, np.linspace(0.02, -0.03, 6), 0.01)
     q, other = random_state(thick, 1, 0.1, 0.4), random_state(thick, 2, 0.1, 0.3)
     _, gradient, hessian = assembled(load, q)
     by_energy = jacobian(load.energy, q, 1e-6)
@@ -188,9 +188,10 @@ def test_the_load_shifts_the_strains_of_the_energy(constraint, centreline):
     np.testing.assert_allclose(gradient, by_energy, atol=1e-6 * np.abs(gradient).max())
     np.testing.assert_allclose(hessian, by_gradient, atol=1e-6 * np.abs(hessian).max())
     if constraint == "free":
-        load = stressed(energy, extension, curvature, np.zeros(6))
+        load = stressed(energy, extension, curvature, np.zeros(6), 0.01)
         moved = energy.constants.copy()
         moved["axial"][:-1] += moved["edge"][:-1] * extension
+        moved["slide"][:-1] += moved["edge"][:-1] * 0.01
         moved["turn"][:-1] += moved["edge"][:-1] * curvature
         shifted = cosserat.solvers.potential.Potential(energy.evaluate, moved, energy.terms, 7)
         work = [shifted.energy(x) - energy.energy(x) - load.energy(x) for x in (q, other)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -145,11 +146,25 @@ def potential(
     )
 
 
-def stressed(energy: Potential, extension: Array, curvature: Array, section: Array) -> Potential:
+def measured_from(rest: Potential, energy: Potential) -> Potential:
+    """The energy with its strains measured from the reference of another one; its DOFs stay what they are."""
+    constants = energy.constants.copy()
+    for name in ("axial", "slide", "turn"):
+        constants[name] = rest.constants[name]
+    return replace(energy, constants=constants)
+
+
+def stressed(
+    energy: Potential,
+    extension: Array,
+    curvature: Array,
+    section: Array,
+    slide: Array | float = 0.0,
+) -> Potential:
     """Minus the work of the stresses that some strains need, on the measures of the rod.
 
-    energy : without barrier.  extension [1], curvature [1/m] : (N - 1,) of the edges.  section : (N,) strain of the
-    sections [1].
+    energy : without barrier.  extension, slide [1], curvature [1/m] : (N - 1,) of the edges.  section : (N,) strain of
+    the sections [1].
     """
     stress = energy.constants.copy()
     wide = (section[:-1] + section[1:]) / 2
@@ -157,6 +172,7 @@ def stressed(energy: Potential, extension: Array, curvature: Array, section: Arr
     measures = {
         "k_axial": extension,
         "k_volume": volume,
+        "k_shear": slide,
         "k_bending": curvature,
         "k_stretch_gradient": np.diff(section),
     }
