@@ -69,6 +69,11 @@ class PosedProblem(RodProblem):
             return system
         return replace(system, internal=measured_from(self._at_rest(), system.internal))
 
+    def energy(self, geometry: Geometry) -> Potential:
+        """The strain energy, a potential of displacements from the pose."""
+        own = super().energy(geometry)
+        return own if self.pose is None else measured_from(self._at_rest(), own)
+
     def _at_rest(self) -> Potential:
         return self.rod.strain_energy.potential(self.rod, _with_normal_ends(super().geometry))
 

@@ -19,13 +19,14 @@ from cosserat.rods.constraints import (
     RodConstraints,
     Support,
 )
+from cosserat.rods.energies.reissner import STRESSES
 from cosserat.rods.imperfections import AnyImperfection
 from cosserat.rods.loads.couples import Couple, LineCouple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
 from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
 from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.loads.pressure import Pressure
-from cosserat.rods.loads.strains import PreStrain, Temperature
+from cosserat.rods.loads.strains import PreStrain, StressFreeStrain, Temperature
 from cosserat.rods.places import check_place, mesh
 from cosserat.rods.probes import Probe, check_names
 from cosserat.rods.reference import Geometry
@@ -211,6 +212,20 @@ class RodProblem(Problem):
             for level in dict.fromkeys(load.time_function for load in loads if load.time_function):
                 alike = [load for load in loads if load.time_function == level]
                 yield replace(kind.potential(alike, body), level=level)
+
+    def energy(self, geometry: Geometry) -> Potential:
+        """The strain energy, a potential of displacements."""
+        return self.rod.strain_energy.potential(self.rod, geometry, displacements=True)
+
+    def stresses(self, geometry: Geometry) -> list[Potential]:
+        """The loads that are stresses of the rod itself, potentials of displacements."""
+        body = LoadedRod(self.rod, geometry, self.rod.strain_energy.reference(geometry))
+        kinds = [
+            kind
+            for key, kind in LOADS.items()
+            if issubclass(kind, StressFreeStrain) and self.loads_of(key)
+        ]
+        return [load for load in self._potentials(body) if load.terms == STRESSES] if kinds else []
 
     def unloaded_rod(self, geometry: Geometry) -> MechanicalSystem:
         """The supported rod without loads and damping, in displacements."""

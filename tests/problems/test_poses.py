@@ -141,6 +141,8 @@ def test_a_motion_starts_in_its_pose_with_the_energy_of_bending():
         start = data.isel(time=0)
         assert float(np.abs(start.x_rate).max()) == float(np.abs(start.d_rate).max()) == 0.0
         assert float(start.strain_energy) == pytest.approx(EI * (2 * np.pi) ** 2 / 2, rel=0.06)
+        bent = EI * ((rest.get("curvature", 0.0)) - pose.get("curvature", 0.0))
+        np.testing.assert_allclose(start.bending_moment[3:-3], -bent, rtol=0.02)
         total = data.strain_energy + data.kinetic_energy
         np.testing.assert_allclose(total, total[0], rtol=1e-6)
         assert float(np.abs(data.x[-1, -1] - data.x[0, -1]).max()) > 0.01

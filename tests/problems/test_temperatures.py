@@ -62,6 +62,7 @@ def test_a_heated_bar_between_walls_pushes(constraint, factor, within):
     data = cosserat.run(case)
     right = factor * EA * ALPHA * 20
     assert float(data.support_force[-1, 0]) == pytest.approx(-right, rel=within)
+    np.testing.assert_allclose(data.normal_force, -right, rtol=within)
     assert np.abs(data.u).max() < 1e-9
 
 
@@ -99,8 +100,9 @@ def test_a_gradient_bows_a_simple_beam_and_bends_a_clamped_one_by_a_moment_alone
     clamps = [{"at": "first", "fixed": CLAMP}, {"at": "last", "fixed": CLAMP}]
     data = cosserat.run(rod(supports=clamps, temperatures=heated(gradient=gradient)))
     assert np.abs(data.x[:, 1]).max() < 1e-12
-    force, d = data.support_force.to_numpy()[-1], data.d.to_numpy()[-1]
-    assert d[0] * force[3] - d[1] * force[2] == pytest.approx(EI * ALPHA * gradient, rel=1e-9)
+    moment = EI * ALPHA * gradient
+    assert float(data.reaction_moment[-1]) == pytest.approx(moment, rel=1e-9)
+    np.testing.assert_allclose(data.bending_moment, moment, rtol=1e-9)
 
 
 def test_a_bar_between_walls_buckles_where_its_push_is_eulers():
@@ -220,6 +222,16 @@ def test_a_bar_heated_at_once_swings_about_its_length_at_rest():
     tip = (data.x - data.x_ref)[:, -1, 0].to_numpy() / (ALPHA * 100 * LENGTH)
     triangle = 2 * (1 - np.abs(1 - 2 * np.linspace(0, 1, 41)))
     np.testing.assert_allclose(tip, triangle, atol=0.08)
+    clamp = data.normal_force[:, 0].to_numpy() / (
+        EA * ALPHA * 100
+    )  # its wave of compression comes from the free end
+    np.testing.assert_allclose(clamp[:8], -1, atol=0.05)
+    ramp = [
+        load | {"time_function": {"kind": "ramp", "duration": period}} for load in heated(change=100)
+    ]
+    slow = cosserat.run(case.vary("slow", temperatures=ramp))
+    level = np.linspace(0, 1, 41)
+    np.testing.assert_allclose(slow.normal_force[:8, 0] / (EA * ALPHA * 100), -level[:8], atol=0.01)
     assert not [text for text in np.atleast_1d(data.attrs.get("warnings", "")) if "balance" in text]
 
 

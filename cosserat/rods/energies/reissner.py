@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+STRESSES = ("stress-free strains",)
+"""The term of a load that is stresses of the rod itself."""
 _STIFF_VOLUME_RATIO = 5.0  # least Lambda over 2 mu of a stiff volume: nu = 0.45 in plane strain
 
 
@@ -182,7 +184,7 @@ def stressed(
     return Potential(
         evaluate=reissner_kernel.stressed,
         constants=stress,
-        terms=("stress-free strains",),
+        terms=STRESSES,
         half_bandwidth=energy.half_bandwidth,
     )
 
