@@ -20,7 +20,7 @@ import numpy as np
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.errors import NotConvergedError
+from cosserat.errors import InputError, NotConvergedError
 from cosserat.rods.energies.reissner import measured_from, stressed
 from cosserat.rods.kinematics import rotated
 from cosserat.rods.loads.strains import is_quadratic
@@ -115,6 +115,15 @@ class PosedProblem(RodProblem):
                 tolerance=solver.tolerance,
             )
         return point, solver
+
+
+def check_unposed(problem: RodProblem) -> None:
+    """Raise InputError for a problem with a pose, where only its shape at rest counts."""
+    if getattr(problem, "pose", None) is not None:
+        raise InputError(
+            "the rod has a 'pose', and modes and critical loads are those of a rod that is loaded from its shape at "
+            "rest; leave 'pose' out"
+        )
 
 
 def _with_normal_ends(geometry: Geometry) -> Geometry:

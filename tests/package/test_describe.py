@@ -224,7 +224,10 @@ SIDES = {"height": "0.3 m", "width": "0.2 m", "shear_factor": 0.5}
 CHOICES = {
     "compressible": {"kind": "compressible", "young": "10 kPa", "poisson": 0.3},
     "incompressible": {"kind": "incompressible", "young": "2 kPa"},
-    "arc": {"kind": "arc", "curvature": "0 1/m"},
+    "straight": {},
+    "arc": {"curvature": "0 1/m"},
+    "curvature": {},
+    "points": {},
     "bow": {"kind": "bow", "amplitude": "1 mm"},
     "mode": {"kind": "mode", "amplitude": "1 mm"},
     "rectangle": SIDES,

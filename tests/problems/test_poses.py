@@ -199,5 +199,7 @@ def test_a_pose_and_a_beam_mode_and_the_published_energy_are_refused():
         cosserat.case("vibration_consistent").vary("x", pose=STRAIGHT)
     with pytest.raises(InputError, match="'pose' needs rod.energy = 'consistent'"):
         cosserat.case("clamped_free").vary("x", pose=STRAIGHT)
+    with pytest.raises(InputError, match="the rod has a 'pose', and modes and critical loads are those"):
+        cosserat.modes(posed(CURL))
     with pytest.raises(InputError, match="'pose' is not a key"):
         cosserat.case("column_path").vary("x", pose=STRAIGHT)
