@@ -179,13 +179,15 @@ page.source(constraints.RotatedDirector.place)
 # %% [markdown]
 # ## Curved references
 #
-# With the key `curvature` the reference is an arc. Its directors are along the Bishop vectors, so there is no intrinsic
+# With `rod.rest = { kind = "arc", ... }` the reference is an arc. Its directors are along the Bishop vectors, so there is no intrinsic
 # shear. By section 3.2 intrinsic quantities are subtracted from the strains. The printed (3.4.11) depends on the whole
 # curvature, so a curved rod would straighten without a load (E3.24). The library subtracts the intrinsic curvature; the
 # printed form is the variant `intrinsic_curvature = "printed"`.
 
 # %%
-hook = cosserat.case("clamped_free").vary("hook", gravity=None, rod={"curvature": "0.3 m^-1"})
+hook = cosserat.case("clamped_free").vary(
+    "hook", gravity=None, rod={"rest": {"kind": "arc", "curvature": "0.3 m^-1"}}
+)
 printed = hook.vary("hook", rod={"intrinsic_curvature": "printed"})
 rested, straightened = (cosserat.run(case).u.sel(axis="E2")[-1].item() for case in (hook, printed))
 print(

@@ -33,6 +33,9 @@ _KINDS = {
     "N*m": "a moment",
     "N*m^2": "a bending stiffness",
     "Pa": "a pressure",
+    "K": "a temperature difference",
+    "K/m": "a temperature gradient",
+    "K^-1": "a thermal expansion",
     "rad": "an angle",
     "rad/s": "an angular speed",
 }

@@ -12,6 +12,7 @@ _PACKAGE = Path(__file__).parents[1]
 _COMPUTING = (
     "errors.py",
     "solution.py",
+    "tables.py",
     "units.py",
     "parameters.py",
     "tables.py",

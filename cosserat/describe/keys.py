@@ -220,7 +220,7 @@ def _value(annotation: Any) -> Value | None:
 def _written(default: Any, value: Value) -> str:
     """A default as a person would write it in a case file."""
     if isinstance(default, BaseModel):
-        return "{}"
+        return f'{{ kind = "{default.kind}" }}' if len(value.tables) > 1 else "{}"  # type: ignore[attr-defined]
     if value.form == "quantity":
         assert isinstance(value.about, Quantity)
         number = f"{default!r}".removesuffix(".0")

@@ -16,13 +16,14 @@ _PREFIXED = [
 ]
 _WORDS = (
     "m in inch ft foot yd mi meter metre g t lb oz s sec second min minute h hr hour day N lbf kgf dyn Pa bar mbar psi "
-    "ksi atm Hz J Nm kNm MNm mNm µNm Nmm Ncm rad deg degree ° º turn rpm % percent ppm g_0 g_n g0 standard_gravity"
+    "ksi atm Hz J Nm kNm MNm mNm µNm Nmm Ncm rad deg degree ° º turn rpm % percent ppm g_0 g_n g0 standard_gravity "
+    "K kelvin mK delta_degC delta_degF"
 )
 WORDS = (*_WORDS.split(), *_PREFIXED)
 """Units of one word in the patterns."""
 COMPOUNDS = (
     *("m^2", "m^3", "m^4", "m^-1", "s^-1", "kg/m", "kg/m^2", "kg/m^3", "kg*m"),
-    *("m/s", "m/s^2", "N/m", "N/m^2", "N/m^3", "N*m", "N*m^2", "rad/m", "rad/s"),
+    *("m/s", "m/s^2", "N/m", "N/m^2", "N/m^3", "N*m", "N*m^2", "rad/m", "rad/s", "K/m", "K^-1"),
 )
 """Compound units; the patterns have each of their spellings with these words."""
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
+from cosserat.problems.posed import check_unposed
 from cosserat.problems.special import scaled, special_fields
 from cosserat.problems.static import check_supports
 from cosserat.rods.problem import RodProblem
@@ -57,6 +58,7 @@ class RodCriticalLoads(RodProblem):
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The critical loads of the rod of another problem; those of a motion have no time function."""
+        check_unposed(problem)
         given = {name: getattr(problem, name) for name in RodProblem.model_fields}
         return cls(**given, newton=getattr(problem, "newton", NewtonSettings()), count=count)
 

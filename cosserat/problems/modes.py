@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Run
+from cosserat.problems.posed import check_unposed
 from cosserat.problems.special import leading
 from cosserat.problems.static import check_supports, equilibrium_solution
 from cosserat.rods.problem import LOADS, RodProblem
@@ -49,6 +50,7 @@ class RodModes(RodProblem):
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The modes of the rod of another problem: about its equilibrium, or about the reference if it is a motion."""
+        check_unposed(problem)
         left = {*LOADS, *_MOVED} if problem.in_time else set()
         given = {name: getattr(problem, name) for name in RodProblem.model_fields if name not in left}
         newton = getattr(problem, "newton", NewtonSettings())

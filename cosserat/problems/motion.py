@@ -16,6 +16,7 @@ from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.checkpoints import CheckpointedRun, joined, state_of
 from cosserat.problems.outputs import of_instants, outputs
+from cosserat.problems.posed import PosedProblem
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
@@ -42,7 +43,7 @@ class Start(Parameters):
     """Rate of rotation about the first vertex, from E3 towards E2."""
 
 
-class RodMotion(RodProblem):
+class RodMotion(PosedProblem):
     """Motion of a rod from a start, perhaps damped, under dead loads."""
 
     kind: Literal["rod motion"] = "rod motion"
@@ -63,11 +64,16 @@ class RodMotion(RodProblem):
 
     @model_validator(mode="after")
     def _starts_as_it_can(self) -> Self:
-        if self.start.shape != "reference" and self.rod.curvature:
+        if self.start.shape != "reference" and self.pose is not None:
             raise PydanticCustomError(
                 "start",
-                f"has start.shape = '{self.start.shape}', which is that of a straight rod, and 'rod.curvature' = "
-                f"{self.rod.curvature:g}; begin from the 'reference' or take a straight rod",
+                f"has 'pose' and start.shape = '{self.start.shape}'; leave one of them out",
+            )
+        if self.start.shape != "reference" and not self.rod.rest.straight:
+            raise PydanticCustomError(
+                "start",
+                f"has start.shape = '{self.start.shape}', which is that of a straight rod, but 'rod.rest' is not "
+                "straight; begin from the 'reference' or take a straight rod",
             )
         return self
 
@@ -86,9 +92,8 @@ class RodMotion(RodProblem):
         system = super().system(geometry, displacements=displacements)
         if not self.damping:
             return system
-        lowest = first_elastic_frequency(
-            system.unloaded(), system.space.reference, supported=self._anchored(geometry)
-        )
+        body = self._unloaded(displacements=displacements)
+        lowest = first_elastic_frequency(body, body.space.reference, supported=self._anchored())
         return replace(system, damping_rate=2 * self.damping * lowest)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
@@ -98,14 +103,17 @@ class RodMotion(RodProblem):
         ------
         UnstableError : small motions about it grow.
         """
-        geometry = self.geometry
-        system = self.system(geometry)
-        rest = system.space.reference
-        return modes(system.unloaded(), rest, count, name, supported=self._anchored(geometry))
+        body = self._unloaded(displacements=False)
+        return modes(body, body.space.reference, count, name, supported=self._anchored())
 
-    def _anchored(self, geometry: Geometry) -> bool:
+    def _unloaded(self, *, displacements: bool) -> MechanicalSystem:
+        """The supported rod at rest, without pose, loads and damping."""
+        rest = self.model_copy(update={"pose": None})
+        return RodProblem.system(rest, rest.geometry, displacements=displacements).unloaded()
+
+    def _anchored(self) -> bool:
         """Whether no rigid motion is free."""
-        at_rest = self.rod.strain_energy.reference(geometry)
+        at_rest = self.rod.strain_energy.reference(self.geometry)
         return not self.rod.kinematics.free_motions(at_rest, self.constrained()).any()
 
     def begin(self) -> State:

@@ -39,6 +39,7 @@ class States:
     energy : strain energy, a potential of displacements.  along : name of the dimension of the states; empty for one.
     u : (S, n) displacements [m].  reactions : (S, n) forces of the constrained DOFs [N].
     couples : (S,) energy of the loads that are not dead [J].
+    stresses : loads that are stresses of the rod itself, potentials of displacements, each with its factors (S,).
     sense : (vertex, (S,)) a vertex, and the rotation of its section to within half a turn [rad]; None if not known.
     """
 
@@ -49,6 +50,7 @@ class States:
     u: Array
     reactions: Array
     couples: Array
+    stresses: Sequence[tuple[Potential, Array]]
     sense: tuple[int, Array] | None
 
     def vectors(self) -> Array:
@@ -80,6 +82,9 @@ def _internal(states: States) -> Solution:
     """N, Q, M, the director forces, and stresses as beams have them."""
     rod, arc = states.problem.rod, states.geometry.arc_length
     gradient = rod.kinematics.split(strain_gradients(states.energy, states.u))
+    for stress, factor in states.stresses:
+        more = strain_gradients(stress, states.u) * factor[:, None]
+        gradient = gradient + rod.kinematics.split(more)
     found = resultants(states.vectors(), gradient)
     edge, vector = (states.along, "edge"), (states.along, "edge", "axis")
     fields: dict[str, Field] = {
@@ -92,6 +97,9 @@ def _internal(states: States) -> Solution:
     between = rod.strain_energy.between
     if between:
         contact = contact_director_forces(states.energy, between, states.u, len(rod.kinematics.vectors))
+        for stress, factor in states.stresses:
+            own = contact_director_forces(stress, between, states.u, len(rod.kinematics.vectors))
+            contact = contact + own * factor[:, None, None]
         intrinsic = intrinsic_director_forces(contact, gradient[..., 1, :])
         fields["contact_director_force"] = (vector, contact)
         fields["intrinsic_director_force"] = ((states.along, "vertex", "axis"), intrinsic)
@@ -206,6 +214,7 @@ def of_equilibria(
         np.array([point.q for point in points]),
         np.array([point.reaction for point in points]),
         factors * np.array(coupled),
+        [(stress, factors) for stress in problem.stresses(geometry)],
         _held_section(problem, factors),
     )
 
@@ -239,13 +248,20 @@ def of_instants(
     return States(
         problem,
         geometry,
-        rod.strain_energy.potential(rod, geometry, displacements=True),
+        problem.energy(geometry),
         "time",
         q - rod.strain_energy.reference(geometry),
         reactions(system, instants),
         np.array([system.nonlinear_load_energy(state.q, state.history) for state in instants]),
+        [(stress, _levels(stress, instants)) for stress in problem.stresses(geometry)],
         (0, first_angle - start),
     )
+
+
+def _levels(load: Potential, instants: Sequence[State]) -> Array:
+    """The factor of a load at some instants, (S,)."""
+    times = np.array([state.time for state in instants])
+    return np.ones_like(times) if load.level is None else load.level.value(times)
 
 
 def energies(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:

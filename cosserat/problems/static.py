@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.problem import ALONE, Run
 from cosserat.problems.outputs import energies, of_equilibria, outputs
+from cosserat.problems.posed import PosedProblem
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, strains
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
-from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.system import MechanicalSystem
 
@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 _MOTIONS = ("translation along E3", "translation along E2", "rotation")
 
 
-class RodStatics(RodProblem):
+class RodStatics(PosedProblem):
     """Equilibrium of a rod under its weight and point forces."""
 
     kind: Literal["rod statics"] = "rod statics"
@@ -76,7 +76,7 @@ class RodStatics(RodProblem):
         check_supports(self.rod, geometry, system.constrained, name)
         solver = EquilibriumSolver(system, self.newton, name)
         try:
-            return solve_full_load(solver), solver
+            return self.settled(geometry, solver)
         except NotConvergedError as error:
             last = error.state
             if last is not None:

@@ -19,11 +19,14 @@ from cosserat.rods.constraints import (
     RodConstraints,
     Support,
 )
+from cosserat.rods.energies.reissner import STRESSES
+from cosserat.rods.imperfections import AnyImperfection
 from cosserat.rods.loads.couples import Couple, LineCouple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
 from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
 from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.loads.pressure import Pressure
+from cosserat.rods.loads.strains import PreStrain, StressFreeStrain, Temperature
 from cosserat.rods.places import check_place, mesh
 from cosserat.rods.probes import Probe, check_names
 from cosserat.rods.reference import Geometry
@@ -44,6 +47,8 @@ LOADS: dict[str, type[Load]] = {
     "follower_forces": FollowerForce,
     "follower_line_loads": FollowerLineLoad,
     "pressures": Pressure,
+    "prestrains": PreStrain,
+    "temperatures": Temperature,
 }
 """Kinds of loads by their key in a case."""
 CONSTRAINTS: dict[str, type[Constraint]] = {
@@ -79,12 +84,19 @@ class RodProblem(Problem):
     """Forces per length that turn with the sections, each over a stretch of the rod."""
     pressures: tuple[Pressure, ...] = ()
     """Pressures on the upper or the lower surface, each over a stretch of the rod."""
+    prestrains: tuple[PreStrain, ...] = ()
+    """Prescribed extensions and curvatures, each over a stretch of the rod."""
+    temperatures: tuple[Temperature, ...] = ()
+    """Changes of temperature, each over a stretch of the rod."""
     prescribed_displacements: tuple[PrescribedDisplacement, ...] = ()
     """Prescribed displacements of fixed degrees of freedom."""
     prescribed_rotations: tuple[PrescribedRotation, ...] = ()
     """Prescribed rotations of fixed sections."""
     probes: tuple[Probe, ...] = ()
     """Points whose displacements and rotations are stored by name; "modes" and "critical loads" have none to store."""
+
+    imperfection: AnyImperfection | None = None
+    """Small deviation of the unloaded rod from its shape at rest, without stress."""
 
     def loads_of(self, key: str) -> tuple[Load, ...]:
         """The loads of one kind."""
@@ -104,8 +116,14 @@ class RodProblem(Problem):
 
     @property
     def geometry(self) -> Geometry:
-        """The reference configuration of the rod."""
-        return self.rod.geometry(self.arc_length)
+        """The reference configuration of the rod, with its imperfection.
+
+        Raises
+        ------
+        InputError : the imperfection does not fit the rod.
+        """
+        perfect = self.rod.geometry(self.arc_length)
+        return self.imperfection.applied(self, perfect) if self.imperfection else perfect
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -194,6 +212,24 @@ class RodProblem(Problem):
             for level in dict.fromkeys(load.time_function for load in loads if load.time_function):
                 alike = [load for load in loads if load.time_function == level]
                 yield replace(kind.potential(alike, body), level=level)
+
+    def energy(self, geometry: Geometry) -> Potential:
+        """The strain energy, a potential of displacements."""
+        return self.rod.strain_energy.potential(self.rod, geometry, displacements=True)
+
+    def stresses(self, geometry: Geometry) -> list[Potential]:
+        """The loads that are stresses of the rod itself, potentials of displacements."""
+        body = LoadedRod(self.rod, geometry, self.rod.strain_energy.reference(geometry))
+        kinds = [
+            kind
+            for key, kind in LOADS.items()
+            if issubclass(kind, StressFreeStrain) and self.loads_of(key)
+        ]
+        return [load for load in self._potentials(body) if load.terms == STRESSES] if kinds else []
+
+    def unloaded_rod(self, geometry: Geometry) -> MechanicalSystem:
+        """The supported rod without loads and damping, in displacements."""
+        return RodProblem.system(self, geometry).unloaded()
 
     def _constraints(self, geometry: Geometry) -> RodConstraints:
         parts = [item.part(self.rod, geometry) for _, item in self.constraints()]

@@ -60,19 +60,28 @@ class Geometry:
         return cls(X, D)
 
     @classmethod
-    def arc(cls, arc: Array, director_length: Array, curvature: float) -> Geometry:
-        """A rod bent from the origin into an arc from E3 towards E2, its directors along b, eq. (3.3.25).
+    def arc(
+        cls,
+        arc: Array,
+        director_length: Array,
+        curvature: float | Array,
+        origin: Array | None = None,
+        angle: float = 0.0,
+    ) -> Geometry:
+        """A rod bent into an arc from E3 towards E2, or into several, its directors along b, eq. (3.3.25).
 
         arc : (N,) arc length of the vertices along the polygon, which lie on a circle [m].  The directors are
         orthogonal to the vertex tangents, so there is no intrinsic shear between equal edges.
+        curvature : of every edge, or one for all [1/m].  origin : (2,) [m], zero by default, and angle [rad]: where
+        and in which direction from E3 the arc begins.
         """
         edge = np.diff(arc)
         turn = 2 * np.arcsin(curvature * edge / 2)
-        angles = np.cumsum(turn) - turn / 2
+        angles = angle + np.cumsum(turn) - turn / 2
         steps = edge[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
         X = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
-        tangents = vertex_tangents(X)
-        return cls(X, director_length[:, None] * np.column_stack([-tangents[:, 1], tangents[:, 0]]))
+        X = X if origin is None else X + origin
+        return cls(X, director_length[:, None] * normals(X))
 
     @cached_property
     def q(self) -> Array:
@@ -135,8 +144,7 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     """Measure a configuration x, d, each of shape (N, 2) [m]."""
     e = np.diff(x, axis=0)
     length = lengths(e)
-    tangent = vertex_tangents(x)
-    bishop = np.column_stack([-tangent[:, 1], tangent[:, 0]])  # b = t x E1, eq. (3.3.25)
+    tangent, bishop = vertex_tangents(x), normals(x)
     voronoi = to_vertices(length)
     # between edges, whose angle is that of their unit tangents (3.3.5); at the ends between the tangents of the
     # vertices, eqs. (3.3.16)-(3.3.17)
@@ -162,6 +170,12 @@ def vertex_tangents(x: Array) -> Array:
     chord[0] = x[1] - x[0]
     chord[-1] = x[-1] - x[-2]
     return chord / lengths(chord)[:, None]
+
+
+def normals(x: Array) -> Array:
+    """Unit normals b = t x E1 at the vertices, shape (N, 2), eq. (3.3.25)."""
+    tangents = vertex_tangents(x)
+    return np.column_stack([-tangents[:, 1], tangents[:, 0]])
 
 
 def signed_angle(a: Array, b: Array) -> Array:

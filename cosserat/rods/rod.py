@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import model_validator
+from pydantic import ValidationError, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError
@@ -27,6 +28,7 @@ from cosserat.rods.places import vertex_at
 from cosserat.rods.reference import Geometry
 from cosserat.rods.sections import AnySection
 from cosserat.rods.sections.section import Homogeneous
+from cosserat.rods.shapes import AnyShape, Points, Shape, Straight
 from cosserat.rods.variation import NOMINAL, Station, mass_scale, mean, scale_at, vertex_cuts
 
 Array = NDArray[np.float64]
@@ -49,8 +51,8 @@ class Rod(Parameters):
     """Variation of width, height, modulus, Poisson's ratio and density along the rod."""
     centreline: Annotated[float, Quantity("1", "", "3.3.28", above=0, below=1)] = 0.5
     """Height of the centreline above the lower surface over that of the section; directors reach the upper surface."""
-    curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")] = 0.0
-    """Curvature of the reference configuration, an arc from E3 towards E2."""
+    rest: AnyShape = Straight()
+    """Shape of the centreline at rest, without loads."""
     calibration: Calibration | None = None
     """Coefficients of the published energy, required there; the consistent one has none."""
     lateral_constraint: LateralConstraint = "free"
@@ -63,6 +65,20 @@ class Rod(Parameters):
     """Whether the last term of eq. (3.4.11) is halved, which the published c7 fits, or as printed (erratum E3.2)."""
     intrinsic_curvature: IntrinsicCurvature = "subtracted"
     """Whether the published energy measures bending from the reference, or from a straight rod, as printed (E3.24)."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_long_as_its_points(cls, values: Any, info: ValidationInfo) -> Any:
+        """The length of a rod at rest along points, where none is given."""
+        if not isinstance(values, Mapping) or values.get("length", "none") != "none":
+            return values
+        others, rest = {k: v for k, v in values.items() if k != "length"}, values.get("rest")
+        if isinstance(rest, Mapping) and rest.get("kind") == "points":
+            try:
+                rest = Points.model_validate(rest, context=info.context)
+            except ValidationError:
+                return {**others, "length": "1 m"}  # so that only the faults of the points are told
+        return {**others, "length": f"{rest.length!r} m"} if isinstance(rest, Points) else others
 
     @model_validator(mode="after")
     def _sound(self) -> Self:
@@ -97,12 +113,18 @@ class Rod(Parameters):
                 "range",
                 f"'stations' has one at {places[-1]:g} m, but the rod goes from 0 to {self.length:g} m; move it",
             )
-        if abs(self.curvature) * self.length / (self.vertices - 1) >= 1:
+        self.check_shape("rest", self.rest)
+        return self
+
+    def check_shape(self, key: str, shape: Shape) -> None:
+        """Raise PydanticCustomError if it cannot have a shape; key : the name of the shape."""
+        shape.check(key, self.length)
+        turns = np.diff(shape.angles(np.linspace(0.0, self.length, self.vertices)))
+        if np.abs(turns).max() >= 1:
             raise PydanticCustomError(
                 "range",
-                "'curvature' rotates each edge by more than a radian; use more 'vertices' or a smaller curvature",
+                f"'{key}' rotates an edge by more than a radian; use more 'vertices' or a smaller curvature",
             )
-        return self
 
     @property
     def strain_energy(self) -> Energy:
@@ -215,7 +237,14 @@ class Rod(Parameters):
         """
         arc = np.linspace(0.0, self.length, self.vertices) if arc is None else arc
         heights = self.height * self.height_fractions(arc)
-        return Geometry.arc(arc, (1 - self.centreline) * heights, self.curvature)
+        reach = (1 - self.centreline) * heights
+        return self.placed(self.rest, arc, reach)
+
+    @staticmethod
+    def placed(shape: Shape, arc: Array, director_length: Array) -> Geometry:
+        """The rod in a shape, its directors normal to it; arc, director_length : (N,) [m]."""
+        first = float(shape.angles(arc[:1])[0])
+        return Geometry.arc(arc, director_length, shape.curvatures(arc), shape.origin, first)
 
     def height_fractions(self, arc: Array) -> Array:
         """Heights at arc lengths (N,) [m] over the nominal one, after any step there, shape (N,) [1]."""

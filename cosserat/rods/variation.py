@@ -110,6 +110,12 @@ def vertex_cuts(arc: Array) -> Array:
     return np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
 
 
+def overlap(cuts: Array, start: float, end: float) -> Array:
+    """Length that each interval between neighbouring cuts shares with another interval, (cuts - 1,) [m]."""
+    shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
+    return shared
+
+
 class EdgeMasses(NamedTuple):
     """Masses of the edges between their two vertices a and b, each (3, N - 1) [kg]: of a, shared by both, of b.
 

@@ -186,7 +186,9 @@ def curl():
     load = Load(CLAMP, FREE, py=-0.04195 * 9.81)
     for turns, meshes in ((0.5, (41, 81)), (1.0, (81, 161)), (2.0, (161, 321))):
         K = 2 * np.pi * turns
-        for row in tips("curl", load, 5e-4, curvature=K, rod={"curvature": K}, meshes=meshes):
+        for row in tips(
+            "curl", load, 5e-4, curvature=K, rod={"rest": {"kind": "arc", "curvature": K}}, meshes=meshes
+        ):
             yield Row(f"{turns:g} turns, {row.what}", row.right, row.found, row.tolerance, row.source)
 
 

@@ -8,6 +8,7 @@ Lengths are counted in L, forces in EI / L^2, so that the unknowns are of order 
 a is the angle of the section, N and Q the components of the force (Nx, Ny) along and across its normal.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,19 +23,27 @@ ORDER = ("x", "y", "a", "Nx", "Ny", "M")
 
 @dataclass(frozen=True)
 class Rod:
-    """length [m], EI [N m^2], EA and GA [N], curvature at rest K [1/m]; x along the rod, y across."""
+    """length [m], EI [N m^2], EA and GA [N], curvature at rest K [1/m]; x along the rod, y across.
+
+    K : a number, or a function of the arc length [m].  first : angle of the rod at rest at its first end [rad].
+    """
 
     length: float
     EI: float
     EA: float = np.inf
     GA: float = np.inf
-    K: float = 0.0
+    K: float | Callable = 0.0
+    first: float = 0.0
 
     @classmethod
     def rectangle(cls, length, height, width, young, poisson=0.0, correction=5 / 6, curvature=0.0):
         area = height * width
         shear = correction * young / (2 * (1 + poisson)) * area
         return cls(length, young * area * height**2 / 12, young * area, shear, curvature)
+
+    def turning(self, s):
+        """The curvature at rest at the fractions s of the length, counted in 1 / L."""
+        return self.length * (self.K(self.length * s) if callable(self.K) else self.K)
 
     @property
     def unit(self):
@@ -70,8 +79,15 @@ class Load:
 
 def at_rest(rod, s):
     """The shape without loads, (6, len(s)), in lengths of the rod."""
-    k = rod.K * rod.length
     y = np.zeros((6, s.size))
+    if callable(rod.K) or rod.first:
+
+        def rates(s, y):
+            return [np.cos(y[2]), np.sin(y[2]), rod.turning(s)]
+
+        y[:3] = solve_ivp(rates, (0, 1), [0, 0, rod.first], t_eval=s, rtol=1e-11, atol=1e-12).y
+        return y
+    k = rod.K * rod.length
     y[2] = k * s
     y[0], y[1] = (s, 0 * s) if k == 0 else (np.sin(k * s) / k, (1 - np.cos(k * s)) / k)
     return y
@@ -115,12 +131,10 @@ def _solve(rod, load, mesh, guess, tolerance):
         along, across = 1 + axial * (y[3] * c + y[4] * s), shear * (y[4] * c - y[3] * s)
         return c, s, along * c - across * s, along * s + across * c
 
-    def rates(_, y):
+    def rates(s, y):
         _, _, dx, dy = parts(y)
         still = np.zeros_like(dx)
-        return np.array(
-            [dx, dy, rod.K * rod.length + y[5], still - px, still - py, dy * y[3] - dx * y[4]]
-        )
+        return np.array([dx, dy, rod.turning(s) + y[5], still - px, still - py, dy * y[3] - dx * y[4]])
 
     def by_unknowns(_, y):
         c, s, dx, dy = parts(y)

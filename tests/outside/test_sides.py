@@ -66,7 +66,7 @@ def between_clamps(curvature, push, aside, **more):
     return inputs()["ribbon"].vary(
         "x",
         gravity=None,
-        rod={"curvature": curvature},
+        rod={"rest": {"kind": "arc", "curvature": curvature}},
         prescribed_displacements=prescribed_displacements,
         **more,
     )
@@ -109,7 +109,9 @@ def column(multiple, aside=0.0, curvature=0.0, **more):
         {"at": "last", "along": "-E3", "force": multiple * EULER},
         {"at": "last", "along": "E2", "force": aside},
     ]
-    return cosserat.case("elastica").vary("x", forces=forces, rod={"curvature": curvature}, **more)
+    return cosserat.case("elastica").vary(
+        "x", forces=forces, rod={"rest": {"kind": "arc", "curvature": curvature}}, **more
+    )
 
 
 def stands_at(case, place, side):

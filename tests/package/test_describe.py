@@ -169,6 +169,12 @@ prescribed_displacements = [{ at = "first", dof = "x2", by = "1 cm" }]
 prescribed_rotations = [{ at = "last", by = "1 deg" }]
 """
 """One rule at a time: only loads that bear any number of vertices and any length."""
+STRAINS = {
+    "rod": {"energy": "consistent", "calibration": "none"},
+    "prestrains": [{"extension": 0.0}],
+    "temperatures": [{"expansion": "1e-5 1/K"}],
+}
+"""Loads that only one energy takes."""
 
 
 def base(kind):
@@ -218,6 +224,12 @@ SIDES = {"height": "0.3 m", "width": "0.2 m", "shear_factor": 0.5}
 CHOICES = {
     "compressible": {"kind": "compressible", "young": "10 kPa", "poisson": 0.3},
     "incompressible": {"kind": "incompressible", "young": "2 kPa"},
+    "straight": {},
+    "arc": {"curvature": "0 1/m"},
+    "curvature": {},
+    "points": {},
+    "bow": {"kind": "bow", "amplitude": "1 mm"},
+    "mode": {"kind": "mode", "amplitude": "1 mm"},
     "rectangle": SIDES,
     "square": {"side": "0.2 m", "shear_factor": 1},
     "hollow rectangle": SIDES | {"wall": "2 cm"},
@@ -305,6 +317,8 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
     for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
         if path == "gait.chambers":
             case = put(case, "gait", CHAMBERS)
+        if path.startswith(("prestrains", "temperatures")):
+            case = catalogue._merge(case, STRAINS)
         there = chosen(case, key)
         for mark in marks(whole(field))[:1]:
             unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit

@@ -41,6 +41,9 @@ NAMES = {
     "N*m": "moment",
     "N*m^2": "bending-stiffness",
     "Pa": "pressure",
+    "K": "temperature-difference",
+    "K/m": "temperature-gradient",
+    "K^-1": "thermal-expansion",
     "rad": "angle",
     "rad/s": "angular-speed",
 }

@@ -73,7 +73,7 @@ def test_a_cantilever_has_a_constant_shear_force_and_a_linear_moment(name):
 def test_an_elastica_and_a_bent_rod_obey_statics_of_what_is_cut_off():
     """A rod bent by 82 degrees under an end force, and a curved one under its weight: nothing elastic is used."""
     weight = {"g": 9.81, "along": "-E2"}
-    curved = solved_case(rod=steel(curvature=0.8, height=0.002), gravity=weight)
+    curved = solved_case(rod=steel(rest={"kind": "arc", "curvature": 0.8}, height=0.002), gravity=weight)
     for data in (cosserat.run("elastica"), curved):
         for K in range(data.sizes["edge"]):
             force, moment = cut(data, K)
@@ -220,7 +220,7 @@ def pushed(longest):
     down = [{"at": "last", "dof": "x2", "by": -0.1}]
     return solved_case(
         like="column_path",
-        rod=steel(vertices=3, length=1.0, young=10e6, poisson=0.0, curvature=0.0),
+        rod=steel(vertices=3, length=1.0, young=10e6, poisson=0.0, rest={"kind": "straight"}),
         supports=[{"at": "first", "fixed": ["x3", "x2"]}, end],
         prescribed_displacements=down,
         arc={"first": longest, "longest": longest, "count": 1000, "limit": 3.0},
@@ -389,7 +389,7 @@ def test_reactions_of_an_instant_are_multipliers_of_the_constraints():
         "any",
         start={"shape": "reference", "amplitude": 0.0},
         rod={
-            "curvature": 0.05,
+            "rest": {"kind": "arc", "curvature": 0.05},
             "centreline": 0.4,
             "vertices": 6,
             "stations": [{"at": 0.0}, {"at": 1.0, "height": 0.5}],

@@ -182,7 +182,7 @@ def test_stiffnesses_are_made_of_the_means_of_table_3_1():
 
 def test_bending_energy_of_a_curved_rod_is_that_of_eulers_elastica():
     """EI (kappa - kappa_0)^2 / 2, eq. (3.2.3), on the inner parts, for arcs with the curvatures of (3.3.23)."""
-    rod = make_rod(vertices=9, curvature=0.1)
+    rod = make_rod(vertices=9, rest={"kind": "arc", "curvature": 0.1})
     geometry = rod.geometry()
     potential = rod.strain_energy.potential(rod, geometry)
     edge = geometry.edge_length[0]

@@ -25,7 +25,8 @@ def slender(vertices, *, curvature=0.0, supports=({"at": "first", "fixed": CLAMP
     given = BASE.problem
     section = {**given.rod.section.model_dump(), "height": THIN, "width": 0.01}
     table = given.model_dump() | dict.fromkeys(("forces", "couples", "line_loads"), ())
-    table["rod"] |= {"vertices": vertices, "length": 1.0, "section": section, "curvature": curvature}
+    table["rod"] |= {"vertices": vertices, "length": 1.0, "section": section}
+    table["rod"]["rest"] = {"kind": "arc", "curvature": curvature}
     table["rod"]["material"] |= {"young": 12 / (0.01 * THIN**3), "poisson": 0.0}
     table["supports"] = list(supports)
     return RodStatics.read(table | loads, "slender", units_required=False)

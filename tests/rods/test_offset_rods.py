@@ -25,7 +25,7 @@ SECTIONS = {
     "free": {},
     "barrier": {"barrier": True},
     "incompressible": {"lateral_constraint": "incompressible", "material": {"poisson": 0.4999}},
-    "curved": {"curvature": 0.1},
+    "curved": {"rest": {"kind": "arc", "curvature": 0.1}},
 }
 everywhere = pytest.mark.parametrize("centreline", [0.2, 0.7])
 sections = pytest.mark.parametrize("section", SECTIONS.values(), ids=SECTIONS)
@@ -160,7 +160,8 @@ def test_contraction_has_the_energy_of_the_material_of_all_pieces(centreline, cu
         for height, ratio, ends in zip(heights, ratios, pairwise(places), strict=True)
         for place in ends
     ]
-    rod = tapered(centreline, {}, stations=stations, curvature=curvature, material={"poisson": 0.3})
+    arc = {"kind": "arc", "curvature": curvature}
+    rod = tapered(centreline, {}, stations=stations, rest=arc, material={"poisson": 0.3})
     geometry, w = rod.geometry(), 1e-2
     body, q = body_of(rod), np.hstack([geometry.X, (1 + w) * geometry.D]).ravel()
     free = np.arange(q.size).reshape(-1, 4)[1:, :2].ravel()

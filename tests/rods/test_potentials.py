@@ -34,6 +34,12 @@ LOAD_EXAMPLES = {
     "gravity": [{"g": 3.0, "along": "-E2"}],
     "line_loads": [{"along": "E2", "density": 2.0, "start": 0.1}],
     "forces": [{"at": "last", "along": "E3", "force": 0.7}, {"at": 2, "along": "E2", "force": -0.2}],
+    "prestrains": [
+        {"extension": 0.1, "start": 0.1, "end": 0.7},
+        {"curvature": 0.4},
+        {"section": -0.2, "start": 0.3},
+    ],
+    "temperatures": [{"change": 4e3, "gradient": 5e3, "expansion": 2e-5, "end": 0.9}],
     "couples": [{"at": "last", "moment": 0.4}, {"at": 1, "moment": -0.3}],
     "line_couples": [{"density": 0.4, "start": 0.13}],
     "follower_forces": [
@@ -57,7 +63,7 @@ def rod(name, number):
         "length": 1.0,
         "section": given_rod.section.replace(height=0.2, width=0.1),
         "material": MATERIAL | {"line_density": given_rod.line_density},
-        "curvature": 0.6,
+        "rest": {"kind": "arc", "curvature": 0.6},
         "centreline": 0.4,
         "stations": [{"at": 0.2}, {"at": 0.8, "height": 0.7, "young": 1.5}],
     }
@@ -65,7 +71,7 @@ def rod(name, number):
         changes["calibration"] = given_rod.calibration.replace(c5=0.3, c6=0.2)
     options = dict(OPTIONS[name][number])
     if options.get("intrinsic_curvature"):
-        changes["curvature"] = 0.0
+        changes["rest"] = {"kind": "straight"}
     return Rod.read({**dict(given_rod), **changes, **options}, "rod", units_required=False)
 
 

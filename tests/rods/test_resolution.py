@@ -241,7 +241,9 @@ def test_only_a_symmetric_column_warns_of_its_open_side():
 def test_a_snapping_arch_is_reported():
     arch = cosserat.case("arch_path").problem
     table = {k: v for k, v in arch.model_dump().items() if k not in ("kind", "arc")}
-    snapped = cosserat.case("elastica").vary("snapped", **{**table, "rod": {"curvature": 1.0}})
+    snapped = cosserat.case("elastica").vary(
+        "snapped", **{**table, "rod": {"rest": {"kind": "arc", "curvature": 1.0}}}
+    )
     assert named(cosserat.run(snapped)) == ["limit load"]
 
 
@@ -315,6 +317,7 @@ def test_a_path_and_a_motion_stop_before_sections_cross(tmp_path):
         "tight", gravity=None, rod={"section": {"height": 1.0}, "vertices": 41}, couples=couples
     )
     table = bent.problem.model_dump()
+    table["rod"]["rest"] = {"kind": "arc", "curvature": 0.0}  # that of the arch is an arc
     path = cosserat.case("arch_path").vary(
         "path", **{k: table[k] for k in ("rod", "supports", "couples")}, forces=[]
     )

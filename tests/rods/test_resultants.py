@@ -20,7 +20,7 @@ RODS = {
     "published": {},
     "consistent": CONSISTENT,
     "off-centre": {**CONSISTENT, "centreline": 0.3},
-    "curved": {**CONSISTENT, "curvature": 0.1},
+    "curved": {**CONSISTENT, "rest": {"kind": "arc", "curvature": 0.1}},
 }
 every_rod = pytest.mark.parametrize("name", RODS)
 
@@ -79,7 +79,7 @@ def test_force_and_moment_are_derivatives_of_the_energy_by_rigid_motions_beyond_
 @pytest.mark.parametrize("curvature", [0.0, 0.2])
 def test_components_are_those_of_the_strains_of_reissner(curvature):
     """N = 2 mu A e + Lambda A (e + w), Q = k G A g and M = EI kappa, each measured here, at any state."""
-    rod = some_rod("consistent", poisson=0.3, curvature=curvature)
+    rod = some_rod("consistent", poisson=0.3, rest={"kind": "arc", "curvature": curvature})
     energy, q, geometry = state_of(rod)
     found, vectors = found_for(energy, q), q.reshape(-1, 2, 2)
     E, nu, A = rod.young, rod.poisson, rod.area
@@ -160,8 +160,8 @@ def test_director_forces_do_the_work_of_the_internal_forces_on_the_directors(nam
 
 def test_in_pure_bending_the_contact_director_forces_are_the_couple():
     """m = M / |d| along the normal: the couple d x m of eq. (1.2.89)."""
-    rod = some_rod("consistent", poisson=0.0, curvature=0.0)
-    bent = rod.replace(curvature=0.05).geometry()
+    rod = some_rod("consistent", poisson=0.0)
+    bent = rod.replace(rest={"kind": "arc", "curvature": 0.05}).geometry()
     energy = rod.strain_energy.potential(rod, rod.geometry())
     contact, _ = director_forces(rod, bent.q[None], energy)
     mean = (bent.D[1:] + bent.D[:-1]) / 2

@@ -314,7 +314,7 @@ def test_point_loads_may_act_anywhere():
     assert moved(7, 15) == pytest.approx(moved(15, 7), rel=1e-6)
 
 
-ARC = {"curvature": 0.3, "vertices": 41}
+ARC = {"rest": {"kind": "arc", "curvature": 0.3}, "vertices": 41}
 
 
 def test_a_curved_reference_is_at_rest_and_unsheared():
@@ -334,7 +334,13 @@ def test_a_curved_reference_is_at_rest_and_unsheared():
 def test_E3_24_printed_bending_energy_does_not_let_a_curved_rod_rest():
     """Eq. (3.4.11) charges the whole curvature: a free end unbends until the rod is straight."""
     case = BEAM.vary(
-        "arc", gravity=None, rod={**ARC, "intrinsic_curvature": "printed", "curvature": 0.05}
+        "arc",
+        gravity=None,
+        rod={
+            "vertices": 41,
+            "intrinsic_curvature": "printed",
+            "rest": {"kind": "arc", "curvature": 0.05},
+        },
     )
     problem = case.problem
     geometry = problem.geometry
@@ -359,7 +365,8 @@ def test_a_curved_bar_has_castiglianos_displacement():
             "c4": 200.0,
             "c5": 100.0,
         }  # so stiff in shear that the clamp does not give
-        ring = {"curvature": 1 / radius, "vertices": n, "section": {"height": 0.1, "width": 0.1}}
+        arc = {"kind": "arc", "curvature": 1 / radius}
+        ring = {"rest": arc, "vertices": n, "section": {"height": 0.1, "width": 0.1}}
         ring["material"] = {"poisson": 0}
         case = BEAM.vary(
             "ring",

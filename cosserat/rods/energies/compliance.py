@@ -58,36 +58,44 @@ def stiffnesses(
     along: Along,
     *,
     offset: float = 0.0,
-    curvature: float = 0.0,
+    curvature: Array | float = 0.0,
 ) -> EdgeStiffnesses:
     """Stiffnesses of a rod whose nominal section and material vary along its stations.
 
     arc : (N,) arc length of the vertices [m].  along : stiffnesses at places, about the area centres.
-    offset : of the nominal area centre from the centreline [m].  curvature : of the reference [1/m].
+    offset : of the nominal area centre from the centreline [m].  curvature : of the reference
+    on every edge, or one for all [1/m].
     """
-
-    def centres(s: Scales) -> Array:
-        """Length of the line of the area centres per length of the centreline."""
-        return 1 - curvature * offset * s.height
-
     first_height = stations[0].height if stations else 1.0
 
     def on_edges(s: Scales, _: Array) -> Array:
         axial, volume, _, shear, bending, gradient = along(s)
-        both, higher, line = axial + volume, s.height - first_height, centres(s)
+        both, higher = axial + volume, s.height - first_height
         ratios = [1 / both, axial / both, volume / both, axial * volume / both]
-        sums = [line * ratio for ratio in (*ratios, 1 / shear, 1 / bending, 1 / gradient)]
-        turning = line / bending
-        return np.stack([*sums, higher * turning, higher**2 * turning, higher])
+        sums = np.stack(
+            [*ratios, 1 / shear, 1 / bending, 1 / gradient, higher / bending, higher**2 / bending]
+        )
+        return np.stack([*sums, *(s.height * sums), higher])
 
+    lift = np.broadcast_to(curvature, arc.size - 1) * offset
     *means, above = mean(stations, on_edges, arc)
-    length = 1 - curvature * offset * (first_height + above)
-    compliance, axial, volume, product, shear, bending, gradient, lever, square = means / length
+    plain, raised = np.split(np.array(means), 2)
+    length = 1 - lift * (first_height + above)
+    compliance, axial, volume, product, shear, bending, gradient, lever, square = (
+        plain - lift * raised
+    ) / length
     alpha = 1 / (compliance + offset**2 * (square - lever**2 / bending))
     axis = first_height + lever / bending
     more = (product - alpha * axial * volume) * length * np.diff(arc) / 2
     cuts = vertex_cuts(arc)
-    own = mean(stations, lambda s, _: centres(s) * along(s).section, cuts)
+    parts = np.diff(arc) * lift / 2
+    lifts = (np.append(parts, 0.0) + np.insert(parts, 0, 0.0)) / np.diff(cuts)
+    flat, high = mean(
+        stations,
+        lambda s, _: along(s).section * np.stack([np.ones_like(s.height), s.height]),
+        cuts,
+    )
+    own = flat - lifts * high
     section = own + (np.append(more, 0.0) + np.insert(more, 0, 0.0)) / np.diff(cuts)
     return EdgeStiffnesses(
         alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, section, axis, length

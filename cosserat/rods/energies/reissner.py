@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+STRESSES = ("stress-free strains",)
+"""The term of a load that is stresses of the rod itself."""
 _STIFF_VOLUME_RATIO = 5.0  # least Lambda over 2 mu of a stiff volume: nu = 0.45 in plane strain
 
 
@@ -50,7 +53,7 @@ class Reissner(Energy):
             geometry.arc_length,
             rod.section.along(rod.material, rod.lateral_constraint),
             offset=(rod.section.centre - rod.centreline) * rod.height,
-            curvature=rod.curvature,
+            curvature=rod.rest.curvatures(geometry.arc_length),
         )
         heights = rod.height_fractions(geometry.arc_length)
         return potential(
@@ -142,6 +145,47 @@ def potential(
         terms=TERMS,
         half_bandwidth=7,  # two neighbouring vertices
         strains=(rod.size, 4),
+    )
+
+
+def measured_from(rest: Potential, energy: Potential) -> Potential:
+    """The energy with its strains measured from the reference of another one; its DOFs stay what they are."""
+    constants = energy.constants.copy()
+    for name in ("axial", "slide", "turn"):
+        constants[name] = rest.constants[name]
+    return replace(energy, constants=constants)
+
+
+def stressed(
+    energy: Potential,
+    extension: Array,
+    curvature: Array,
+    section: Array,
+    slide: Array | float = 0.0,
+) -> Potential:
+    """Minus the work of the stresses that some strains need, on the measures of the rod.
+
+    energy : without barrier.  extension, slide [1], curvature [1/m] : (N - 1,) of the edges.  section : (N,) strain of
+    the sections [1].
+    """
+    stress = energy.constants.copy()
+    wide = (section[:-1] + section[1:]) / 2
+    volume = (1 + extension) * (1 + wide) - 1 if stress["product"][0] else extension + wide
+    measures = {
+        "k_axial": extension,
+        "k_volume": volume,
+        "k_shear": slide,
+        "k_bending": curvature,
+        "k_stretch_gradient": np.diff(section),
+    }
+    for name, values in measures.items():
+        stress[name][:-1] *= values
+    stress["k_section"] *= section
+    return Potential(
+        evaluate=reissner_kernel.stressed,
+        constants=stress,
+        terms=STRESSES,
+        half_bandwidth=energy.half_bandwidth,
     )
 
 

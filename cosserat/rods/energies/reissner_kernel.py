@@ -28,7 +28,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Band, Vector
-from cosserat.solvers.potential import GRADIENT, HESSIAN, STRAINS
+from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, STRAINS
 
 Array = NDArray[np.float64]
 
@@ -294,3 +294,116 @@ def assemble(
         n0, n1, r_a, a0, a1, end_a, used_a = p0, p1, r_b, b0, b1, end_b, used_b
     total: float = terms.sum()
     return total
+
+
+@njit(cache=True, error_model="numpy")
+def _measures(rod: NDArray[np.void], K: int, q: Vector) -> tuple[float, ...]:
+    """Of edge K: h a, h g, T and the direction m between the directors; unit directors and lengths at both ends."""
+    p = 4 * K
+    n0, n1 = q[p + 2] + rod[K].director_3, q[p + 3] + rod[K].director_2
+    p0, p1 = q[p + 6] + rod[K + 1].director_3, q[p + 7] + rod[K + 1].director_2
+    r_a, r_b = np.sqrt(n0 * n0 + n1 * n1), np.sqrt(p0 * p0 + p1 * p1)
+    low, high = rod[K].low, rod[K].high
+    e0, e1 = q[p + 4] - q[p] + rod[K].edge_3, q[p + 5] - q[p + 1] + rod[K].edge_2
+    e0 += high * (q[p + 6] - q[p + 2]) + (high - low) * q[p + 2]
+    e1 += high * (q[p + 7] - q[p + 3]) + (high - low) * q[p + 3]
+    A, G, T, m0, m1 = _edge_strains(e0, e1, n0 / r_a, n1 / r_a, p0 / r_b, p1 / r_b)
+    return A, G, T, m0, m1, n0 / r_a, n1 / r_a, p0 / r_b, p1 / r_b, r_a, r_b
+
+
+@njit(cache=True, error_model="numpy")
+def _work_on(rod: NDArray[np.void], K: int, q: Vector) -> float:
+    """Work of the stresses on edge K."""
+    E, D_a, D_b = rod[K].edge, rod[K].director, rod[K + 1].director
+    A, G, T, _, _, _, _, _, _, r_a, r_b = _measures(rod, K, q)
+    strain, wide = (A - rod[K].axial) / E, (r_a / D_a + r_b / D_b) / 2
+    work = E * (rod[K].k_axial * strain + rod[K].k_volume * _volume(strain, wide, rod[0].product))
+    work += rod[K].k_bending * (T - rod[K].turn) + rod[K].k_shear * (G - rod[K].slide)
+    return float(work + rod[K].k_stretch_gradient / E * (r_b / D_b - r_a / D_a))
+
+
+@njit(cache=True, error_model="numpy")
+def _add_edge_stress(
+    rod: NDArray[np.void], K: int, q: Vector, curving: bool, gradient: Vector, band: Band
+) -> None:
+    """Subtract the gradient, and the Hessian if `curving`, of the work of the stresses on edge K."""
+    p, E, D_a, D_b = 4 * K, rod[K].edge, rod[K].director, rod[K + 1].director
+    low, high, product = rod[K].low, rod[K].high, rod[0].product
+    A, G, _, m0, m1, n0, n1, p0, p1, r_a, r_b = _measures(rod, K, q)
+    by_axial, by_wide = 1.0, 1.0
+    if product:
+        by_axial, by_wide = (r_a / D_a + r_b / D_b) / 2, 1 + (A - rod[K].axial) / E
+    W_A, W_G = -rod[K].k_axial - rod[K].k_volume * by_axial, -rod[K].k_shear
+    W_m, W_T = W_A * G - W_G * A, -rod[K].k_bending
+    W_wide, W_jump = -rod[K].k_volume * E * by_wide / 2, -rod[K].k_stretch_gradient / E
+    W_a, W_b = (W_wide - W_jump) / D_a, (W_wide + W_jump) / D_b
+    turn_a, turn_b = (W_m / 2 - W_T) / r_a, (W_m / 2 + W_T) / r_b
+    f0, f1 = W_A * m1 + W_G * m0, -W_A * m0 + W_G * m1
+    gradient[p] -= f0
+    gradient[p + 1] -= f1
+    gradient[p + 2] += W_a * n0 - turn_a * n1 - low * f0
+    gradient[p + 3] += W_a * n1 + turn_a * n0 - low * f1
+    gradient[p + 4] += f0
+    gradient[p + 5] += f1
+    gradient[p + 6] += W_b * p0 - turn_b * p1 + high * f0
+    gradient[p + 7] += W_b * p1 + turn_b * p0 + high * f1
+    if not curving:
+        return
+    v, w, c, widening = np.zeros((6, 8)), np.zeros(6), np.zeros(8), np.zeros(8)
+    v[5, 2], v[5, 3] = -n1 / (2 * r_a), n0 / (2 * r_a)
+    v[5, 6], v[5, 7] = -p1 / (2 * r_b), p0 / (2 * r_b)
+    w[5] = -W_A * A - W_G * G
+    c0, c1 = W_A * m0 - W_G * m1, W_A * m1 + W_G * m0
+    c[0], c[1], c[4], c[5] = -c0, -c1, c0, c1
+    c[2], c[3], c[6], c[7] = -low * c0, -low * c1, high * c0, high * c1
+    _add_edge_hessian(band, p, v, w, c)
+    _add_director_block(band, p + 2, n0, n1, W_a / r_a, turn_a / r_a)
+    _add_director_block(band, p + 6, p0, p1, W_b / r_b, turn_b / r_b)
+    if product:
+        along = np.array([-m1, m0, 0.0, 0.0, m1, -m0, 0.0, 0.0]) + G * v[5]
+        along[2:4] += low * along[:2]
+        along[6:] += high * along[4:6]
+        widening[2], widening[3] = n0 / (2 * D_a), n1 / (2 * D_a)
+        widening[6], widening[7] = p0 / (2 * D_b), p1 / (2 * D_b)
+        _add_symmetric_product(band, p, along, widening, -rod[K].k_volume)
+
+
+@njit(cache=True, error_model="numpy")
+def stressed(
+    q: Vector,
+    after: Vector,
+    data: NDArray[np.uint8],
+    history: Vector,
+    strains: Array,
+    task: int,
+    gradient: Vector,
+    band: Band,
+    skew: Band,
+    terms: Array,
+) -> float:
+    """Minus the work of constant stresses on the measures; arguments as in `solvers.potential.KERNEL`.
+
+    The constants are those of the energy with stresses, stiffnesses times strains, in place of the stiffnesses.
+    """
+    rod = data.view(VERTEX)
+    if task == COMMIT:
+        return 0.0
+    ends, work = after if after.size > 0 else q, 0.0
+    for K in range(rod.shape[0]):
+        p, stress = 4 * K, rod[K].k_section * rod[K].voronoi
+        d0, d1 = ends[p + 2] + rod[K].director_3, ends[p + 3] + rod[K].director_2
+        work += stress * (np.sqrt(d0 * d0 + d1 * d1) / rod[K].director - 1)
+        if rod.shape[0] > K + 1:
+            work += _work_on(rod, K, ends)
+        if task not in (GRADIENT, HESSIAN):
+            continue
+        if rod.shape[0] > K + 1:
+            _add_edge_stress(rod, K, q, task == HESSIAN, gradient, band)
+        d0, d1 = q[p + 2] + rod[K].director_3, q[p + 3] + rod[K].director_2
+        r, W_r = np.sqrt(d0 * d0 + d1 * d1), -stress / rod[K].director
+        gradient[p + 2] += W_r * d0 / r
+        gradient[p + 3] += W_r * d1 / r
+        if task == HESSIAN:
+            _add_director_block(band, p + 2, d0 / r, d1 / r, W_r / r, 0.0)
+    terms[0] = -work
+    return -work

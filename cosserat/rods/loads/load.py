@@ -17,7 +17,7 @@ from cosserat.rods.places import located
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.rods.time_functions import AnyTimeFunction
-from cosserat.rods.variation import vertex_cuts
+from cosserat.rods.variation import overlap, vertex_cuts
 from cosserat.solvers.potential import Potential
 
 Array = NDArray[np.float64]
@@ -109,6 +109,4 @@ class Stretch(Load):
     def covered(self, body: LoadedRod) -> Array:
         """Length that it covers of the part round each vertex, shape (N,) [m]."""
         start, end = self.ends(body.rod)
-        cuts = vertex_cuts(body.geometry.arc_length)
-        shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
-        return shared
+        return overlap(vertex_cuts(body.geometry.arc_length), start, end)
