@@ -5,10 +5,6 @@ it is in the pose.  A rod that would be without stress in the pose is in equilib
 itself, the strains without stress grow from zero to the difference of both references, as a load does
 (`cosserat.rods.loads.strains`), together with all other loads.  So the answer does not depend on the way in which
 Newton's method might come from a pose far off.  At the end the equilibrium is that of W itself.
-
-The end sections of a curved `Geometry` are normal to their edges, by half the turn of an edge off the curve.  They
-count here: two shapes that begin in one direction have the same first section.  So end sections are put normal to the
-curve.
 """
 
 from __future__ import annotations
@@ -22,10 +18,9 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.rods.energies.reissner import measured_from, stressed
-from cosserat.rods.kinematics import rotated
 from cosserat.rods.loads.strains import is_quadratic
 from cosserat.rods.problem import RodProblem
-from cosserat.rods.reference import Geometry, signed_angle
+from cosserat.rods.reference import Geometry
 from cosserat.rods.shapes import AnyShape
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.incremental import solve_full_load
@@ -60,7 +55,7 @@ class PosedProblem(RodProblem):
         rest = super().geometry
         if self.pose is None:
             return rest
-        return _with_normal_ends(self.rod.placed(self.pose, rest.arc_length, rest.director_length))
+        return self.rod.placed(self.pose, rest.arc_length, rest.director_length)
 
     def system(self, geometry: Geometry, *, displacements: bool = True) -> MechanicalSystem:
         """The rod with its loads, constraints and mass; its strains are measured from its shape at rest."""
@@ -75,7 +70,7 @@ class PosedProblem(RodProblem):
         return own if self.pose is None else measured_from(self._at_rest(), own)
 
     def _at_rest(self) -> Potential:
-        return self.rod.strain_energy.potential(self.rod, _with_normal_ends(super().geometry))
+        return self.rod.strain_energy.potential(self.rod, super().geometry)
 
     def settled(
         self, geometry: Geometry, solver: EquilibriumSolver
@@ -124,11 +119,3 @@ def check_unposed(problem: RodProblem) -> None:
             "the rod has a 'pose', and modes and critical loads are those of a rod that is loaded from its shape at "
             "rest; leave 'pose' out"
         )
-
-
-def _with_normal_ends(geometry: Geometry) -> Geometry:
-    """The same with its end directors rotated by half the turn from their edge to the next."""
-    edges, D = np.diff(geometry.X, axis=0), geometry.D.copy()
-    turns = signed_angle(edges[:-1], edges[1:])[[0, -1]] / 2
-    D[[0, -1]] = rotated(D[[0, -1]], np.array([[-turns[0]], [turns[1]]]))
-    return replace(geometry, D=D)

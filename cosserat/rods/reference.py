@@ -67,11 +67,13 @@ class Geometry:
         curvature: float | Array,
         origin: Array | None = None,
         angle: float = 0.0,
+        true_normals: bool = False,
     ) -> Geometry:
         """A rod bent into an arc from E3 towards E2, or into several, its directors along b, eq. (3.3.25).
 
-        arc : (N,) arc length of the vertices along the polygon, which lie on a circle [m].  The directors are
-        orthogonal to the vertex tangents, so there is no intrinsic shear between equal edges.
+        arc : (N,) arc length of the vertices along the polygon, which lie on a circle [m].
+        true_normals : the directors are normal to the arcs; if not, to the vertex tangents, which at the ends are
+        edges, half a turn off the arc (3.3.9).  Between equal edges both are the same.
         curvature : of every edge, or one for all [1/m].  origin : (2,) [m], zero by default, and angle [rad]: where
         and in which direction from E3 the arc begins.
         """
@@ -81,7 +83,11 @@ class Geometry:
         steps = edge[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
         X = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
         X = X if origin is None else X + origin
-        return cls(X, director_length[:, None] * normals(X))
+        if not true_normals:
+            return cls(X, director_length[:, None] * normals(X))
+        at_vertices = angle + np.concatenate([[0.0], np.cumsum(turn)])
+        across = np.column_stack([-np.sin(at_vertices), np.cos(at_vertices)])
+        return cls(X, director_length[:, None] * across)
 
     @cached_property
     def q(self) -> Array:

@@ -240,11 +240,11 @@ class Rod(Parameters):
         reach = (1 - self.centreline) * heights
         return self.placed(self.rest, arc, reach)
 
-    @staticmethod
-    def placed(shape: Shape, arc: Array, director_length: Array) -> Geometry:
+    def placed(self, shape: Shape, arc: Array, director_length: Array) -> Geometry:
         """The rod in a shape, its directors normal to it; arc, director_length : (N,) [m]."""
         first = float(shape.angles(arc[:1])[0])
-        return Geometry.arc(arc, director_length, shape.curvatures(arc), shape.origin, first)
+        true = self.strain_energy.true_normals
+        return Geometry.arc(arc, director_length, shape.curvatures(arc), shape.origin, first, true)
 
     def height_fractions(self, arc: Array) -> Array:
         """Heights at arc lengths (N,) [m] over the nominal one, after any step there, shape (N,) [1]."""

@@ -191,7 +191,8 @@ def first_special_point(
 
     Raises
     ------
-    NotConvergedError : the path cannot be followed; the last point is its `state`.
+    NotConvergedError : the path cannot be followed, or loses its stability at a place that is not found; the last point
+        is its `state`.
     """
     counted = f"{solver.name}, loads in multiples of {unit:.6g}"
     own = EquilibriumSolver(ScaledSystem.of(solver.system, unit), solver.settings, counted)
@@ -202,5 +203,11 @@ def first_special_point(
         if isinstance(found, SpecialPoint):
             point = replace(found.point, factor=unit * found.point.factor)
             return replace(found, point=point), point.factor
+        if not found.stable:
+            raise own.stopped(
+                f"unstable between {reached:.6g} and {unit * found.factor:.6g} of the loads, at a place that is not found; "
+                f"{solver.remedy}",
+                found,
+            )
         reached = unit * found.factor
     return None, reached

@@ -2,12 +2,13 @@
 
 There the Hessian is singular.  Between the two points the path is followed over their chord, by the same corrections as
 its arcs.  Bisection separates the points where the number of negative eigenvalues or the direction of the load changes;
-the secant method then finds the root of the eigenvalue nearest zero, which is smooth along the path, to round-off.
+the secant method, safeguarded by bisection, then finds the root of the eigenvalue nearest zero, which is smooth along
+the path, to round-off.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,8 +23,9 @@ _SPLIT = (
 )
 _WIDTH = 2.0**-16  # length of an arc [rad, or fraction of the load] below which the secant method begins
 _STRAY = 0.5  # largest distance of the path from the chord, as a fraction of it
-_SECANTS = 12  # most steps of the secant method
+_SECANTS = 24  # most steps of the secant method
 _ROOT = 1e-3  # of the eigenvalues at its start, below which the last one is zero
+_NEAR_ROOT = 0.25  # the same, between two eigenvalues of opposite signs
 _ROUND_OFF = 16 * float(np.finfo(float).eps)  # of |x| . |K| |x|, below which an eigenvalue is zero
 _INVERSE_ITERATIONS = 40  # most steps of inverse iteration
 _SETTLED = 1e-14  # relative change of an eigenvalue at which inverse iteration ends
@@ -112,25 +114,48 @@ class _Chord:
         return value, x, _ROUND_OFF * float(np.abs(x) @ absolute_product(tangent.band, x))
 
     def root(self, low: _Place, high: _Place) -> tuple[Equilibrium, Vector] | None:
-        """Where the eigenvalue nearest zero is zero between two places, and its vector; None if it is nowhere zero."""
+        """Where the eigenvalue nearest zero is zero between two places, and its vector; None if it is nowhere zero.
+
+        Newton's method may fail next to the root, where the Hessian is nearly singular.  There the path is a straight
+        line between the nearest places found, whose distance is far below the precision of the load.
+        """
         constrained = self.solver.system.constrained
         start = np.where(constrained, 0.0, np.cos(1.7 * np.arange(constrained.size)))
         (a, x, rounding), (b, y, _) = self.softest(low.point, start), self.softest(high.point, start)
-        ends, allowed = (low.s, high.s), max(_ROOT * max(abs(a), abs(b)), rounding)
-        s, t = ends
+        size, left, right, halve = max(abs(a), abs(b)), low, high, False
         best, point, mode = (abs(a), low.point, x) if abs(a) < abs(b) else (abs(b), high.point, y)
-        for _ in range(_SECANTS):
-            if a == b:
+        for number in range(_SECANTS):
+            if best <= rounding:
+                return point, mode
+            share = a / (a - b) if a != b and not halve else 0.5
+            if not 0 < share < 1:
+                share = 0.5
+            found = self.at(left.s + share * (right.s - left.s))
+            if found is None:  # beside the root; from one side, then from the other
+                aside = share / 2 if number % 2 else (1 + share) / 2
+                found = self.at(left.s + aside * (right.s - left.s))
+            if found is None or found.s in (left.s, right.s):
                 break
-            s, t, a = t, float(np.clip(t - b * (t - s) / (b - a), *ends)), b
-            found = self.at(t)
-            if found is None:
-                break
-            b, y, _ = self.softest(found.point, mode)
-            if abs(b) >= best:
-                break
-            best, point, mode = abs(b), found.point, y
-        return (point, mode) if best <= allowed else None
+            value, y, _ = self.softest(found.point, mode)
+            halve = abs(value) >= best  # round-off may move a point near the root along the other path
+            if not halve:
+                best, point, mode = abs(value), found.point, y
+            if np.sign(value) == np.sign(a):
+                left, a = found, value
+            else:
+                right, b = found, value
+        if a * b < 0 and best <= _NEAR_ROOT * size:
+            return _between(left.point, right.point, a / (a - b)), mode
+        return (point, mode) if best <= max(_ROOT * size, rounding) else None
+
+
+def _between(one: Equilibrium, other: Equilibrium, share: float) -> Equilibrium:
+    """The point at a share of the way from one equilibrium to another one close by."""
+    return replace(
+        one,
+        q=one.q + share * (other.q - one.q),
+        factor=one.factor + share * (other.factor - one.factor),
+    )
 
 
 def special_points(

@@ -224,7 +224,7 @@ def test_stresses_take_the_section_of_their_place_and_the_modulus_of_their_const
     sections = edge_sections(rod, np.array([0.0, 2.5, 5.0]))
     h, b = rod.height * np.array([1, 0.75, 0.5]), rod.width * np.array([1, 2, 3])
     np.testing.assert_allclose(sections.area, b * h, rtol=1e-12)
-    np.testing.assert_allclose(sections.second_moment, b * h**3 / 12, rtol=1e-12)
+    np.testing.assert_allclose(sections.bending, sections.young * b * h**3 / 12, rtol=1e-12)
     np.testing.assert_allclose(sections.young, rod.young * np.array([1, 1.5, 2]), rtol=1e-12)
     strip = some_rod("consistent", poisson=0.3, lateral_constraint="plane strain")
     assert edge_sections(strip, np.array([1.0])).young == pytest.approx(strip.young / (1 - 0.09))

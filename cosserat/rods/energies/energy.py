@@ -27,12 +27,14 @@ class Energy(ABC):
     between : fields of the constants with the stiffnesses of an edge that couple its two directors, for the contact
         director forces; without them these are not stored.
     large_rotations : whether sections may rotate by more than a quarter turn and paths may pass limit points.
+    true_normals : whether the directors at rest are normal to the curve itself, not to the vertex tangents (3.3.9).
     """
 
     kinematics: ClassVar[Kinematics] = PLANAR
     options: ClassVar[tuple[str, ...]] = ()
     between: ClassVar[tuple[str, ...]] = ()
     large_rotations: ClassVar[bool] = False
+    true_normals: ClassVar[bool] = False
 
     @abstractmethod
     def check(self, rod: Rod) -> None:

@@ -35,6 +35,7 @@ class Reissner(Energy):
     options = ("lateral_constraint", "barrier")
     between = ("k_axial", "k_volume", "k_shear", "k_bending", "k_stretch_gradient")
     large_rotations = True
+    true_normals = True
 
     def check(self, rod: Rod) -> None:
         """Require a Poisson's ratio near one half of an incompressible section."""
