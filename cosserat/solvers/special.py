@@ -7,7 +7,7 @@ the secant method then finds the root of the eigenvalue nearest zero, which is s
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -45,6 +45,10 @@ class SpecialPoint:
     limit: bool
     first: bool
     mode: Vector
+
+    def unframed(self, system: MechanicalSystem) -> SpecialPoint:
+        """The same, its DOFs along the axes of space."""
+        return replace(self, point=self.point.unframed(system), mode=system.frame.out(self.mode))
 
     @property
     def label(self) -> str:
