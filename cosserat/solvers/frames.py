@@ -60,10 +60,10 @@ class Frame:
         if np.iscomplexobj(values):
             real, imaginary = (self._rotated(part, sense) for part in (values.real, values.imag))
             return np.asarray(real + 1j * imaginary, dtype=values.dtype)
-        found = np.array(values)
+        found: Fields = np.array(values, dtype=np.float64)
         for row in found.reshape(-1, found.shape[-1]):
             rotate(row, self.first, self.axes, sense)
-        return found
+        return found.astype(values.dtype, copy=False)
 
     def rotate(self, gradient: Vector, band: Band, skew: Band, sense: float) -> None:
         """Rotate a gradient and a Hessian, each if it has entries, in place: into the frames for 1, out for -1."""

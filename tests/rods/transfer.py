@@ -65,7 +65,6 @@ def carried(mass, inertia=0.0, a=0.0, b=0.0):
 
 CLAMPED, FREE = np.eye(6)[:3], np.eye(6)[3:]
 """Rows that are zero at an end."""
-PINNED = np.eye(6)[[0, 1, 5]]
 
 
 def oblique(angle):
