@@ -480,11 +480,13 @@ def _largest(x: Vector) -> float:
 
 
 @_uncounted
-def _ends(q: Vector, change: Vector, middle: Vector, end: Vector) -> None:
-    """Midpoint and end of a step."""
+def _ends(run: Run, q: Vector, change: Vector, middle: Vector, end: Vector) -> None:
+    """Midpoint and end of a step, along the axes of space."""
     for i in range(q.size):
         middle[i] = q[i] + change[i] / 2
         end[i] = q[i] + change[i]
+    rotate(middle, run.framed, run.axes, -1.0)
+    rotate(end, run.framed, run.axes, -1.0)
 
 
 @_uncounted
@@ -502,9 +504,8 @@ def _solve_step(
     turning = memory[_TURNING] != 0.0
     stale = memory[_FRESH] != 0.0 and not turning  # whether the matrix is of an earlier step
     memory[_FRESH] = 1.0 if stale else 0.0
-    relative = size = sized = (
-        np.inf
-    )  # last correction as a fraction of the step; the last two corrections
+    # last correction as a fraction of the step; the last two corrections
+    relative = size = sized = np.inf
     for iteration in range(MAX_ITERATIONS):
         if stale and iteration > 0 and not size <= _DIVERGENCE_RATIO * sized:
             # restart with a matrix of this step
@@ -512,9 +513,7 @@ def _solve_step(
             stale, near = False, False
             relative = size = np.inf
             _copy(room.first, change)
-        _ends(q, change, middle, end)
-        rotate(middle, run.framed, run.axes, -1.0)
-        rotate(end, run.framed, run.axes, -1.0)
+        _ends(run, q, change, middle, end)
         if memory[_FRESH] == 0.0:
             if not _factorise(bodies, run, room, memory, done):
                 return False

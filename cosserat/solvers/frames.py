@@ -40,8 +40,8 @@ class Frame:
     def of(cls, axes: Mapping[int, Vector]) -> Frame:
         """Frames by the first DOF of their pairs: the first axis, a unit vector (2,)."""
         first = sorted(axes)
-        vectors = np.array([axes[number] for number in first]).reshape(-1, 2)
-        return cls(np.array(first, dtype=np.int64), np.ascontiguousarray(vectors.T))
+        components = [[float(axes[number][part]) for number in first] for part in (0, 1)]
+        return cls(np.array(first, dtype=np.int64), np.array(components))
 
     @property
     def oblique(self) -> bool:

@@ -22,7 +22,7 @@ class Foundation(Attachment):
     """An elastic foundation of Winkler's kind along a stretch of the rod, at rest in the reference."""
 
     stiffness: Annotated[float, Quantity("Pa", above=0)] | None = None
-    """Force per length of the rod and displacement in the direction `along`, in N/m per m."""
+    """Force per length of the rod and displacement in its direction, in N/m per m."""
     rotational_stiffness: Annotated[float, Quantity("N*m/rad/m", above=0)] | None = None
     """Moment per length of the rod and angle of its sections; "N" is read too."""
     start: Annotated[float, Quantity("m", at_least=0)] = 0.0

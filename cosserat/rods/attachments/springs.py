@@ -20,7 +20,7 @@ class Spring(Attachment):
     at: Place
     """The place; the rod has a vertex there."""
     stiffness: Annotated[float, Quantity("N/m", above=0)] | None = None
-    """Force per displacement in the direction `along`."""
+    """Force per displacement in its direction."""
     rotational_stiffness: Annotated[float, Quantity("N*m/rad", above=0)] | None = None
     """Moment per angle of the section, counted through whole turns; "N*m" is read too."""
 
