@@ -11,6 +11,7 @@ import cosserat
 from cosserat.errors import InputError, UnsupportedRodError
 from cosserat.rods.attachments import ATTACHMENTS
 from cosserat.rods.attachments.attachment import attached_energy
+from cosserat.rods.attachments.foundations import Foundation
 from cosserat.rods.loads.load import LoadedRod
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.potential import GRADIENT, STRAINS
@@ -164,6 +165,18 @@ def test_transfer_matrices_give_hetenyis_infinite_beam():
     for step in steps:
         at = step(0.0) @ at
     assert at[1] == pytest.approx(30 / 2 / k, rel=1e-4)
+
+
+def test_a_foundation_has_the_energy_of_a_linear_displacement():
+    """k / 2 of the integral of (1 + 2 s)^2 from 0.13 to 0.77: that of its springs to the last digit."""
+    ground = {"along": "E2", "stiffness": 5.0, "start": 0.13, "end": 0.77}
+    rod = BENT.replace(curvature=0.0)
+    geometry = rod.geometry()
+    potential = attached_energy([Foundation(**ground)], LoadedRod(rod, geometry))
+    q = geometry.q.reshape(-1, 4).copy()
+    q[:, 1] += 1 + 2 * geometry.arc_length
+    exact = 5.0 / 2 * ((1 + 2 * 0.77) ** 3 - (1 + 2 * 0.13) ** 3) / 6
+    assert potential.energy(q.ravel()) == pytest.approx(exact, rel=1e-13)
 
 
 def test_winklers_foundation_under_a_part_of_a_beam_is_of_second_order():
