@@ -26,7 +26,7 @@ EXAMPLES = {
         {"along": [3, 4], "stiffness": 5.0, "rotational_stiffness": 0.3, "start": 0.13, "end": 0.77}
     ],
 }
-BENT = cosserat.case("elastica").problem.rod.replace(vertices=6, curvature=0.6)
+BENT = cosserat.case("elastica").problem.rod.replace(vertices=6, rest={"kind": "arc", "curvature": 0.6})
 
 
 def made(key, origin=False):
@@ -170,7 +170,7 @@ def test_transfer_matrices_give_hetenyis_infinite_beam():
 def test_a_foundation_has_the_energy_of_a_linear_displacement():
     """k / 2 of the integral of (1 + 2 s)^2 from 0.13 to 0.77: that of its springs to the last digit."""
     ground = {"along": "E2", "stiffness": 5.0, "start": 0.13, "end": 0.77}
-    rod = BENT.replace(curvature=0.0)
+    rod = BENT.replace(rest={"kind": "straight"})
     geometry = rod.geometry()
     potential = attached_energy([Foundation(**ground)], LoadedRod(rod, geometry))
     q = geometry.q.reshape(-1, 4).copy()

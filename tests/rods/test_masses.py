@@ -144,7 +144,7 @@ def test_a_rod_with_an_eccentric_mass_falls_without_turning():
 
 def test_a_mass_is_at_its_place_in_any_reference():
     """T = m |r'|^2 / 2 + J w^2 / 2 of r by differences, on a curved rod that moves and turns without strain."""
-    rod = thick(6).problem.rod.replace(curvature=0.9)
+    rod = thick(6).problem.rod.replace(rest={"kind": "arc", "curvature": 0.9})
     geometry, rate = rod.geometry(), 0.7
     item = Mass(at=3, mass=2.0, rotary_inertia=0.05, offset=[0.13, -0.21])
     band = mass_band([item], geometry, rod.kinematics)

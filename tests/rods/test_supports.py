@@ -126,7 +126,11 @@ def test_a_ring_pulled_apart_between_guided_sections():
     for vertices in (11, 21, 41):
         case = cosserat.case("elastica").vary(
             "it",
-            rod={"vertices": vertices, "length": np.pi / 2 * R, "curvature": 1 / R},
+            rod={
+                "vertices": vertices,
+                "length": np.pi / 2 * R,
+                "rest": {"kind": "arc", "curvature": 1 / R},
+            },
             supports=[
                 {"at": "first", "fixed": "guided"},
                 {"at": "last", "fixed": "guided", "along": "E3"},
@@ -147,7 +151,9 @@ def test_a_ring_pulled_apart_between_guided_sections():
 def test_a_section_slides_on_its_clamp_as_it_stretches_wherever_it_points():
     """A curved rod of nu = 0.4 that is pulled: its first section keeps its angle and thins as the others do."""
     rod = cosserat.case("vibration_consistent").problem.rod.replace(
-        vertices=9, curvature=0.8, material={"young": 1e9, "poisson": 0.4, "line_density": 1.0}
+        vertices=9,
+        rest={"kind": "arc", "curvature": 0.8},
+        material={"young": 1e9, "poisson": 0.4, "line_density": 1.0},
     )
     pulled = [{"at": "last", "along": "40 deg", "force": 1e4}]
     lam = []
