@@ -133,6 +133,15 @@
 # .. autoclass:: cosserat.rods.constraints.Constraint
 #    :members:
 #
+# .. autoclass:: cosserat.rods.supports.Support
+#    :members:
+#
+# .. autoclass:: cosserat.rods.attachments.attachment.Attachment
+#    :members:
+#
+# .. autoclass:: cosserat.rods.masses.Mass
+#    :members:
+#
 # .. autoclass:: cosserat.rods.probes.Probe
 #    :members:
 #

@@ -22,6 +22,7 @@ _KINDS = {
     "m^4": "a second moment of area",
     "m^-1": "a curvature",
     "kg": "a mass",
+    "kg*m^2": "a moment of inertia",
     "kg/m": "a mass per length",
     "kg/m^3": "a density",
     "s": "a time",
@@ -32,6 +33,8 @@ _KINDS = {
     "N/m": "a force per length",
     "N*m": "a moment",
     "N*m^2": "a bending stiffness",
+    "N*m/rad": "a rotational stiffness",
+    "N*m/rad/m": "a rotational stiffness per length",
     "Pa": "a pressure",
     "K": "a temperature difference",
     "K/m": "a temperature gradient",
@@ -47,7 +50,7 @@ def what_is_in(unit: str) -> str:
     return _KINDS.get(unit, "a quantity")
 
 
-_ALIKE = {"m^-1": "rad/m"}
+_ALIKE = {"m^-1": "rad/m", "N*m/rad": "N*m", "N*m/rad/m": "N"}
 """Units accepted for another unit.  Elsewhere an angle is no number, although pint counts it as one."""
 
 _PREFIXES = ("", "k", "M", "G", "m", "c", "µ", "n")

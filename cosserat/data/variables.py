@@ -199,6 +199,9 @@ VARIABLES: dict[str, Variable] = {
         1e-9,
     ),
     "attached_energy": Variable((), "J", "energy of springs and foundations", "", "", 1e-9),
+    "attached_force": Variable(
+        ("vertex", "dof"), "N", "force of springs and foundations on the rod", "", "", 1e-9
+    ),
     "momentum": Variable(("time", "axis"), "kg m s-1", "linear momentum", r"\mathbf{G}", "3.3.30", 1e-7),
     "angular_momentum": Variable(
         ("time",), "kg m2 s-1", "angular momentum about the origin", r"\mathbf{H}_O", "3.3.33", 1e-7

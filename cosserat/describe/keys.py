@@ -225,6 +225,9 @@ def _written(default: Any, value: Value) -> str:
         assert isinstance(value.about, Quantity)
         number = f"{default!r}".removesuffix(".0")
         return number if value.about.unit == "1" else f'"{number} {value.about.unit}"'
+    if value.form == "row":
+        parts = zip(default, value.items, strict=True)
+        return f"[{', '.join(_written(part, item) for part, item in parts)}]"
     if isinstance(default, bool):
         return str(default).lower()
     if isinstance(default, str):

@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import problem_of
 from cosserat.figures.animated import FRAMES
 from cosserat.figures.modes import SHOWN, amplitude, buckled, label, mode_shape, panels, spoken
-from cosserat.figures.rod import draw_outline, draw_supports, magnification, outline
+from cosserat.figures.rod import draw_outline, magnification, outline
 from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas
+from cosserat.figures.supports import draw_supports
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]

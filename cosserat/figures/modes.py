@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.rod import draw_loads, draw_outline, draw_supports
+from cosserat.figures.rod import draw_loads, draw_outline
 from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas
+from cosserat.figures.supports import draw_supports
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]

@@ -7,8 +7,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.rod import draw_loads, draw_outline, draw_supports, magnification
+from cosserat.figures.rod import draw_loads, draw_outline, magnification
 from cosserat.figures.style import BODY, COMPUTED, EXACT, VARIANT, canvas
+from cosserat.figures.supports import draw_masses, draw_supports
 from cosserat.rods.problem import RodProblem
 
 _SHAPES = 7  # frames of a motion in one picture
@@ -26,6 +27,7 @@ def picture(data: xr.Dataset) -> Figure:
         draw_outline(left, x[number], d[number], problem, facecolor="none", edgecolor=EXACT, alpha=0.6)
     draw_outline(left, x[-1], d[-1], problem, facecolor=BODY, edgecolor=COMPUTED, label="last frame")
     draw_supports(left, problem, x[-1], D)
+    draw_masses(left, problem, x[-1], d[-1])
     draw_loads(left, problem, x[-1], d[-1])
     left.plot(*x[:, -1].T, color=VARIANT, linewidth=0.8, label="last vertex")
     left.set_aspect("equal", adjustable="datalim")

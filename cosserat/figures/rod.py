@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.supports import draw_masses, draw_supports
 from cosserat.rods.naming import unit_vector
-from cosserat.rods.places import Located, located, vertex_at
+from cosserat.rods.places import Located, located
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
@@ -65,6 +66,7 @@ def draw_body(ax: Axes, data: xr.Dataset, magnified: float) -> None:
     )
     ax.plot(*x.T, color=INK, linestyle="--", linewidth=0.9)
     draw_supports(ax, problem, x, D)
+    draw_masses(ax, problem, x, d)
     draw_loads(ax, problem, x, d)
 
 
@@ -77,15 +79,6 @@ def outline(x: Array, d: Array, problem: RodProblem) -> Array:
 def draw_outline(ax: Axes, x: Array, d: Array, problem: RodProblem, **colours: Any) -> None:
     """The body between its lateral surfaces."""
     ax.fill(*outline(x, d, problem).T, linewidth=0.9, **colours)
-
-
-def draw_supports(ax: Axes, problem: RodProblem, x: Array, D: Array) -> None:
-    """A bar across each fixed section, thick if the section cannot stretch either."""
-    for support in problem.supports:
-        index = vertex_at(support.at, problem.arc_length)
-        section = np.column_stack([x[index] - 1.7 * D[index], x[index] + 1.7 * D[index]])
-        whole = {"d3", "d2"} <= set(support.fixed)
-        ax.plot(*section, color=INK, linewidth=3.0 if whole else 1.2, solid_capstyle="butt", zorder=4)
 
 
 def draw_loads(ax: Axes, problem: RodProblem, x: Array, d: Array) -> None:

@@ -102,7 +102,7 @@ class CheckpointedRun:
         for stop in range(first + 1, last + 1):
             try:
                 state, done = integrate(self.system, state, substep, self.problem.integrator, self.name)
-                vectors = self.problem.rod.kinematics.split(state.q)
+                vectors = self.problem.rod.kinematics.split(self.system.frame.out(state.q))
                 check_crossing(
                     self.geometry,
                     vectors[:, 0],
@@ -221,9 +221,10 @@ def state_of(part: Solution, system: MechanicalSystem, stop: int = -1) -> State:
             used += own.size
     others = part["other_dofs"][stop] if "other_dofs" in part else np.empty((part["x"].shape[1], 0))
     rates = part["other_rates"][stop] if "other_dofs" in part else others
+    into = system.frame.into
     return State(
-        np.hstack([part["x"][stop], part["d"][stop], others]).ravel(),
-        np.hstack([part["x_rate"][stop], part["d_rate"][stop], rates]).ravel(),
+        into(np.hstack([part["x"][stop], part["d"][stop], others]).ravel()),
+        into(np.hstack([part["x_rate"][stop], part["d_rate"][stop], rates]).ravel()),
         tuple(history),
         float(part["time"][stop]),
         float(part["dissipated_energy"][stop]),
@@ -269,6 +270,9 @@ def _work_of_a_frame(problem: RodMotion, system: MechanicalSystem) -> float:
 def _fields(
     rod: Rod, geometry: Geometry, system: MechanicalSystem, states: list[State]
 ) -> dict[str, Field]:
+    out = system.frame.out
+    states = [replace(state, q=out(state.q), v=out(state.v)) for state in states]
+    system = system.unframed
     vectors = rod.kinematics.split(np.array([state.q for state in states]))
     rates = rod.kinematics.split(np.array([state.v for state in states]))
     loads = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -73,11 +74,12 @@ class RodCriticalLoads(RodProblem):
         """
         geometry = self.geometry
         system = self.system(geometry)
-        check_supports(self.rod, geometry, system.constrained, name)
+        check_supports(system, name)
         solver = EquilibriumSolver(system, self.newton, name)
         solver.remedy = "take a smaller 'search.first' and 'search.longest', or check supports and loads"
         solver.limit_remedy = "check supports and loads"
         linear = linear_criterion(solver, self.count)
+        linear = replace(linear, mode=system.frame.out(linear.mode))
         lowest = float(linear.factor[0]) if linear.factor.size else 1.0
         unit = (
             lowest if system.symmetric else 1.0
@@ -91,7 +93,7 @@ class RodCriticalLoads(RodProblem):
             branches=0,
         )
         true, reached = first_special_point(solver, arc, unit)
-        found = [] if true is None else [true]
+        found = [] if true is None else [true.unframed(system)]
         special, labels, statistics = special_fields(self.rod, geometry, found)
         if linear.factor.size:
             statistics["linear_load_factor"] = lowest

@@ -14,6 +14,7 @@ from cosserat.problem import ALONE, Run
 from cosserat.problems.posed import check_unposed
 from cosserat.problems.special import leading
 from cosserat.problems.static import check_supports, equilibrium_solution
+from cosserat.rods.holding import free_motions
 from cosserat.rods.problem import LOADS, RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, coarse
@@ -71,10 +72,12 @@ class RodModes(RodProblem):
         point, solver = self._rest(geometry, name)
         rest = equilibrium_solution(self, geometry, point, solver)
         check_crossing(geometry, rest["x"], rest["d"], self.rod.below, name)
-        system, held = solver.system, self._held(geometry)
+        system, held = solver.system, not free_motions(solver.system).any()
         found = small_motions(system, point.q, self.count, supported=held, history=point.history)
-        placed = self.rod.strain_energy.reference(geometry) + point.q
-        fields = {**rest.fields, **self._shapes(found), **self._masses(system, placed, found)}
+        found = replace(found, shape=system.frame.out(found.shape))
+        plain = system.unframed
+        placed = self.rod.strain_energy.reference(geometry) + system.frame.out(point.q)
+        fields = {**rest.fields, **self._shapes(found), **self._masses(plain, placed, found)}
         speed = np.hypot(found.growth, found.angular_frequency)
         statistics = dict(rest.statistics) | {
             "mode_count": found.growth.size,
@@ -99,17 +102,12 @@ class RodModes(RodProblem):
             ]
         )
 
-    def _held(self, geometry: Geometry) -> bool:
-        """Whether no rigid motion is free."""
-        at_rest = self.rod.strain_energy.reference(geometry)
-        return not self.rod.kinematics.free_motions(at_rest, self.constrained()).any()
-
     def _rest(self, geometry: Geometry, name: str) -> tuple[Equilibrium, EquilibriumSolver]:
         """What the rod moves about, in displacements, with its solver."""
         system = self.system(geometry)
         loaded = any(self.loads_of(key) for key in LOADS) or system.constraints.moving
-        if self.about == "equilibrium" and (loaded or self._held(geometry)):
-            check_supports(self.rod, geometry, system.constrained, name)
+        if self.about == "equilibrium" and (loaded or not free_motions(system).any()):
+            check_supports(system, name)
             solver = EquilibriumSolver(system, self.newton, name)
             return solve_full_load(solver, stay=self.branch == "stay"), solver
         bare = system.unloaded()

@@ -17,6 +17,7 @@ from cosserat.problem import ALONE, Run
 from cosserat.problems.checkpoints import CheckpointedRun, joined, state_of
 from cosserat.problems.outputs import of_instants, outputs
 from cosserat.problems.posed import PosedProblem
+from cosserat.rods.holding import free_motions
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
@@ -93,7 +94,8 @@ class RodMotion(PosedProblem):
         if not self.damping:
             return system
         body = self._unloaded(displacements=displacements)
-        lowest = first_elastic_frequency(body, body.space.reference, supported=self._anchored())
+        held = not free_motions(body).any()
+        lowest = first_elastic_frequency(body, body.space.reference, supported=held)
         return replace(system, damping_rate=2 * self.damping * lowest)
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
@@ -104,20 +106,17 @@ class RodMotion(PosedProblem):
         UnstableError : small motions about it grow.
         """
         body = self._unloaded(displacements=False)
-        return modes(body, body.space.reference, count, name, supported=self._anchored())
+        held = not free_motions(body).any()
+        found = modes(body, body.space.reference, count, name, supported=held)
+        return replace(found, shape=body.frame.out(found.shape))
 
     def _unloaded(self, *, displacements: bool) -> MechanicalSystem:
         """The supported rod at rest, without pose, loads and damping."""
         rest = self.model_copy(update={"pose": None})
         return RodProblem.system(rest, rest.geometry, displacements=displacements).unloaded()
 
-    def _anchored(self) -> bool:
-        """Whether no rigid motion is free."""
-        at_rest = self.rod.strain_energy.reference(self.geometry)
-        return not self.rod.kinematics.free_motions(at_rest, self.constrained()).any()
-
     def begin(self) -> State:
-        """The state at time zero."""
+        """The state at time zero, in the DOFs of the system."""
         geometry = self.geometry
         X, D, xi = geometry.X.copy(), geometry.D.copy(), geometry.arc_length
         if self.start.shape == "first beam mode":
@@ -127,14 +126,16 @@ class RodMotion(PosedProblem):
             D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
             D = self.rod.strain_energy.start_directors(self.rod, geometry, X, D)
         system, kinematics = super().system(geometry, displacements=False), self.rod.kinematics
-        start = kinematics.split(system.space.reference.copy())
+        start = kinematics.split(system.unframed.space.reference.copy())
         start[:, 0], start[:, 1] = X, D
-        q = np.where(system.constrained, system.space.reference, start.ravel())
-        pivot, v = np.zeros_like(start), np.zeros_like(start)
-        pivot[:, 0] = q[: kinematics.dimension]
+        frame = system.frame
+        q = np.where(system.constrained, system.space.reference, frame.into(start.ravel()))
+        placed, pivot, v = frame.out(q), np.zeros_like(start), np.zeros_like(start)
+        pivot[:, 0] = placed[: kinematics.dimension]
         v[:, 0] = self.start.speed * unit_vector(self.start.along)
-        rotation = kinematics.rigid_motions(q - pivot.ravel())[kinematics.dimension]
-        rate = np.where(system.constrained, 0.0, v.ravel() + self.start.spin * rotation)
+        rotation = kinematics.rigid_motions(placed - pivot.ravel())[kinematics.dimension]
+        moving = frame.into(v.ravel() + self.start.spin * rotation)
+        rate = np.where(system.constrained, 0.0, moving)
         place, given, _ = system.constraints.at_time(0.0)
         return State(q + place, rate + given, system.committed(q + place, system.history))
 
@@ -158,6 +159,7 @@ class RodMotion(PosedProblem):
                     run.checkpoints.save(number, part, whole=stopped is None)
                 if stopped:
                     raise stopped
+                state = state_of(part, checkpointed.system)  # as after an interruption, to the last bit
             done.append(part)
             reached = part["time"][-1]
             run.progress((number + 1) / checkpointed.parts, f"{reached:.4g} of {self.duration:g} s")

@@ -40,6 +40,7 @@ class States:
     u : (S, n) displacements [m].  reactions : (S, n) forces of the constrained DOFs [N].
     couples : (S,) energy of the loads that are not dead [J].
     stresses : loads that are stresses of the rod itself, potentials of displacements, each with its factors (S,).
+    attached : (S, n) force of springs and foundations [N]; (S, 0) without them.
     sense : (vertex, (S,)) a vertex, and the rotation of its section to within half a turn [rad]; None if not known.
     """
 
@@ -52,6 +53,7 @@ class States:
     couples: Array
     stresses: Sequence[tuple[Potential, Array]]
     sense: tuple[int, Array] | None
+    attached: Array
 
     def vectors(self) -> Array:
         """Positions and directors, (S, N, m, 2) [m]."""
@@ -66,7 +68,7 @@ Maker = Callable[[States], Solution]
 def outputs(states: States) -> Solution:
     """Internal forces, stresses, reactions, rotations, probes and parts of the energy."""
     made = Solution({}, {}, {"axis": states.problem.rod.kinematics.axes})
-    for maker in (_internal, _reactions, _places, _parts_of_energy):
+    for maker in (_internal, _reactions, _places, _parts_of_energy, _attached):
         more = maker(states)
         made = Solution({**made.fields, **more.fields}, {}, {**made.labels, **more.labels})
     if states.along:
@@ -123,7 +125,7 @@ def _stresses(states: States, found: Resultants) -> dict[str, Field]:
 def _reactions(states: States) -> Solution:
     """Force and couple of the supports of each vertex that has some."""
     rod = states.problem.rod
-    held = rod.kinematics.split(states.problem.constrained()).any(axis=(1, 2))
+    held = rod.kinematics.split(states.problem.held(states.geometry)[0]).any(axis=(1, 2))
     vertices = np.flatnonzero(held)
     if not vertices.size:
         return Solution({}, {})
@@ -156,6 +158,24 @@ def _places(states: States) -> Solution:
     fields["probe_displacement"] = ((states.along, "probe", "axis"), read[..., :2])
     fields["probe_rotation"] = ((states.along, "probe"), read[..., 2])
     return Solution(fields, {}, {"probe": tuple(probe.name for probe in problem.probes)})
+
+
+def attached_forces(system: MechanicalSystem, states: Sequence[Equilibrium | State]) -> Array:
+    """The force of springs and foundations, (S, n) [N]; (S, 0) without them."""
+    if not system.attached:
+        return np.zeros((len(states), 0))
+    return np.array([system.attached_force(state.q, state.history) for state in states])
+
+
+def _attached(states: States) -> Solution:
+    """The force of springs and foundations."""
+    if not states.attached.size:
+        return Solution({}, {})
+    kinematics = states.problem.rod.kinematics
+    shape = (states.attached.shape[0], -1, kinematics.per_vertex)
+    force = states.attached.reshape(shape)
+    dims = (states.along, "vertex", "dof")
+    return Solution({"attached_force": (dims, force)}, {}, {"dof": kinematics.dofs})
 
 
 def _parts_of_energy(states: States) -> Solution:
@@ -215,18 +235,19 @@ def of_equilibria(
         np.array([point.reaction for point in points]),
         factors * np.array(coupled),
         [(stress, factors) for stress in problem.stresses(geometry)],
-        _held_section(problem, factors),
+        _held_section(problem, geometry, factors),
+        attached_forces(system, points),
     )
 
 
-def _held_section(problem: RodProblem, factors: Array) -> tuple[int, Array] | None:
+def _held_section(problem: RodProblem, geometry: Geometry, factors: Array) -> tuple[int, Array] | None:
     """A section that supports hold, and its rotation at some load factors [rad]."""
     rod = problem.rod
-    held = rod.kinematics.split(problem.constrained())[:, 1].all(axis=-1)
+    held = rod.kinematics.split(problem.held(geometry)[0])[:, 1].all(axis=-1)
     if not held.any():
         return None
     vertex = int(np.argmax(held))
-    arc = problem.arc_length
+    arc = geometry.arc_length
     turns = [turn.by for turn in problem.prescribed_rotations if vertex_at(turn.at, arc) == vertex]
     return vertex, factors * sum(turns)
 
@@ -242,7 +263,8 @@ def of_instants(
 
     first_angle : angle of the first director through whole turns, (S,) [rad].
     """
-    rod = problem.rod
+    rod, frame, given = problem.rod, system.frame, instants
+    instants = [replace(state, q=frame.out(state.q), v=frame.out(state.v)) for state in given]
     q = np.array([state.q for state in instants])
     start = float(np.arctan2(geometry.D[0, 1], geometry.D[0, 0]))
     return States(
@@ -251,10 +273,11 @@ def of_instants(
         problem.energy(geometry),
         "time",
         q - rod.strain_energy.reference(geometry),
-        reactions(system, instants),
-        np.array([system.nonlinear_load_energy(state.q, state.history) for state in instants]),
-        [(stress, _levels(stress, instants)) for stress in problem.stresses(geometry)],
+        frame.out(reactions(system, given)),
+        np.array([system.nonlinear_load_energy(state.q, state.history) for state in given]),
+        [(stress, _levels(stress, given)) for stress in problem.stresses(geometry)],
         (0, first_angle - start),
+        attached_forces(system.unframed, instants),
     )
 
 

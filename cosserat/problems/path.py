@@ -26,6 +26,7 @@ from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.incremental import unloaded
 from cosserat.solvers.special import SpecialPoint, special_points
+from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
 
@@ -75,7 +76,7 @@ class RodPath(RodProblem):
         """
         geometry = self.geometry
         system = self.system(geometry)
-        check_supports(self.rod, geometry, system.constrained, name)
+        check_supports(system, name)
         solver = EquilibriumSolver(system, self.newton, name)
         solver.limit_remedy = "raise 'arc.limit'"
         solver.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
@@ -90,7 +91,7 @@ class RodPath(RodProblem):
         points: list[Equilibrium] = []
         try:
             for point in trace_path(solver, unloaded(solver), arc):
-                x, d = _placed(self.rod, geometry, point)
+                x, d = _placed(self.rod, geometry, point.unframed(system))
                 where = f"{name}, {point.factor:.4g} of the load"
                 check_crossing(geometry, x, d, self.rod.below, where)
                 points.append(point)
@@ -131,7 +132,8 @@ def _with_special_points(
     special: list[SpecialPoint] = []
     after: list[int] = []
     for before, beyond in solver.crossings:
-        within = special_points(solver.system, solver.name, before, beyond)
+        crossed = special_points(solver.system, solver.name, before, beyond)
+        within = [point.unframed(solver.system) for point in crossed]
         special += within
         after += len(within) * [next(k for k, point in enumerate(points) if point is before)]
     fields, labels, statistics = special_fields(rod, geometry, special)
@@ -151,16 +153,18 @@ def _placed(rod: Rod, geometry: Geometry, point: Equilibrium) -> tuple[Array, Ar
     return vectors[:, 0], vectors[:, 1]
 
 
-def _energy(solver: EquilibriumSolver, point: Equilibrium) -> float:
-    """Strain energy and, at the load factor, that of the loads that are not dead [J]."""
-    loads = solver.system.nonlinear_load_energy(point.q, point.history)
-    return solver.system.internal.energy(point.q) + point.factor * loads
+def _energy(system: MechanicalSystem, point: Equilibrium) -> float:
+    """Strain energy, that of springs and, at the load factor, that of the loads that are not dead [J]."""
+    loads = system.nonlinear_load_energy(point.q, point.history)
+    attached = system.attached_energy(point.q, point.history)
+    return system.internal.energy(point.q) + attached + point.factor * loads
 
 
 def _solution(
     problem: RodProblem, geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver
 ) -> Solution:
-    rod = problem.rod
+    rod, system = problem.rod, solver.system.unframed
+    points = [point.unframed(solver.system) for point in points]
     x, d = (
         np.array(parts)
         for parts in zip(*(_placed(rod, geometry, point) for point in points), strict=True)
@@ -174,7 +178,7 @@ def _solution(
         "d_ref": (vector, geometry.D),
         "x": ((*along, *vector), x),
         "d": ((*along, *vector), d),
-        "potential": (along, np.array([_energy(solver, point) for point in points])),
+        "potential": (along, np.array([_energy(system, point) for point in points])),
     }
     statistics = {
         "points": len(points),
@@ -189,8 +193,8 @@ def _solution(
         )
 
     def derive() -> Solution:
-        found = outputs(of_equilibria(problem, geometry, solver.system, points, "point"))
-        stored, work = energies(solver.system, points), work_along(solver.system, points)
+        found = outputs(of_equilibria(problem, geometry, system, points, "point"))
+        stored, work = energies(system, points), work_along(system, points)
         more = {name: (along, values) for name, values in (stored | work).items()}
         return replace(found, fields={**found.fields, **more})
 

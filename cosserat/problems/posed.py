@@ -62,7 +62,10 @@ class PosedProblem(RodProblem):
         system = super().system(geometry, displacements=displacements)
         if self.pose is None:
             return system
-        return replace(system, internal=measured_from(self._at_rest(), system.internal))
+        rest, plain = self._at_rest(), system.plain
+        if plain is not None:
+            plain = replace(plain, internal=measured_from(rest, plain.internal))
+        return replace(system, internal=measured_from(rest, system.internal), plain=plain)
 
     def energy(self, geometry: Geometry) -> Potential:
         """The strain energy, a potential of displacements from the pose."""
@@ -89,7 +92,7 @@ class PosedProblem(RodProblem):
         axial, slide, turn = (
             (rest[name] - own.constants[name])[:-1] / edge for name in ("axial", "slide", "turn")
         )
-        load = stressed(own, axial, turn, np.zeros(edge.size + 1), slide)
+        load = replace(stressed(own, axial, turn, np.zeros(edge.size + 1), slide), frame=own.frame)
         way = replace(system, internal=own, external=(*system.external, load))
         walk = EquilibriumSolver(way, solver.settings, solver.name)
         bent = solve_full_load(walk)

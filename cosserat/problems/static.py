@@ -13,10 +13,10 @@ from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.problem import ALONE, Run
 from cosserat.problems.outputs import energies, of_equilibria, outputs
 from cosserat.problems.posed import PosedProblem
+from cosserat.rods.holding import free_motions
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, strains
 from cosserat.rods.resolution import check_crossing, coarse
-from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.modes import Modes, modes
@@ -67,13 +67,14 @@ class RodStatics(PosedProblem):
         geometry = self.geometry
         system = self.system(geometry)
         point, _ = self.equilibrium(geometry, system, name)
-        return modes(system, point.q, count, name, supported=True, history=point.history)
+        found = modes(system, point.q, count, name, supported=True, history=point.history)
+        return replace(found, shape=system.frame.out(found.shape))
 
     def equilibrium(
         self, geometry: Geometry, system: MechanicalSystem, name: str
     ) -> tuple[Equilibrium, EquilibriumSolver]:
         """The equilibrium as all loads grow together, in displacements, with its solver."""
-        check_supports(self.rod, geometry, system.constrained, name)
+        check_supports(system, name)
         solver = EquilibriumSolver(system, self.newton, name)
         try:
             return self.settled(geometry, solver)
@@ -86,14 +87,14 @@ class RodStatics(PosedProblem):
             raise
 
 
-def check_supports(rod: Rod, geometry: Geometry, constrained: NDArray[np.bool_], name: str) -> None:
-    """Raise UnsupportedRodError if a rigid motion moves no constrained DOF, (n,)."""
-    free = rod.kinematics.free_motions(rod.strain_energy.reference(geometry), constrained)
+def check_supports(system: MechanicalSystem, name: str) -> None:
+    """Raise UnsupportedRodError if neither supports nor springs resist a rigid motion."""
+    free = free_motions(system)
     left = [motion for motion, fraction in zip(_MOTIONS, free, strict=True) if fraction > 0.1]
     if left:
         raise UnsupportedRodError(
             f"{name}: the supports leave the rod free to move ({', '.join(left)}); "
-            "fix more DOFs in 'supports', such as at = 'first', fixed = ['x3', 'x2', 'd3', 'd2']"
+            "add one to 'supports', such as at = 'first', fixed = 'clamped', or 'springs' that hold it"
         )
 
 
@@ -102,7 +103,8 @@ def equilibrium_solution(
 ) -> Solution:
     """Fields of one equilibrium, in displacements, and what follows from them."""
     rod = problem.rod
-    system, shape = solver.system, (rod.vertices, rod.kinematics.per_vertex)
+    point, system = point.unframed(solver.system), solver.system.unframed
+    shape = (rod.vertices, rod.kinematics.per_vertex)
     load = point.factor * system.dead_load.reshape(shape)
     u, vectors = rod.kinematics.split(point.q), rod.vectors(geometry, point.q)
     x, d = vectors[:, 0], vectors[:, 1]

@@ -131,6 +131,10 @@ class Constraint(Parameters):
         """The DOFs of the vertex that it fixes."""
         return ()
 
+    def holds(self, D: Array) -> list[tuple[str, Array]]:
+        """The components that it holds, a vector ("x" or "d") and a direction (2,) each; D : director (2,) [m]."""
+        return [(dof[0], np.array([dof[1] == "3", dof[1] == "2"], dtype=float)) for dof in self.fixes]
+
     @property
     def moves(self) -> tuple[DofName, ...]:
         """The DOFs of the vertex that it moves; another constraint must fix them."""
@@ -147,21 +151,6 @@ class Constraint(Parameters):
     @abstractmethod
     def part(self, rod: Rod, geometry: Geometry) -> PrescribedPart | None:
         """The prescribed motion; None if it moves nothing."""
-
-
-class Support(Constraint):
-    """Fixed DOFs of one vertex."""
-
-    fixed: tuple[DofName, ...]
-    """Degrees of freedom fixed at their reference value: components of the position (x) and of the director (d)."""
-
-    @property
-    def fixes(self) -> tuple[DofName, ...]:
-        """The fixed DOFs."""
-        return self.fixed
-
-    def part(self, rod: Rod, geometry: Geometry) -> None:
-        """No motion."""
 
 
 class PrescribedDisplacement(Constraint):

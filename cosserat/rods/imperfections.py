@@ -16,6 +16,7 @@ from pydantic import Field
 
 from cosserat.errors import InputError
 from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.rods.holding import free_motions
 from cosserat.rods.kinematics import rotated
 from cosserat.rods.reference import Geometry, normals, signed_angle, vertex_tangents
 from cosserat.solvers.modes import modes
@@ -90,14 +91,14 @@ class Mode(Imperfection):
         """The displacement of the mode; its largest value along the normal is one."""
         body, kinematics = problem.unloaded_rod(perfect), problem.rod.kinematics
         at_rest = problem.rod.strain_energy.reference(perfect)
-        free = int((kinematics.free_motions(at_rest, body.constrained) > 0).sum())
+        free = int((free_motions(body) > 0).sum())
         count = free + self.mode
         if count > (~body.constrained).sum():
             raise InputError(
                 f"'imperfection' has 'mode' = {self.mode}, but the rod has fewer; take a lower one"
             )
         found = modes(body, np.zeros_like(at_rest), count, "'imperfection'", supported=not free)
-        moved = kinematics.split(found.shape[-1])[:, 0]
+        moved = kinematics.split(body.frame.out(found.shape[-1]))[:, 0]
         along = (moved * normals(perfect.X)).sum(axis=1)
         if np.abs(along).max() < 1e-6 * np.abs(moved).max():
             raise InputError(

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 T = TypeVar("T", bound=np.generic)
 
 
@@ -68,16 +67,6 @@ class Kinematics:
         for field, (a, b) in zip(fields[self.dimension :], pairs, strict=True):
             field[..., a], field[..., b] = -vectors[..., b], vectors[..., a]
         return fields.reshape(fields.shape[0], -1)
-
-    def free_motions(self, q: Array, constrained: Mask) -> Array:
-        """How free of the constraints each rigid motion at flat DOFs is, from 0 to 1; constrained (N m d,)."""
-        motions = self.rigid_motions(q)
-        at_supports = motions[:, constrained] / np.abs(motions).max(axis=1)[:, None]
-        _, stretch, directions = np.linalg.svd(at_supports.T, full_matrices=True)
-        missing = motions.shape[0] - stretch.size
-        free = directions[np.append(stretch, np.zeros(missing)) < 1e-10]
-        left: Array = np.abs(free).max(axis=0, initial=0.0)
-        return left
 
     def mass_band(self, own: Array, shared: Array | None = None) -> Array:
         """The mass matrix as a symmetric band, (N m d, (2 m - 1) d + 1).

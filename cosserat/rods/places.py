@@ -137,7 +137,7 @@ def mesh(vertices: int, length: float, places: Sequence[str | int]) -> Array:
     if spans.size > edges:
         raise PydanticCustomError(
             "vertices",
-            f"has {vertices} vertices, but {spans.size + 1} of its ends and supports need one each; "
+            f"has {vertices} vertices, but {spans.size + 1} of its ends, supports, springs and masses need one each; "
             "use more 'rod.vertices'",
         )
     wanted = spans / length * edges

@@ -12,14 +12,18 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.problem import Problem
+from cosserat.rods.attachments import ATTACHMENTS
+from cosserat.rods.attachments.attachment import Attachment, attached_energy
+from cosserat.rods.attachments.foundations import Foundation
+from cosserat.rods.attachments.springs import Spring
 from cosserat.rods.constraints import (
     Constraint,
     PrescribedDisplacement,
     PrescribedRotation,
     RodConstraints,
-    Support,
 )
 from cosserat.rods.energies.reissner import STRESSES
+from cosserat.rods.holding import held_components
 from cosserat.rods.imperfections import AnyImperfection
 from cosserat.rods.loads.couples import Couple, LineCouple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
@@ -27,12 +31,16 @@ from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
 from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.loads.pressure import Pressure
 from cosserat.rods.loads.strains import PreStrain, StressFreeStrain, Temperature
+from cosserat.rods.masses import Mass
 from cosserat.rods.places import check_place, mesh
 from cosserat.rods.probes import Probe, check_names
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.rods.space import RodSpace
+from cosserat.rods.supports import Support
 from cosserat.rods.time_functions import TimeFunction
+from cosserat.solvers.banded import Mask
+from cosserat.solvers.frames import Frame, framed
 from cosserat.solvers.potential import Potential
 from cosserat.solvers.system import MechanicalSystem
 
@@ -68,7 +76,13 @@ class RodProblem(Problem):
     """Keys of loads whose potential is always present, for its internal variables."""
     rod: Rod
     supports: tuple[Support, ...]
-    """Supports of the rod; only a motion may have none."""
+    """Supports of the rod; a motion, or a rod that springs hold, may have none."""
+    springs: tuple[Spring, ...] = ()
+    """Springs between places of the rod and the ground."""
+    foundations: tuple[Foundation, ...] = ()
+    """Elastic foundations, each along a stretch of the rod."""
+    masses: tuple[Mass, ...] = ()
+    """Concentrated masses, each on one section."""
     gravity: Gravity | None = None
     forces: tuple[PointForce, ...] = ()
     """Dead forces, each at one vertex."""
@@ -103,6 +117,10 @@ class RodProblem(Problem):
         given = getattr(self, key, None)
         return given if isinstance(given, tuple) else () if given is None else (given,)
 
+    def attachments(self) -> list[Attachment]:
+        """Every spring and foundation."""
+        return [item for key in ATTACHMENTS for item in getattr(self, key, ())]
+
     def constraints(self) -> Iterator[tuple[str, Constraint]]:
         """Every constraint with the key of its kind."""
         for key in CONSTRAINTS:
@@ -111,8 +129,10 @@ class RodProblem(Problem):
 
     @property
     def arc_length(self) -> Array:
-        """Reference arc length of the vertices, one of them at every constraint, shape (N,) [m]."""
-        return mesh(self.rod.vertices, self.rod.length, [item.at for _, item in self.constraints()])
+        """Reference arc length of the vertices, one of them at every constraint, spring and mass, shape (N,) [m]."""
+        places = [item.at for _, item in self.constraints()]
+        places += [item.at for item in self.springs] + [item.at for item in self.masses]
+        return mesh(self.rod.vertices, self.rod.length, places)
 
     @property
     def geometry(self) -> Geometry:
@@ -128,11 +148,15 @@ class RodProblem(Problem):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         loads = [(key, load) for key in LOADS for load in self.loads_of(key)]
-        named = [at for _, load in loads for at in load.places] + [probe.at for probe in self.probes]
+        named = [at for item in self.attachments() for at in item.places]
+        named += [at for _, load in loads for at in load.places]
+        named += [mass.at for mass in self.masses] + [probe.at for probe in self.probes]
         for at in [*(item.at for _, item in self.constraints()), *named]:
             check_place(at, self.rod.vertices, self.rod.length)
         for key, load in loads:
             load.check(self.rod, key)
+        for item in self.attachments():
+            item.check(self.rod)
         check_names(self.probes)
         return self
 
@@ -147,7 +171,10 @@ class RodProblem(Problem):
 
     @model_validator(mode="after")
     def _what_moves_is_constrained(self) -> Self:
-        constrained, arc, met = self.constrained(), self.arc_length, dict[int, str]()
+        perfect, met = self.rod.geometry(self.arc_length), dict[int, str]()
+        oblique = np.tile([0.6, 0.8], (perfect.X.shape[0], 1))  # directors may point anywhere in a pose
+        arc, (constrained, frame) = perfect.arc_length, self.held(Geometry(perfect.X, oblique))
+        constrained[frame.first] = constrained[frame.first + 1] = False
         for key, item in self.constraints():
             for dof in item.moves:
                 number = self.rod.dof(item.at, dof, arc)
@@ -189,18 +216,24 @@ class RodProblem(Problem):
         """
         energy = self.rod.strain_energy.potential(self.rod, geometry, displacements=displacements)
         at_rest = self.rod.strain_energy.reference(geometry)
-        held = self.constrained()
+        mask, frame = self.held(geometry)
+        still, attached = mask.copy(), self.attachments()
+        still[frame.first] = still[frame.first + 1] = False
         for _, item in self.constraints():
-            held[[self.rod.dof(item.at, dof, geometry.arc_length) for dof in item.moves]] = False
-        body = LoadedRod(self.rod, geometry, at_rest if displacements else None, held)
+            still[[self.rod.dof(item.at, dof, geometry.arc_length) for dof in item.moves]] = False
+        origin = at_rest if displacements else None
+        body = LoadedRod(self.rod, geometry, origin, still, self.masses)
         rounded = np.zeros_like(at_rest) if energy.origin is None else energy.origin
-        return MechanicalSystem(
+        parts = [item.part(self.rod, geometry) for _, item in self.constraints()]
+        system = MechanicalSystem(
             energy,
             tuple(self._potentials(body)),
-            self._constraints(geometry),
+            RodConstraints(mask, tuple(part for part in parts if part is not None)),
             RodSpace(self.rod.kinematics, at_rest, displacements, rounded),
             body.mass,
+            attached=(attached_energy(attached, body),) if attached else (),
         )
+        return framed(system, frame)
 
     def _potentials(self, body: LoadedRod) -> Iterator[Potential]:
         """The potential of each kind of loads, and of each of its functions of time."""
@@ -231,15 +264,10 @@ class RodProblem(Problem):
         """The supported rod without loads and damping, in displacements."""
         return RodProblem.system(self, geometry).unloaded()
 
-    def _constraints(self, geometry: Geometry) -> RodConstraints:
-        parts = [item.part(self.rod, geometry) for _, item in self.constraints()]
-        return RodConstraints(self.constrained(), tuple(part for part in parts if part is not None))
+    def held(self, geometry: Geometry) -> tuple[Mask, Frame]:
+        """Which DOFs are constrained, (n,), in frames of the vectors that are held obliquely."""
+        return held_components((item for _, item in self.constraints()), geometry, self.rod.kinematics)
 
-    def constrained(self) -> NDArray[np.bool_]:
-        """Which DOFs are constrained, shape (n,)."""
-        constrained = np.zeros(self.rod.vertices * self.rod.kinematics.per_vertex, dtype=np.bool_)
-        arc = self.arc_length
-        for _, item in self.constraints():
-            for dof in item.fixes:
-                constrained[self.rod.dof(item.at, dof, arc)] = True
-        return constrained
+    def constrained(self) -> Mask:
+        """Which DOFs are constrained, (n,); those of a vector that is held obliquely are in a frame of its own."""
+        return self.held(self.geometry)[0]

@@ -73,6 +73,39 @@ def _uncouple(band: Band, constrained: Mask) -> None:
 
 
 @_uncounted
+def rotate(x: Vector, framed: NDArray[np.int64], axes: Fields, sense: float) -> None:
+    """Rotate pairs of components in place: into frames with these axes for 1, out of them for -1."""
+    for k in range(framed.size):
+        i, c, s = framed[k], axes[0, k], sense * axes[1, k]
+        x[i], x[i + 1] = c * x[i] + s * x[i + 1], c * x[i + 1] - s * x[i]
+
+
+@_uncounted
+def rotate_band(
+    band: Band, framed: NDArray[np.int64], axes: Fields, sense: float, symmetric: bool
+) -> None:
+    """Rotate rows and columns of a symmetric or skew-symmetric matrix in place, as `rotate`.
+
+    Both components of a pair must be coupled to the same others, as those of a vertex are.
+    """
+    n, width = band.shape
+    for k in range(framed.size):
+        i, c, s = framed[k], axes[0, k], sense * axes[1, k]
+        for j in range(max(0, i + 2 - width), i):
+            one, two = band[j, i - j], band[j, i + 1 - j]
+            band[j, i - j], band[j, i + 1 - j] = c * one + s * two, c * two - s * one
+        for j in range(i + 2, min(n, i + width)):
+            one, two = band[i, j - i], band[i + 1, j - i - 1]
+            band[i, j - i], band[i + 1, j - i - 1] = c * one + s * two, c * two - s * one
+        if symmetric:
+            one, both, two = band[i, 0], band[i, 1] if width > 1 else 0.0, band[i + 1, 0]
+            band[i, 0] = c * c * one + 2 * c * s * both + s * s * two
+            band[i + 1, 0] = s * s * one - 2 * c * s * both + c * c * two
+            if width > 1:
+                band[i, 1] = c * s * (two - one) + (c * c - s * s) * both
+
+
+@_uncounted
 def _cholesky(band: Band) -> bool:
     """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive."""
     n, width = band.shape
@@ -291,7 +324,15 @@ def _forced(
             for j in range(band.shape[0]):
                 for i in range(band.shape[1]):
                     band[j, i] += level * room.pushing[j, i]
+    rotate(room.pushed, run.framed, run.axes, 1.0)
     _add(gradient, 1.0, room.pushed)
+
+
+@_uncounted
+def _place(run: Run, room: Room, q: Vector) -> None:
+    """Overwrite `end` by DOFs along the axes of space."""
+    _copy(q, room.end)
+    rotate(room.end, run.framed, run.axes, -1.0)
 
 
 @_uncounted
@@ -356,6 +397,7 @@ def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector, done: int) 
         _corrected(bodies, middle, end, HESSIAN, gradient, factor)
     if bodies.forced:
         _forced(bodies, run, room, HESSIAN, gradient, factor, done)
+    rotate_band(factor, run.framed, run.axes, 1.0, True)
     memory[_STIFFEST] = _step_matrix(factor, run.mass, 2 / run.h**2, run.constrained)
     memory[_FRESH], memory[_JUDGED] = 1.0, 0.0
     return _cholesky(factor)
@@ -438,11 +480,13 @@ def _largest(x: Vector) -> float:
 
 
 @_uncounted
-def _ends(q: Vector, change: Vector, middle: Vector, end: Vector) -> None:
-    """Midpoint and end of a step."""
+def _ends(run: Run, q: Vector, change: Vector, middle: Vector, end: Vector) -> None:
+    """Midpoint and end of a step, along the axes of space."""
     for i in range(q.size):
         middle[i] = q[i] + change[i] / 2
         end[i] = q[i] + change[i]
+    rotate(middle, run.framed, run.axes, -1.0)
+    rotate(end, run.framed, run.axes, -1.0)
 
 
 @_uncounted
@@ -460,9 +504,8 @@ def _solve_step(
     turning = memory[_TURNING] != 0.0
     stale = memory[_FRESH] != 0.0 and not turning  # whether the matrix is of an earlier step
     memory[_FRESH] = 1.0 if stale else 0.0
-    relative = size = sized = (
-        np.inf
-    )  # last correction as a fraction of the step; the last two corrections
+    # last correction as a fraction of the step; the last two corrections
+    relative = size = sized = np.inf
     for iteration in range(MAX_ITERATIONS):
         if stale and iteration > 0 and not size <= _DIVERGENCE_RATIO * sized:
             # restart with a matrix of this step
@@ -470,7 +513,7 @@ def _solve_step(
             stale, near = False, False
             relative = size = np.inf
             _copy(room.first, change)
-        _ends(q, change, middle, end)
+        _ends(run, q, change, middle, end)
         if memory[_FRESH] == 0.0:
             if not _factorise(bodies, run, room, memory, done):
                 return False
@@ -479,6 +522,7 @@ def _solve_step(
         after = kernel(middle, end, constants, history, strains, GRADIENT, gradient, none, none, terms)
         if bodies.loaded:
             after += _corrected(bodies, middle, end, GRADIENT, gradient, none)
+        rotate(gradient, run.framed, run.axes, 1.0)
         if stale and not np.isfinite(after):
             size = np.inf
             continue
@@ -550,7 +594,8 @@ def integrate_steps(
     if run.damping_rate > 0.0:
         _uncouple(room.mass_factor, run.constrained)
         _cholesky(room.mass_factor)
-    before = _started(bodies, q, room.gradient, room.factor)
+    _place(run, room, q)
+    before = _started(bodies, room.end, room.gradient, room.factor)
     for done in range(steps):
         if run.damping_rate > 0.0:
             _decay(v, run.mass, room.mass_factor, run.constrained, fraction, room.product, exchanged)
@@ -560,8 +605,9 @@ def integrate_steps(
         _accept(run, room, q, v, exchanged, turned, done)
         if run.damping_rate > 0.0:
             _decay(v, run.mass, room.mass_factor, run.constrained, fraction, room.product, exchanged)
-        _commit(bodies, q, room.gradient, room.factor)
-        before = _started(bodies, q, room.gradient, room.factor)
+        _place(run, room, q)
+        _commit(bodies, room.end, room.gradient, room.factor)
+        before = _started(bodies, room.end, room.gradient, room.factor)
         if not np.isfinite(before):
             return done
     return int(steps)

@@ -65,6 +65,11 @@ class Equilibrium:
         """Whether the potential has a minimum there, if there is one."""
         return self.negative == 0
 
+    def unframed(self, system: MechanicalSystem) -> Equilibrium:
+        """The same, its DOFs along the axes of space."""
+        out = system.frame.out
+        return replace(self, q=out(self.q), reaction=out(self.reaction))
+
 
 class EquilibriumSolver:
     """Equilibria at given load factors, with counts of the work done.

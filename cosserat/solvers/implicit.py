@@ -33,7 +33,20 @@ def _compiled_steps(count: int) -> Callable[..., int]:
     several = [types.UniTuple(one, count) for one in each]
     bodies = types.NamedTuple((*several, whole, types.boolean, types.boolean, whole), Bodies)
     number = types.float64
-    given = (matrix, vector, mask, matrix, number, number, types.int64, vector, whole, *(matrix,) * 5)
+    given = (
+        matrix,
+        vector,
+        mask,
+        matrix,
+        number,
+        number,
+        types.int64,
+        vector,
+        whole,
+        *(matrix,) * 5,
+        whole,
+        matrix,
+    )
     run = types.NamedTuple(given, Run)
     room = types.NamedTuple((*(vector,) * 14, matrix, matrix, matrix, matrix), Room)
     signature = types.int64(bodies, run, room, vector, vector, vector, vector)
@@ -78,6 +91,8 @@ def integrate_implicitly(
         system.space.rotation_weights(state.q),
         *_prescribed(system, state.time, h, count),
         *_varied(system, potentials, np.asarray(state.time + h * np.arange(count + 1))),
+        system.frame.first,
+        system.frame.axes,
     )
     vectors = [np.zeros(n) for _ in range(14)]
     factor = np.empty((n, max(width, system.half_bandwidth + 1)))

@@ -10,13 +10,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import NO_BAND, Band, Vector
+
+if TYPE_CHECKING:
+    from cosserat.solvers.frames import Frame
 
 Bytes = NDArray[np.uint8]
 
@@ -79,6 +82,7 @@ class Potential:
     symmetric : whether there is an energy; if not, the kernel returns zero, and its gradient is minus a force.
     origin : (n,) added to q; None for zero.
     level : the factor of a load that depends on time; None for a constant load.
+    frame : frames of their own of some pairs of DOFs, which the kernel does not know; None for none.
     """
 
     evaluate: Callable[..., float]
@@ -90,6 +94,7 @@ class Potential:
     symmetric: bool = True
     origin: Vector | None = None
     level: Level | None = None
+    frame: Frame | None = None
 
     @property
     def linear(self) -> bool:
@@ -145,8 +150,14 @@ class Potential:
         skew: Band,
         terms: Vector | None = None,
     ) -> float:
+        if self.frame is not None:
+            q = self.frame.out(q)
+            self.frame.rotate(gradient, band, skew, -1.0)
         q = q if self.origin is None else q + self.origin
         terms = np.empty(len(self.terms)) if terms is None else terms
-        return float(
+        energy = float(
             self.evaluate(q, NOTHING, self.data, history, _NO_STRAINS, task, gradient, band, skew, terms)
         )
+        if self.frame is not None:
+            self.frame.rotate(gradient, band, skew, 1.0)
+        return energy

@@ -48,6 +48,10 @@ class SpecialPoint:
     first: bool
     mode: Vector
 
+    def unframed(self, system: MechanicalSystem) -> SpecialPoint:
+        """The same, its DOFs along the axes of space."""
+        return replace(self, point=self.point.unframed(system), mode=system.frame.out(self.mode))
+
     @property
     def label(self) -> str:
         """Its kind in words."""

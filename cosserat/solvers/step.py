@@ -46,6 +46,7 @@ class Run(NamedTuple):
     moved : (m,) constrained DOFs that move; places, rates : (steps + 1, m) their displacements and rates.
     varied : (l, n) dead loads that depend on time; factors : (steps, l) theirs, means over the steps.
     levels : (steps, k) factors of the potentials that are forced.
+    framed, axes : (p,) first DOF of each pair with a frame of its own, (2, p) cosine and sine of its first axis.
     """
 
     mass: Band
@@ -62,13 +63,16 @@ class Run(NamedTuple):
     varied: Fields
     factors: Fields
     levels: Fields
+    framed: NDArray[np.int64]
+    axes: Fields
 
 
 class Room(NamedTuple):
     """Work space; all (n,) except `factor`, `mass_factor` and `pushing`, which are bands, and `rotations`.
 
     change, first : of the DOFs in the step, and its first guess.  earlier, earliest : changes of the last two steps.
-    middle, end : DOFs.  gradient : of energy and loads.  pull : force of the momentum at the start and the dead load.
+    middle, end : DOFs along the axes of space, as potentials take them.  gradient : of energy and loads.
+    pull : force of the momentum at the start and the dead load.
     gained : change of the DOFs at the prescribed velocity.  product : M gained.
     force : unbalanced force.  z : direction of the force that corrects the energy.
     load : the dead load of the step.  pushed, pushing : gradient and Hessian of the forced loads.

@@ -24,6 +24,7 @@ from cosserat.solvers.banded import (
     solve_positive,
     uncouple,
 )
+from cosserat.solvers.frames import NO_FRAME, Frame
 from cosserat.solvers.indefinite import solve_any
 from cosserat.solvers.potential import Level, Potential
 
@@ -155,6 +156,7 @@ class MechanicalSystem:
     mass : symmetric band (n, w + 1); None for statics.
     damping_rate : c of the damping force -c M v [1/s].
     attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
+    frame : frames of some pairs of DOFs.  plain : the same body without them, if there are some.
     """
 
     internal: Potential
@@ -164,6 +166,13 @@ class MechanicalSystem:
     mass: Band | None = None
     damping_rate: float = 0.0
     attached: tuple[Potential, ...] = ()
+    frame: Frame = NO_FRAME
+    plain: MechanicalSystem | None = None
+
+    @property
+    def unframed(self) -> MechanicalSystem:
+        """The same body with its DOFs along the axes of space, for what is said of a state."""
+        return self if self.plain is None else replace(self.plain, damping_rate=self.damping_rate)
 
     @property
     def own(self) -> tuple[Potential, ...]:
@@ -255,7 +264,8 @@ class MechanicalSystem:
 
     def unloaded(self) -> MechanicalSystem:
         """The same body without loads, as it is attached."""
-        return replace(self, external=())
+        plain = None if self.plain is None else self.plain.unloaded()
+        return replace(self, external=(), plain=plain)
 
     def nonlinear_load_energy(self, q: Vector, history: History) -> float:
         """The energy of the loads that are neither linear nor depend on time [J]."""
@@ -266,6 +276,13 @@ class MechanicalSystem:
         """The energy of what the body is attached to [J]."""
         attached = zip(self.attached, history[1 : 1 + len(self.attached)], strict=True)
         return float(sum(potential.energy(q, own) for potential, own in attached))
+
+    def attached_force(self, q: Vector, history: History) -> Vector:
+        """The force of what the body is attached to, (n,) [N]."""
+        gradient = np.zeros(self.constrained.size)
+        for potential, own in zip(self.attached, history[1:], strict=False):
+            potential.add_gradient(q, own, gradient)
+        return -gradient
 
     def add_gradient(self, q: Vector, history: History, gradient: Vector) -> None:
         """Add the gradient (n,) [N] of all that has a potential which does not depend on time."""

@@ -106,7 +106,7 @@ def test_units_words_and_symbols_in_the_text_are_those_of_the_classes(kind):
     for (path, text), (_, field) in zip(printed(kind), fields(kind), strict=True):
         for mark in marks(whole(field)):
             if isinstance(mark, Quantity) and mark.unit != "1":
-                assert re.search(rf" in {re.escape(mark.unit)}(?: \(|;| or )", text), path
+                assert re.search(rf" in {re.escape(mark.unit)}(?: \(|;| or |,|\])", text), path
             assert limits(mark) in text.split(";")[0], path
             if mark.symbol and "[" not in text.split(";")[0]:
                 assert f"Thesis: {mark.symbol}" in text, path
@@ -163,6 +163,9 @@ line_couples = [{ density = "1 N", start = "0 m" }]
 follower_forces = [{ at = "last", along = "E2", force = "1 N" }]
 follower_line_loads = [{ along = "E2", density = "1 N/m", start = "0 m" }]
 pressures = [{ side = "upper", pressure = "1 Pa", start = "0 m" }]
+springs = [{ at = 1, along = "E2", stiffness = "1 N/m", rotational_stiffness = "1 N*m/rad" }]
+foundations = [{ along = "E2", stiffness = "1 Pa", rotational_stiffness = "1 N*m/rad/m" }]
+masses = [{ at = 1, mass = "1 kg" }]
 rod.stations = [{ at = "0 m" }]
 supports = [{ at = "first", fixed = ["x3", "x2"] }, { at = "last", fixed = ["d3", "d2"] }]
 prescribed_displacements = [{ at = "first", dof = "x2", by = "1 cm" }]

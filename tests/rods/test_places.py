@@ -115,7 +115,9 @@ def test_a_support_in_metres_is_where_it_is_asked_for():
 
 
 def test_supports_need_vertices():
-    with pytest.raises(InputError, match="has 3 vertices, but 4 of its ends and supports need one each"):
+    with pytest.raises(
+        InputError, match="has 3 vertices, but 4 of its ends, supports, springs and masses need"
+    ):
         cantilever(3).vary(
             "it", supports=[CLAMP, *({"at": f"{x} m", "fixed": ["x2"]} for x in (0.3, 0.4))]
         )

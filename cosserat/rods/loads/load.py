@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Parameters, Quantity
+from cosserat.rods.masses import Mass, added, mass_band
 from cosserat.rods.places import located
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
@@ -29,17 +30,22 @@ class LoadedRod:
 
     origin : (n,) added by the potential to the DOFs to get positions and directors: zero, or the reference.
     held : (n,) which DOFs are constrained and do not move; None: none of them.
+    masses : concentrated masses that it carries.
     """
 
     rod: Rod
     geometry: Geometry
     origin: Array | None = None
     held: NDArray[np.bool_] | None = None
+    masses: tuple[Mass, ...] = ()
 
     @cached_property
     def mass(self) -> Array:
-        """Mass matrix as a symmetric band."""
-        return self.rod.mass(self.geometry)
+        """Mass matrix as a symmetric band, with that of the concentrated masses."""
+        own = self.rod.mass(self.geometry)
+        if not self.masses:
+            return own
+        return added(own, mass_band(self.masses, self.geometry, self.rod.kinematics))
 
     @property
     def no_force(self) -> Array:

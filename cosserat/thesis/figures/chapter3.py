@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
-from cosserat.figures.rod import draw_loads, draw_outline, draw_supports
+from cosserat.figures.rod import draw_loads, draw_outline
 from cosserat.figures.style import (
     BODY,
     COMPUTED,
@@ -26,6 +26,7 @@ from cosserat.figures.style import (
     exact_curve,
     plain_points,
 )
+from cosserat.figures.supports import draw_supports
 from cosserat.rods.problem import RodProblem
 from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table.readouts import tension_of, weight_of

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.exact import beams, elastica
-from cosserat.figures.rod import draw_outline, draw_supports, outline
+from cosserat.figures.rod import draw_outline, outline
 from cosserat.figures.style import BODY, COMPUTED, CONSISTENT, EXACT, INK, VARIANT, canvas
+from cosserat.figures.supports import draw_supports
 from cosserat.problems.motion import RodMotion
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.problem import RodProblem
