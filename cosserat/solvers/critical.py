@@ -205,8 +205,8 @@ def first_special_point(
             return replace(found, point=point), point.factor
         if not found.stable:
             raise own.stopped(
-                f"unstable between {reached:.6g} and {unit * found.factor:.6g} of the loads, at a place that is not found; "
-                f"{solver.remedy}",
+                f"unstable between {reached:.6g} and {unit * found.factor:.6g} of the loads, at a place that is not "
+                f"found; {solver.remedy}",
                 found,
             )
         reached = unit * found.factor
