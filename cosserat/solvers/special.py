@@ -128,7 +128,8 @@ class _Chord:
         (a, x, rounding), (b, y, _) = self.softest(low.point, start), self.softest(high.point, start)
         size, left, right, halve = max(abs(a), abs(b)), low, high, False
         best, point, mode = (abs(a), low.point, x) if abs(a) < abs(b) else (abs(b), high.point, y)
-        for number in range(_SECANTS):
+        beyond = False
+        for _ in range(_SECANTS):
             if best <= rounding:
                 return point, mode
             share = a / (a - b) if a != b and not halve else 0.5
@@ -136,7 +137,7 @@ class _Chord:
                 share = 0.5
             found = self.at(left.s + share * (right.s - left.s))
             if found is None:  # beside the root; from one side, then from the other
-                aside = share / 2 if number % 2 else (1 + share) / 2
+                aside, beyond = (1 + share) / 2 if beyond else share / 2, not beyond
                 found = self.at(left.s + aside * (right.s - left.s))
             if found is None or found.s in (left.s, right.s):
                 break
