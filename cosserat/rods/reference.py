@@ -51,11 +51,13 @@ class Geometry:
     D: Array
 
     @classmethod
-    def straight(cls, vertices: int, length: float, director_length: float) -> Geometry:
-        """A straight rod along E3 from the origin with equal edges, eq. (3.3.1), its directors along E2."""
-        X = np.zeros((vertices, 2))
-        X[:, 0] = np.linspace(0.0, length, vertices)
-        D = np.zeros((vertices, 2))
+    def straight(cls, arc: Array, director_length: float | Array) -> Geometry:
+        """A straight rod along E3 from the origin, eq. (3.3.1), its directors along E2.
+
+        arc : (N,) arc length of the vertices [m].
+        """
+        X, D = np.zeros((arc.size, 2)), np.zeros((arc.size, 2))
+        X[:, 0] = arc
         D[:, 1] = director_length
         return cls(X, D)
 

@@ -242,6 +242,8 @@ class Rod(Parameters):
 
     def placed(self, shape: Shape, arc: Array, director_length: Array) -> Geometry:
         """The rod in a shape, its directors normal to it; arc, director_length : (N,) [m]."""
+        if shape.straight:
+            return Geometry.straight(arc, director_length)
         first = float(shape.angles(arc[:1])[0])
         true = self.strain_energy.true_normals
         return Geometry.arc(arc, director_length, shape.curvatures(arc), shape.origin, first, true)

@@ -68,6 +68,10 @@ class Straight(Shape):
         """Zero."""
         return np.zeros_like(arc)
 
+    def curvatures(self, arc: Array) -> Array:
+        """Zero."""
+        return np.zeros(arc.size - 1)
+
 
 class Arc(Shape):
     """An arc that begins along E3."""

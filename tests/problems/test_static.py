@@ -106,7 +106,7 @@ def test_displacements_do_not_depend_on_the_director_length(name):
     problem = cosserat.case(name).problem
     answers = []
     for director in (problem.rod.height / 2, problem.rod.height):
-        geometry = Geometry.straight(problem.rod.vertices, problem.rod.length, director)
+        geometry = Geometry.straight(problem.arc_length, director)
         point = solve_full_load(EquilibriumSolver(problem.system(geometry), problem.newton, name))
         answers.append(point.q.reshape(-1, 4) / np.array([1, 1, director, director]))
     np.testing.assert_allclose(answers[0], answers[1], rtol=0, atol=1e-7 * np.abs(answers[0]).max())

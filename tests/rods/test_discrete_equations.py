@@ -49,7 +49,7 @@ def angles_of(x):
 def test_turning_angles_are_those_of_the_page_also_at_the_ends(seed):
     """(3.3.16), (3.3.17): between the tangents of the vertices, not of the edges, which would be twice as large."""
     x = polygon(seed)
-    found = strains(Geometry.straight(x.shape[0], 6.0, 0.25), x, np.ones(x.shape))
+    found = strains(Geometry.straight(np.linspace(0.0, 6.0, x.shape[0]), 0.25), x, np.ones(x.shape))
     np.testing.assert_allclose(found.phi, angles_of(x), atol=1e-7)  # of the arccos
     parts = to_vertices(lengths(np.diff(x, axis=0)))
     np.testing.assert_allclose(found.kappa, 2 / parts * np.tan(angles_of(x) / 2), atol=1e-6)  # (3.3.23)
@@ -60,7 +60,7 @@ def test_the_ends_of_a_regular_polygon_turn_by_half_its_angle():
     turn, n = 0.4, 9
     angles = turn * np.arange(n - 1)
     x = np.vstack([np.zeros(2), np.cumsum(np.column_stack([np.cos(angles), np.sin(angles)]), axis=0)])
-    found = strains(Geometry.straight(n, 8.0, 0.25), x, np.ones(x.shape))
+    found = strains(Geometry.straight(np.linspace(0.0, 8.0, n), 0.25), x, np.ones(x.shape))
     np.testing.assert_allclose(found.phi, [turn / 2, *[turn] * (n - 2), turn / 2], rtol=1e-13)
     np.testing.assert_allclose(found.kappa[[0, -1]], 4 * np.tan(turn / 4), rtol=1e-13)
 

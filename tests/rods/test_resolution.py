@@ -253,7 +253,7 @@ def test_a_snapping_arch_is_reported():
 def test_surfaces_of_a_bent_rod_stretch_by_half_its_height_times_the_curvature():
     """On a circle of curvature K, chords of the surfaces at +-H/2 are 1 -+ K H / 2 times that of the centreline."""
     K, H = 0.8, 0.5
-    straight = Geometry.straight(41, 5.0, H / 2)
+    straight = Geometry.straight(np.linspace(0.0, 5.0, 41), H / 2)
     bent = Geometry.arc(np.linspace(0.0, 5.0, 41), np.full(41, H / 2), K)
     stretch = surface_stretch(straight, bent.X, bent.D, np.ones(41))[:, 1:-1]
     np.testing.assert_allclose(stretch[0], 1 - K * H / 2, rtol=2e-3)

@@ -30,6 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.rods.elasticity import Along
+from cosserat.rods.reference import to_vertices
 from cosserat.rods.variation import Scales, Station, mean, vertex_cuts
 
 Array = NDArray[np.float64]
@@ -67,36 +68,33 @@ def stiffnesses(
     on every edge, or one for all [1/m].
     """
     first_height = stations[0].height if stations else 1.0
+    lift = np.broadcast_to(curvature, arc.size - 1) * offset
+    lifted = bool(lift.any())
 
     def on_edges(s: Scales, _: Array) -> Array:
         axial, volume, _, shear, bending, gradient = along(s)
         both, higher = axial + volume, s.height - first_height
         ratios = [1 / both, axial / both, volume / both, axial * volume / both]
-        sums = np.stack(
-            [*ratios, 1 / shear, 1 / bending, 1 / gradient, higher / bending, higher**2 / bending]
-        )
-        return np.stack([*sums, *(s.height * sums), higher])
+        inverses = [1 / shear, 1 / bending, 1 / gradient]
+        sums = np.stack([*ratios, *inverses, higher / bending, higher**2 / bending, higher])
+        return np.concatenate([sums, s.height * sums]) if lifted else sums
 
-    lift = np.broadcast_to(curvature, arc.size - 1) * offset
-    *means, above = mean(stations, on_edges, arc)
-    plain, raised = np.split(np.array(means), 2)
-    length = 1 - lift * (first_height + above)
-    compliance, axial, volume, product, shear, bending, gradient, lever, square = (
-        plain - lift * raised
-    ) / length
+    def across(s: Scales, _: Array) -> Array:
+        own = along(s).section
+        return np.stack([own, s.height * own]) if lifted else own[None]
+
+    means, edge, cuts = mean(stations, on_edges, arc), np.diff(arc), vertex_cuts(arc)
+    length, parts = np.ones(edge.size), np.diff(cuts)
+    if lifted:
+        plain, raised = np.split(means, 2)
+        length = 1 - lift * (first_height + plain[-1])
+        means = (plain - lift * raised) / length
+    compliance, axial, volume, product, shear, bending, gradient, lever, square, _ = means
     alpha = 1 / (compliance + offset**2 * (square - lever**2 / bending))
     axis = first_height + lever / bending
-    more = (product - alpha * axial * volume) * length * np.diff(arc) / 2
-    cuts = vertex_cuts(arc)
-    parts = np.diff(arc) * lift / 2
-    lifts = (np.append(parts, 0.0) + np.insert(parts, 0, 0.0)) / np.diff(cuts)
-    flat, high = mean(
-        stations,
-        lambda s, _: along(s).section * np.stack([np.ones_like(s.height), s.height]),
-        cuts,
-    )
-    own = flat - lifts * high
-    section = own + (np.append(more, 0.0) + np.insert(more, 0, 0.0)) / np.diff(cuts)
+    own = mean(stations, across, cuts)
+    section = own[0] - to_vertices(edge * lift) / parts * own[1] if lifted else own[0]
+    section = section + to_vertices((product - alpha * axial * volume) * length * edge) / parts
     return EdgeStiffnesses(
         alpha * axial, alpha * volume, 1 / shear, 1 / bending, 1 / gradient, section, axis, length
     )

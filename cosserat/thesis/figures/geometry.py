@@ -253,7 +253,7 @@ def fig_3_5(data: Data) -> Figure:
         edge = rod.length / (n - 1)
         curvature = 2 * np.sin(np.pi / (n - 1)) / edge  # closed polygon
         ring = Geometry.arc(np.linspace(0.0, rod.length, n), np.full(n, rod.height / 2), curvature)
-        flat = Geometry.straight(n, rod.length, rod.height / 2)
+        flat = Geometry.straight(np.linspace(0.0, rod.length, n), rod.height / 2)
         for stretch, colour in ((1.0, COMPUTED), (1.4, VARIANT)):
             x = stretch * (ring.X - ring.X.mean(axis=0))
             measured = strains(flat, x, ring.D)
