@@ -239,6 +239,8 @@ class RodProblem(Problem):
         """The potential of each kind of loads, and of each of its functions of time."""
         for key, kind in LOADS.items():
             loads = self.loads_of(key)
+            if not loads and key not in self.always:
+                continue
             constant = [load for load in loads if load.time_function is None]
             if constant or key in self.always:
                 yield kind.potential(constant, body)

@@ -152,7 +152,7 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     """Measure a configuration x, d, each of shape (N, 2) [m]."""
     e = np.diff(x, axis=0)
     length = lengths(e)
-    tangent, bishop = vertex_tangents(x), normals(x)
+    tangent = vertex_tangents(x)
     voronoi = to_vertices(length)
     # between edges, whose angle is that of their unit tangents (3.3.5); at the ends between the tangents of the
     # vertices, eqs. (3.3.16)-(3.3.17)
@@ -167,7 +167,7 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
         lam=lengths(d) / geometry.director_length,
         phi=phi,
         kappa=2 / voronoi * np.tan(phi / 2),
-        theta=signed_angle(bishop, d),
+        theta=signed_angle(_across(tangent), d),
     )
 
 
@@ -182,7 +182,11 @@ def vertex_tangents(x: Array) -> Array:
 
 def normals(x: Array) -> Array:
     """Unit normals b = t x E1 at the vertices, shape (N, 2), eq. (3.3.25)."""
-    tangents = vertex_tangents(x)
+    return _across(vertex_tangents(x))
+
+
+def _across(tangents: Array) -> Array:
+    """t x E1 of tangents (N, 2)."""
     return np.column_stack([-tangents[:, 1], tangents[:, 0]])
 
 

@@ -157,6 +157,9 @@ def lump(
     arc : (N,) arc length of the vertices.  The boundary vertices have the properties of their edges, eq. (3.4.10)
     without its half.  Each of A, I, E, G and nu is averaged by itself, as in the table.
     """
+    if not stations:
+        nominal = {"area": area, "second_moment": second_moment, "young": young, "poisson": poisson}
+        return Lumped.uniform(arc.size, **nominal), Lumped.uniform(arc.size - 1, **nominal)
 
     def averaged(cuts: Array) -> Array:
         return mean(

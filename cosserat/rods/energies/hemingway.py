@@ -12,7 +12,7 @@ from cosserat.rods.energies import hemingway_kernel
 from cosserat.rods.energies.energy import Energy
 from cosserat.rods.energies.hemingway_kernel import TERMS, VERTEX
 from cosserat.rods.energies.hemingway_stiffness import Stiffness, stiffnesses
-from cosserat.rods.reference import Geometry, strains
+from cosserat.rods.reference import Geometry, normals, signed_angle
 from cosserat.rods.variation import lump
 from cosserat.solution import Field
 from cosserat.solvers.potential import Potential
@@ -46,19 +46,20 @@ class Hemingway(Energy):
     def stiffness(self, rod: Rod, geometry: Geometry) -> Stiffness:
         """Stiffnesses of eq. (3.4.13)."""
         assert rod.calibration is not None  # checked
+        section, young, poisson = rod.homogeneous
         vertex, edge = lump(
             rod.stations,
             geometry.arc_length,
-            area=rod.area,
+            area=section.area,
             second_moment=rod.second_moment,
-            young=rod.young,
-            poisson=rod.poisson,
+            young=young,
+            poisson=poisson,
         )
         return stiffnesses(
             geometry,
             vertex,
             edge,
-            rod.homogeneous[0].shear_factor_for(vertex.poisson),
+            section.shear_factor_for(vertex.poisson),
             rod.calibration,
             rod.end_sections,
             rod.poisson_coupling,
@@ -79,7 +80,7 @@ class Hemingway(Energy):
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Shear angles and the seven terms."""
         vectors, terms = rod.vectors(geometry, u), potential.energy_terms(u)
-        theta = strains(geometry, vectors[:, 0], vectors[:, 1]).theta
+        theta = signed_angle(normals(vectors[:, 0]), vectors[:, 1])
         return {"term": TERMS}, {"theta": (("vertex",), theta), "energy": (("term",), terms)}
 
 
