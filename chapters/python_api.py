@@ -87,6 +87,12 @@
 # .. autoclass:: cosserat.problems.motion.RodMotion
 #    :members:
 #
+# .. autoclass:: cosserat.problems.damping.Damping
+#    :members:
+#
+# .. autoclass:: cosserat.problems.damping.Vibrations
+#    :members:
+#
 # .. autoclass:: cosserat.problems.path.RodPath
 #    :members:
 #

@@ -12,9 +12,10 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.exact import beams
-from cosserat.parameters import Parameters, Quantity
+from cosserat.parameters import Parameters, Quantity, ShortForm
 from cosserat.problem import ALONE, Run
 from cosserat.problems.checkpoints import CheckpointedRun, joined, state_of
+from cosserat.problems.damping import AnyDamping, Vibrations
 from cosserat.problems.outputs import of_instants, outputs
 from cosserat.problems.posed import PosedProblem
 from cosserat.rods.holding import free_motions
@@ -23,7 +24,7 @@ from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.solution import Solution
 from cosserat.solvers.integrate import IntegratorSettings, State
-from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
+from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
@@ -44,6 +45,9 @@ class Start(Parameters):
     """Rate of rotation about the first vertex, from E3 towards E2."""
 
 
+_SHORT = ShortForm(Quantity("1", at_least=0), "ratio", (("kind", "mass"),))
+
+
 class RodMotion(PosedProblem):
     """Motion of a rod from a start, perhaps damped, under dead loads."""
 
@@ -56,11 +60,8 @@ class RodMotion(PosedProblem):
     """Time from the start to the end."""
     every: Annotated[float, Quantity("s", above=0)]
     """Time between two frames."""
-    damping: Annotated[float, Quantity("1", r"\zeta", "section 3.5", at_least=0)] = 0.0
-    """Mass-proportional damping, as a fraction of the critical damping of the lowest mode that deforms the rod.
-
-    ASSUME a force -2 zeta omega_1 M v: the page names none.
-    """
+    damping: Annotated[AnyDamping | None, _SHORT] = None
+    """Damping; a number alone is the ratio of kind "mass"."""
     integrator: IntegratorSettings
 
     @model_validator(mode="after")
@@ -78,6 +79,17 @@ class RodMotion(PosedProblem):
             )
         return self
 
+    @model_validator(mode="after")
+    def _can_be_damped(self) -> Self:
+        method, damping = self.integrator.method, self.damping
+        if method != "implicit" and damping is not None and damping.kind != "mass":
+            raise PydanticCustomError(
+                "damping",
+                f"has integrator.method = '{method}', which has no damping of kind '{damping.kind}'; take "
+                "'implicit', or a damping of kind 'mass'",
+            )
+        return self
+
     @property
     def frames(self) -> int:
         """Number of frames after the first."""
@@ -91,12 +103,14 @@ class RodMotion(PosedProblem):
     def system(self, geometry: Geometry, *, displacements: bool = False) -> MechanicalSystem:
         """The rod with its loads, constraints, mass and damping."""
         system = super().system(geometry, displacements=displacements)
-        if not self.damping:
+        if self.damping is None:
             return system
+        return self.damping.damped(system, self.vibrations(displacements=displacements))
+
+    def vibrations(self, *, displacements: bool = False) -> Vibrations:
+        """Small motions of the unloaded rod about its reference configuration."""
         body = self._unloaded(displacements=displacements)
-        held = not free_motions(body).any()
-        lowest = first_elastic_frequency(body, body.space.reference, supported=held)
-        return replace(system, damping_rate=2 * self.damping * lowest)
+        return Vibrations(body, not free_motions(body).any())
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
         """The lowest natural frequencies and shapes of the unloaded rod about its reference configuration.
@@ -164,6 +178,7 @@ class RodMotion(PosedProblem):
             reached = part["time"][-1]
             run.progress((number + 1) / checkpointed.parts, f"{reached:.4g} of {self.duration:g} s")
         whole = joined(done, checkpointed.substeps_per_frame)
+        whole = replace(whole, statistics=dict(whole.statistics) | checkpointed.damping())
 
         def derive() -> Solution:
             system, count = checkpointed.system, whole["time"].size

@@ -24,6 +24,7 @@ from cosserat.solvers.banded import (
     solve_positive,
     uncouple,
 )
+from cosserat.solvers.damping import NO_MODES, DampedModes
 from cosserat.solvers.frames import NO_FRAME, Frame
 from cosserat.solvers.indefinite import solve_any
 from cosserat.solvers.potential import Level, Potential
@@ -155,6 +156,8 @@ class MechanicalSystem:
     internal : the energy of the body.  external : its loads; a load factor multiplies all of them.
     mass : symmetric band (n, w + 1); None for statics.
     damping_rate : c of the damping force -c M v [1/s].
+    damping_time : T of the damping force -T K v, with K the stiffness of the material alone, without stresses [s].
+    damped_modes : modes that are damped on their own.
     attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
     frame : frames of some pairs of DOFs.  plain : the same body without them, if there are some.
     """
@@ -168,11 +171,21 @@ class MechanicalSystem:
     attached: tuple[Potential, ...] = ()
     frame: Frame = NO_FRAME
     plain: MechanicalSystem | None = None
+    damping_time: float = 0.0
+    damped_modes: DampedModes = NO_MODES
 
     @property
     def unframed(self) -> MechanicalSystem:
         """The same body with its DOFs along the axes of space, for what is said of a state."""
-        return self if self.plain is None else replace(self.plain, damping_rate=self.damping_rate)
+        if self.plain is None:
+            return self
+        modes = replace(self.damped_modes, shape=self.frame.out(self.damped_modes.shape))
+        return replace(
+            self.plain,
+            damping_rate=self.damping_rate,
+            damping_time=self.damping_time,
+            damped_modes=modes,
+        )
 
     @property
     def own(self) -> tuple[Potential, ...]:
