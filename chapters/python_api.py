@@ -136,6 +136,9 @@
 # .. autoclass:: cosserat.rods.loads.load.Load
 #    :members:
 #
+# .. autoclass:: cosserat.rods.loads.base.BaseMotion
+#    :members:
+#
 # .. autoclass:: cosserat.rods.constraints.Constraint
 #    :members:
 #

@@ -19,6 +19,7 @@ from cosserat.problems.damping import AnyDamping, Vibrations
 from cosserat.problems.outputs import of_instants, outputs
 from cosserat.problems.posed import PosedProblem
 from cosserat.rods.holding import free_motions
+from cosserat.rods.loads.base import BaseMotion
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
@@ -60,6 +61,8 @@ class RodMotion(PosedProblem):
     """Time from the start to the end."""
     every: Annotated[float, Quantity("s", above=0)]
     """Time between two frames."""
+    base_motion: BaseMotion | None = None
+    """Acceleration of the base that carries the supports; displacements and velocities are then relative to it."""
     damping: Annotated[AnyDamping | None, _SHORT] = None
     """Damping; a number alone is the ratio of kind "mass"."""
     integrator: IntegratorSettings

@@ -7,11 +7,21 @@ its ratio zeta is below one.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cosserat.errors import InputError
+from cosserat.solvers.banded import NO_BAND, band_product
+from cosserat.solvers.potential import HESSIAN, NOTHING, STRAINS
+
+if TYPE_CHECKING:
+    from cosserat.solvers.system import MechanicalSystem
+
 Array = NDArray[np.float64]
+_STRESS_FREE = 1e-9
+"""Largest force in a stress-free reference, as a fraction of the largest stiffness times the size of a DOF."""
 
 DAMPED = 8.0
 """Largest c omega h^2 at which the implicit method damps a mode of frequency omega by its momenta at the rate c."""
@@ -57,3 +67,49 @@ def followed_fraction(omega: float, damping_time: float, h: float) -> float:
     root = 2 * np.sqrt(b**2 / 4 - a)
     slower = (1 - a + root) / (1 + a + b)
     return float(-np.log(slower) / (b - root)) if slower > 0 else 0.0
+
+
+def rest_strains(system: MechanicalSystem, name: str) -> Array:
+    """The strains of the body in its reference, which has no stresses.
+
+    Raises
+    ------
+    InputError : it is damped in proportion to stiffness, and there are stresses in the reference.
+    """
+    body, reference = system.internal, np.ascontiguousarray(system.space.reference)
+    strains, terms = np.zeros(body.strains), np.empty(len(body.terms))
+    body.evaluate(
+        *(reference, NOTHING, body.data, body.history, strains),
+        *(STRAINS, NOTHING, NO_BAND, NO_BAND, terms),
+    )
+    if system.damping_time:
+        gradient, band = np.zeros(reference.size), np.zeros((reference.size, body.half_bandwidth + 1))
+        body.assemble(reference, gradient, band)
+        if np.abs(gradient).max() > _STRESS_FREE * float((band[:, 0] * system.space.scale).max()):
+            raise InputError(
+                f"{name}: 'damping' in proportion to stiffness is for a body without stresses in its reference, and "
+                "this one has some; take a damping of kind 'mass' or 'modal'"
+            )
+    return strains
+
+
+def strain_damping(system: MechanicalSystem, q: Array, v: Array) -> Array:
+    """T K v with the stiffness K of the material at q, (n,) [N]: minus the stiffness-proportional damping."""
+    if not system.damping_time:
+        return np.zeros_like(v)
+    body, reference = system.internal, np.ascontiguousarray(system.space.reference)
+    gradient, band = np.zeros(q.size), np.zeros((q.size, body.half_bandwidth + 1))
+    body.evaluate(
+        *(np.ascontiguousarray(q), reference, body.data, body.history, rest_strains(system, "the body")),
+        *(HESSIAN, gradient, band, NO_BAND, np.empty(len(body.terms))),
+    )
+    return system.damping_time * band_product(band, v)
+
+
+def momentum_damping(system: MechanicalSystem, v: Array) -> Array:
+    """The velocities (n,) that damping takes per second from the free DOFs, by mass and by damped modes [m/s^2]."""
+    modes = system.damped_modes
+    taken: Array = system.damping_rate * v
+    if modes.rate.size:
+        taken = taken + (modes.rate * (modes.shape @ band_product(system.inertia, v))) @ modes.shape
+    return taken

@@ -12,16 +12,16 @@ from numba import types as numba_types
 from numpy.typing import NDArray
 
 from cosserat.errors import InputError, NotConvergedError
-from cosserat.solvers.banded import NO_BAND, Vector
+from cosserat.solvers.banded import Vector
+from cosserat.solvers.damping import rest_strains
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
-from cosserat.solvers.potential import KERNEL, NOTHING, STRAINS, Potential
+from cosserat.solvers.potential import KERNEL, NOTHING, Potential
 from cosserat.solvers.step import CORRECTED, COUNTED, FORCED, Bodies, Room, Run
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
 _POTENTIAL_SLOTS = 3  # of compiled steps; more potentials need another compilation
-_STRESS_FREE = 1e-9  # largest force in the reference, as a fraction of the largest stiffness times the size of a DOF
 types: Any = numba_types  # which says nothing of its own types
 
 
@@ -85,7 +85,8 @@ def integrate_implicitly(
         system.frame.first,
         system.frame.axes,
         system.damping_time,
-        *_at_rest(system, name),
+        np.ascontiguousarray(system.space.reference),
+        rest_strains(system, name),
         system.damped_modes.shape,
         system.damped_modes.rate,
     )
@@ -149,31 +150,6 @@ def _varied(
         if potential.level is not None and not potential.linear:
             levels[:, k] = potential.level.means(times)
     return varied, np.ascontiguousarray(factors), levels
-
-
-def _at_rest(system: MechanicalSystem, name: str) -> tuple[Vector, Fields]:
-    """The DOFs (n,) of the reference, and the strains of the body there.
-
-    Raises
-    ------
-    InputError : damping that takes the stresses there for zero is given a body that has some.
-    """
-    body, reference = system.internal, np.ascontiguousarray(system.space.reference)
-    strains = np.zeros(body.strains)
-    terms = np.empty(len(body.terms))
-    body.evaluate(
-        *(reference, NOTHING, body.data, body.history, strains),
-        *(STRAINS, NOTHING, NO_BAND, NO_BAND, terms),
-    )
-    if system.damping_time:
-        gradient, band = np.zeros(reference.size), np.zeros((reference.size, body.half_bandwidth + 1))
-        body.assemble(reference, gradient, band)
-        if np.abs(gradient).max() > _STRESS_FREE * float((band[:, 0] * system.space.scale).max()):
-            raise InputError(
-                f"{name}: 'damping' in proportion to stiffness is for a body without stresses in its reference, and "
-                "this one has some; take a damping of kind 'mass' or 'modal'"
-            )
-    return reference, strains
 
 
 def _prescribed(

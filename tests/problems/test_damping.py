@@ -172,6 +172,29 @@ def test_the_energy_balance_holds_with_moved_supports():
         assert np.diff(run.dissipated_energy.to_numpy()).min() > 0, name
 
 
+def test_a_support_carries_the_damping_of_the_strains():
+    """Its force is the rate of the momentum: stiffness-proportional damping is a force inside the rod."""
+    case = beam(
+        {"kind": "stiffness", "ratio": 0.3},
+        forces=[
+            {
+                "at": "last",
+                "along": "E2",
+                "force": 1.0,
+                "time_function": {"kind": "ramp", "duration": 0.03, "smooth": True},
+            }
+        ],
+        duration=0.03,
+        every=2e-4,
+        integrator={"step": 2e-4},
+    )
+    run = cosserat.run(case)
+    s = run.time.to_numpy() / 0.03
+    rate = np.gradient(run.momentum.sel(axis="E2").to_numpy(), 2e-4) - s**3 * (10 - 15 * s + 6 * s**2)
+    force = run.reaction_force.sel(axis="E2").isel(support=0).to_numpy()
+    np.testing.assert_allclose(force[1:-1], rate[1:-1], atol=2e-3 * np.abs(rate).max())
+
+
 @pytest.mark.parametrize("name", EVERY)
 def test_a_dataset_states_the_damping_of_the_lowest_modes(name):
     run = cosserat.run(beam(EVERY[name], duration=1e-3, every=1e-3, integrator={"step": 1e-4}))
