@@ -87,6 +87,9 @@
 # .. autoclass:: cosserat.problems.motion.RodMotion
 #    :members:
 #
+# .. autoclass:: cosserat.problems.starts.Start
+#    :members:
+#
 # .. autoclass:: cosserat.problems.damping.Damping
 #    :members:
 #

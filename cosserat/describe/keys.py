@@ -21,13 +21,13 @@ from cosserat.parameters import (
     OneOf,
     Quantity,
     Reader,
-    ShortForm,
     chooser,
     docstrings,
     nearest,
 )
 from cosserat.problem import Problem
 from cosserat.publications import kinds
+from cosserat.short_form import ShortForm
 
 Form = Literal["quantity", "count", "word", "name", "text", "truth", "table", "list", "row", "either"]
 

@@ -5,7 +5,6 @@ its reference configuration, in which it deforms.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal, Self
 
@@ -63,7 +62,7 @@ class Damping(Parameters):
         return ()
 
 
-def _either(named: Mapping[str, object], what: str) -> None:
+def _either(what: str, **named: object) -> None:
     """Raise PydanticCustomError unless just one of two keys is given."""
     given = [key for key, value in named.items() if value is not None]
     if len(given) != 1:
@@ -85,7 +84,7 @@ class MassDamping(Damping):
 
     @model_validator(mode="after")
     def _one(self) -> Self:
-        _either({"ratio": self.ratio, "rate": self.rate}, "size")
+        _either("size", ratio=self.ratio, rate=self.rate)
         return self
 
     def damped(self, system: MechanicalSystem, vibrations: Vibrations) -> MechanicalSystem:
@@ -110,11 +109,11 @@ class RayleighDamping(Damping):
 
     @model_validator(mode="after")
     def _pairs(self) -> Self:
-        _either({"frequencies": self.frequencies, "modes": self.modes}, "place of its ratios")
-        for key, values in (("ratios", self.ratios), ("place", self.frequencies or self.modes or ())):
-            if len(values) != 2:
-                name = key if key == "ratios" else "frequencies" if self.frequencies else "modes"
-                raise PydanticCustomError("pair", f"has {len(values)} '{name}'; give two")
+        _either("place of its ratios", frequencies=self.frequencies, modes=self.modes)
+        for key in ("ratios", "frequencies", "modes"):
+            values = getattr(self, key)
+            if values is not None and len(values) != 2:
+                raise PydanticCustomError("pair", f"has {len(values)} '{key}'; give two")
         low, high = self.frequencies or self.modes or (1, 2)
         if not low < high:
             raise PydanticCustomError(
@@ -172,7 +171,7 @@ class StiffnessDamping(Damping):
 
     @model_validator(mode="after")
     def _one(self) -> Self:
-        _either({"time": self.time, "ratio": self.ratio}, "size")
+        _either("size", time=self.time, ratio=self.ratio)
         if self.time is not None and self.frequency is not None:
             raise PydanticCustomError("either", "has a 'time' and a 'frequency'; leave one of them out")
         return self
@@ -202,7 +201,7 @@ class ModalDamping(Damping):
 
     @model_validator(mode="after")
     def _numbers(self) -> Self:
-        _either({"ratios": self.ratios, "ratio": self.ratio}, "size")
+        _either("size", ratios=self.ratios, ratio=self.ratio)
         if (self.ratio is None) == (self.modes is not None):
             raise PydanticCustomError(
                 "either",

@@ -31,7 +31,10 @@ class Record(Table):
 
 
 class BaseMotion(DeadLoad):
-    """Acceleration a of the base.  The load is -M a; displacements, velocities and damping are relative to the base."""
+    """Acceleration a of the base.  The load is -M a; displacements, velocities and damping are relative to the base.
+
+    A constant one begins at time zero: no equilibrium from which a motion starts has it.
+    """
 
     along: Direction
     """Direction of the acceleration."""
