@@ -27,7 +27,7 @@ from cosserat.parameters import (
 )
 from cosserat.problem import Problem
 from cosserat.publications import kinds
-from cosserat.short_form import ShortForm
+from cosserat.tables import ShortForm
 
 Form = Literal["quantity", "count", "word", "name", "text", "truth", "table", "list", "row", "either"]
 

@@ -23,11 +23,11 @@ from cosserat.rods.holding import free_motions
 from cosserat.rods.loads.base import BaseMotion
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
-from cosserat.short_form import ShortForm
 from cosserat.solution import Solution
 from cosserat.solvers.integrate import IntegratorSettings, State
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.system import MechanicalSystem
+from cosserat.tables import ShortForm
 
 Array = NDArray[np.float64]
 

@@ -56,7 +56,7 @@ class Start(Parameters):
     def fault(self, *, straight: bool, static: bool, posed: bool) -> str:
         """What contradicts, in a sentence; empty if nothing does.
 
-        straight : the rod is straight at rest.  static : it has a static problem to start from.  posed : it is bent into a pose.
+        straight : the rod is straight at rest.  static : it has a static problem to start from.  posed : it has a pose.
         """
         if posed and (self.shape == "first beam mode" or (self.mode and self.shape == "reference")):
             own = "start.mode" if self.mode else f"start.shape = '{self.shape}'"
