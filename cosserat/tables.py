@@ -173,9 +173,11 @@ class ShortForm:
     others: tuple[tuple[str, str], ...] = ()
 
     def widened(self, value: object) -> object:
-        """The table that a short form means; a table as it is."""
+        """The table that a short form means, none for the number zero; a table as it is."""
         if value is None or isinstance(value, Mapping | BaseModel):
             return value
+        if isinstance(value, int | float) and value == 0:
+            return None
         return {**dict(self.others), self.key: value}
 
     def __get_pydantic_core_schema__(

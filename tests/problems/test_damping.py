@@ -234,7 +234,7 @@ def test_modes_of_a_rod_that_turns_far_are_a_warning():
 
 def test_a_number_alone_is_the_ratio_of_mass_damping():
     assert beam(0.02).problem == beam({"kind": "mass", "ratio": 0.02}).problem
-    assert beam("none").problem.damping is None
+    assert beam("none").problem.damping is beam(0).problem.damping is None
     again = type(beam(0.02).problem).model_validate_json(beam(0.02).problem.model_dump_json())
     assert again == beam(0.02).problem
 
