@@ -75,6 +75,12 @@ class RodMotion(PosedProblem):
                 f"has integrator.method = '{method}', which has no damping of kind '{damping.kind}'; take "
                 "'implicit', or a damping of kind 'mass'",
             )
+        if self.pose is not None and damping is not None and damping.kind != "mass":
+            raise PydanticCustomError(
+                "damping",
+                f"has a 'pose' and a damping of kind '{damping.kind}', which is about the shape at rest; take one of "
+                "kind 'mass'",
+            )
         return self
 
     @property

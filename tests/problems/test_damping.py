@@ -1,5 +1,7 @@
 """Every kind of damping against the exact decay of single modes, of rotations and of a creeping bar."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,7 +9,7 @@ import cosserat
 from cosserat.errors import InputError
 from cosserat.solvers import integrate
 from cosserat.solvers.banded import band_product
-from cosserat.solvers.damping import followed_fraction
+from cosserat.solvers.damping import followed_fraction, rest_strains
 
 CLAMP = {"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}
 EVERY = {
@@ -172,27 +174,40 @@ def test_the_energy_balance_holds_with_moved_supports():
         assert np.diff(run.dissipated_energy.to_numpy()).min() > 0, name
 
 
-def test_a_support_carries_the_damping_of_the_strains():
-    """Its force is the rate of the momentum: stiffness-proportional damping is a force inside the rod."""
+@pytest.mark.parametrize("name", ["stiffness", "mass", "modal"])
+def test_a_support_carries_the_damping_of_the_strains_alone(name):
+    """dP/dt = R + F - D: damping by stiffness is a force inside the rod, others act from outside on the free DOFs."""
+    damping = (
+        {**EVERY[name], "ratio": 0.3} if name != "modal" else {"kind": "modal", "ratio": 0.3, "modes": 2}
+    )
+    rise = {"kind": "ramp", "duration": 0.03, "smooth": True}
     case = beam(
-        {"kind": "stiffness", "ratio": 0.3},
-        forces=[
-            {
-                "at": "last",
-                "along": "E2",
-                "force": 1.0,
-                "time_function": {"kind": "ramp", "duration": 0.03, "smooth": True},
-            }
-        ],
+        damping,
+        forces=[{"at": "last", "along": "E2", "force": 1.0, "time_function": rise}],
         duration=0.03,
         every=2e-4,
         integrator={"step": 2e-4},
     )
-    run = cosserat.run(case)
+    run, problem = cosserat.run(case), case.problem
     s = run.time.to_numpy() / 0.03
-    rate = np.gradient(run.momentum.sel(axis="E2").to_numpy(), 2e-4) - s**3 * (10 - 15 * s + 6 * s**2)
+    v = np.concatenate([run.x_rate, run.d_rate], axis=2).reshape(s.size, -1)
+    band, found = problem.rod.mass(problem.geometry), problem.modes(2)
+    momentum = np.array([band_product(band, u) for u in v])
+    outside = {
+        "stiffness": np.zeros_like(v),
+        "mass": 0.6 * found.angular_frequency[0] * momentum,
+        "modal": np.array(
+            [
+                band_product(band, (0.6 * found.angular_frequency * (found.shape @ p)) @ found.shape)
+                for p in momentum
+            ]
+        ),
+    }[name]
+    outside[:, problem.constrained()] = 0.0
+    rate = np.gradient(momentum[:, 1::4].sum(axis=1), 2e-4)
+    right = rate - s**3 * (10 - 15 * s + 6 * s**2) + outside[:, 1::4].sum(axis=1)
     force = run.reaction_force.sel(axis="E2").isel(support=0).to_numpy()
-    np.testing.assert_allclose(force[1:-1], rate[1:-1], atol=2e-3 * np.abs(rate).max())
+    np.testing.assert_allclose(force[1:-1], right[1:-1], atol=2e-3 * np.abs(right).max())
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -285,6 +300,26 @@ def test_a_fault_that_needs_the_modes_is_one_sentence(damping, sentence):
     with pytest.raises(InputError) as caught:
         beam(damping).problem.solve("x")
     assert sentence in str(caught.value)
+
+
+def test_a_posed_rod_has_mass_damping_alone():
+    arc = {"kind": "arc", "curvature": 1.0}
+    with pytest.raises(InputError, match="has a 'pose' and a damping of kind 'modal', which is about"):
+        beam(EVERY["modal"], pose=arc)
+    assert beam(EVERY["mass"], pose=arc).problem.pose is not None
+
+
+def test_a_body_with_stresses_at_its_reference_has_no_stiffness_damping():
+    """An equal shift of all positions by a twentieth of the first edge, but for the first vertex, as a reference."""
+    problem = beam(EVERY["time"]).problem
+    system = problem.system(problem.geometry)
+    strained = system.space.reference.copy()
+    strained[4::4] += 0.05 * problem.geometry.edge_length[0]
+    system = replace(system, space=replace(system.space, at_rest=strained))
+    with pytest.raises(
+        InputError, match="x: 'damping' in proportion to stiffness is for a body without"
+    ):
+        rest_strains(system, "x")
 
 
 def test_explicit_methods_have_mass_damping_alone():

@@ -150,6 +150,14 @@ def test_a_motion_that_starts_in_a_mode_stays_in_it(tension, speed):
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2, abs=0.2)
 
 
+def test_loads_that_depend_on_time_are_not_in_the_equilibrium_of_a_start():
+    constant = {"at": "last", "along": "E2", "force": 1.0}
+    later = {**constant, "force": 5.0, "time_function": {"kind": "pulse", "duration": 1.0}}
+    still = static(forces=[constant])
+    moving = motion({"shape": "equilibrium"}, None, still, forces=[constant, later]).problem.begin()
+    np.testing.assert_array_equal(moving.q, motion({"shape": "equilibrium"}, still).problem.begin().q)
+
+
 def test_velocities_along_the_rod():
     """A line of velocities with its spin is a rotation; half a rod that moves has half the momentum."""
     turning = [[0.0, 0.0, 0.0, 3.0], [1.0, 0.0, 3.0, 3.0]]
@@ -175,6 +183,8 @@ def test_a_start_from_a_case_of_a_file(tmp_path):
     still, moving = (cosserat.case(name, tmp_path / "my.toml") for name in ("still", "moving"))
     assert moving.problem.start_from == still.problem
     assert moving.problem.forces == ()
+    again = type(moving.problem).model_validate_json(moving.problem.model_dump_json())
+    assert again == moving.problem
 
 
 def test_what_an_equilibrium_warns_of_is_among_the_warnings():
