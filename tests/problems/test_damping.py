@@ -9,7 +9,7 @@ import cosserat
 from cosserat.errors import InputError
 from cosserat.solvers import integrate
 from cosserat.solvers.banded import band_product
-from cosserat.solvers.damping import followed_fraction, rest_strains
+from cosserat.solvers.damping import followed_fraction, momentum_damping, rest_strains
 
 CLAMP = {"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}
 EVERY = {
@@ -112,6 +112,10 @@ def test_damping_of_two_modes_leaves_the_third_alone():
     settings = integrate.IntegratorSettings(step=1e-4)
     after, _ = integrate.integrate(system, state, 0.02, settings, "mode")
     assert after.dissipated < 1e-8 * integrate.kinetic_energy(system, state)
+    for shape, omega, ratio in zip(found.shape, found.angular_frequency, (0.1, 0.1, 0.0), strict=True):
+        np.testing.assert_allclose(
+            momentum_damping(system, shape), 2 * ratio * omega * shape, atol=1e-9 * omega
+        )
 
 
 @pytest.mark.parametrize("energy", ["consistent", "published"])
