@@ -130,8 +130,7 @@ def _shape(problem: RodMotion, system: MechanicalSystem) -> tuple[Array, Callabl
                 "'start_from' has other vertices than the motion; give both the same rod, and supports at the same "
                 "places"
             )
-        held = static.system(static.geometry).frame
-        return _equilibrium(static)[0], lambda number: held.out(static.modes(number).shape[-1])
+        return _equilibrium(static)[0], lambda number: static.modes(number).shape[-1]
 
     def lowest(number: int) -> Array:
         found: Modes = problem.vibrations().lowest(number)
@@ -152,9 +151,7 @@ def _shape(problem: RodMotion, system: MechanicalSystem) -> tuple[Array, Callabl
     vectors[:, 0] = X
     vectors[:, 1] = problem.rod.strain_energy.start_directors(problem.rod, geometry, X, D)
     free, frame = ~system.constrained, system.frame
-    return frame.out(
-        np.where(free, frame.into(vectors.ravel()), system.space.reference)
-    ), lowest
+    return frame.out(np.where(free, frame.into(vectors.ravel()), system.space.reference)), lowest
 
 
 def _static(problem: RodMotion) -> RodStatics:

@@ -6,7 +6,7 @@ its ratio zeta is below one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -69,6 +69,19 @@ def followed_fraction(omega: float, damping_time: float, h: float) -> float:
     return float(-np.log(slower) / (b - root)) if slower > 0 else 0.0
 
 
+def damped_like(framed: MechanicalSystem, plain: MechanicalSystem) -> MechanicalSystem:
+    """A system with its DOFs along the axes of space, with the damping of the same one in its frames."""
+    modes = framed.damped_modes
+    if modes.rate.size:
+        modes = replace(modes, shape=framed.frame.out(modes.shape))
+    return replace(
+        plain,
+        damping_rate=framed.damping_rate,
+        damping_time=framed.damping_time,
+        damped_modes=modes,
+    )
+
+
 def rest_strains(system: MechanicalSystem, name: str) -> Array:
     """The strains of the body in its reference, which has no stresses.
 
@@ -76,7 +89,7 @@ def rest_strains(system: MechanicalSystem, name: str) -> Array:
     ------
     InputError : it is damped in proportion to stiffness, and there are stresses in the reference.
     """
-    body, reference = system.internal, np.ascontiguousarray(system.space.reference)
+    body, reference = system.unframed.internal, rest_dofs(system)
     strains, terms = np.zeros(body.strains), np.empty(len(body.terms))
     body.evaluate(
         *(reference, NOTHING, body.data, body.history, strains),
@@ -93,17 +106,22 @@ def rest_strains(system: MechanicalSystem, name: str) -> Array:
     return strains
 
 
+def rest_dofs(system: MechanicalSystem) -> Array:
+    """The DOFs (n,) of the reference, along the axes of space."""
+    return np.ascontiguousarray(system.unframed.space.reference)
+
+
 def strain_damping(system: MechanicalSystem, q: Array, v: Array) -> Array:
     """T K v with the stiffness K of the material at q, (n,) [N]: minus the stiffness-proportional damping."""
     if not system.damping_time:
         return np.zeros_like(v)
-    body, reference = system.internal, np.ascontiguousarray(system.space.reference)
+    body, frame = system.unframed.internal, system.frame
     gradient, band = np.zeros(q.size), np.zeros((q.size, body.half_bandwidth + 1))
     body.evaluate(
-        *(np.ascontiguousarray(q), reference, body.data, body.history, rest_strains(system, "the body")),
+        *(frame.out(q), rest_dofs(system), body.data, body.history, rest_strains(system, "the body")),
         *(HESSIAN, gradient, band, NO_BAND, np.empty(len(body.terms))),
     )
-    return system.damping_time * band_product(band, v)
+    return system.damping_time * frame.into(band_product(band, frame.out(v)))
 
 
 def momentum_damping(system: MechanicalSystem, v: Array) -> Array:

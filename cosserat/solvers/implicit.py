@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import Vector
-from cosserat.solvers.damping import rest_strains
+from cosserat.solvers.damping import rest_dofs, rest_strains
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
 from cosserat.solvers.potential import KERNEL, NOTHING, Potential
@@ -85,7 +85,7 @@ def integrate_implicitly(
         system.frame.first,
         system.frame.axes,
         system.damping_time,
-        np.ascontiguousarray(system.space.reference),
+        rest_dofs(system),
         rest_strains(system, name),
         system.damped_modes.shape,
         system.damped_modes.rate,
@@ -105,10 +105,9 @@ def integrate_implicitly(
             iterations=MAX_ITERATIONS,
             tolerance=TOLERANCE,
         )
-    time = state.time + count * h
     dissipated, driven, load_work = exchanged.tolist()
-    after = State(q, v, tuple(history), time, dissipated, driven, load_work, float(turned[0]))
-    return after, count
+    reached = (state.time + count * h, dissipated, driven, load_work, float(turned[0]))
+    return State(q, v, tuple(history), *reached), count
 
 
 def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:

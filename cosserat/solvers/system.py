@@ -24,7 +24,7 @@ from cosserat.solvers.banded import (
     solve_positive,
     uncouple,
 )
-from cosserat.solvers.damping import NO_MODES, DampedModes
+from cosserat.solvers.damping import NO_MODES, DampedModes, damped_like
 from cosserat.solvers.frames import NO_FRAME, Frame
 from cosserat.solvers.indefinite import solve_any
 from cosserat.solvers.potential import Level, Potential
@@ -154,10 +154,8 @@ class MechanicalSystem:
     """A body, its loads, its constraints and its mass.
 
     internal : the energy of the body.  external : its loads; a load factor multiplies all of them.
-    mass : symmetric band (n, w + 1); None for statics.
-    damping_rate : c of the damping force -c M v [1/s].
-    damping_time : T of the damping force -T K v, with K the stiffness of the material alone, without stresses [s].
-    damped_modes : modes that are damped on their own.
+    damping_rate, damping_time : c [1/s] and T [s] of the force -c M v - T K v, K the stiffness of the material alone.
+    damped_modes : modes that are damped on their own.  mass : symmetric band (n, w + 1); None for statics.
     attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
     frame : frames of some pairs of DOFs.  plain : the same body without them, if there are some.
     """
@@ -177,15 +175,7 @@ class MechanicalSystem:
     @property
     def unframed(self) -> MechanicalSystem:
         """The same body with its DOFs along the axes of space, for what is said of a state."""
-        if self.plain is None:
-            return self
-        modes = replace(self.damped_modes, shape=self.frame.out(self.damped_modes.shape))
-        return replace(
-            self.plain,
-            damping_rate=self.damping_rate,
-            damping_time=self.damping_time,
-            damped_modes=modes,
-        )
+        return self if self.plain is None else damped_like(self, self.plain)
 
     @property
     def own(self) -> tuple[Potential, ...]:

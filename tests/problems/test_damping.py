@@ -54,7 +54,7 @@ def measured_rate(problem, number, step):
     """Rate at which a mode loses its energy, whole periods of it, in small motion."""
     system = problem.system(problem.geometry)
     found = problem.modes(2)
-    omega, shape = found.angular_frequency[number], found.shape[number]
+    omega, shape = found.angular_frequency[number], system.frame.into(found.shape[number])
     rest, rigidity = system.space.reference, omega**2
     state = integrate.State(rest + 1e-9 * shape, np.zeros(rest.size), system.history)
     settings = integrate.IntegratorSettings(step=step)
@@ -89,6 +89,19 @@ def test_two_modes_fade_at_their_rates_to_second_order(name):
         ]
         assert errors[0] < 0.02, (number, errors)
         assert np.log2(errors[0] / errors[1]) == pytest.approx(2, abs=0.2), (number, errors)
+
+
+@pytest.mark.parametrize("name", ["stiffness", "modal"])
+def test_modes_of_a_rod_on_an_oblique_roller_fade_at_their_rates(name):
+    """The degrees of freedom of the roller are in a frame of its own."""
+    roller = {"at": "last", "fixed": "roller", "along": "30 deg"}
+    problem = beam(EVERY[name], supports=[CLAMP, roller]).problem
+    assert problem.system(problem.geometry).frame.oblique
+    omega = problem.modes(2).angular_frequency
+    for number, rate in enumerate(rates_by_hand(name, omega)):
+        period = 2 * np.pi / omega[number]
+        measured = measured_rate(problem, number, period / 200)
+        assert measured == pytest.approx(exact_rate(omega[number], rate), rel=2e-3)
 
 
 @pytest.mark.parametrize("omega_h", [0.01, 0.5, 3.0, 30.0])

@@ -114,6 +114,23 @@ def test_a_load_that_doubles_swings_twice_as_far():
     assert moved[:, -1].max() == pytest.approx(1.5 * far[-1], rel=0.03)
 
 
+def test_a_rod_on_an_oblique_roller_stays_in_equilibrium():
+    forces = [{"at": "50 %", "along": "-E2", "force": 40.0}]
+    roller = {"at": "last", "fixed": "roller", "along": "30 deg"}
+    still = static(forces=forces)
+    case = motion({"shape": "equilibrium"}, None, still, forces=forces, supports=[CLAMP, roller])
+    run = cosserat.run(case)
+    u = (run.x[0, -1] - run.x_ref[-1]).to_numpy()
+    assert u[1] / u[0] == pytest.approx(np.tan(np.pi / 6), rel=1e-6)
+    assert np.abs(run.x - run.x[0]).max() < 1e-7
+    mode = case.vary("mode", start={"mode": 1, "amplitude": 1e-3}).problem.begin()
+    moved = mode.q - case.problem.begin().q
+    assert np.abs(moved).max() > 1e-4
+    held = still.vary("held", supports=[CLAMP, roller]).problem
+    right = held.system(held.geometry).frame.into(held.modes(1).shape[0])
+    np.testing.assert_allclose(moved / np.abs(moved).max(), right / np.abs(right).max(), atol=1e-9)
+
+
 @pytest.mark.parametrize("tension", [0.0, 20.0])
 @pytest.mark.parametrize("speed", [False, True])
 def test_a_motion_that_starts_in_a_mode_stays_in_it(tension, speed):
