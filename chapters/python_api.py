@@ -87,6 +87,15 @@
 # .. autoclass:: cosserat.problems.motion.RodMotion
 #    :members:
 #
+# .. autoclass:: cosserat.problems.starts.Start
+#    :members:
+#
+# .. autoclass:: cosserat.problems.damping.Damping
+#    :members:
+#
+# .. autoclass:: cosserat.problems.damping.Vibrations
+#    :members:
+#
 # .. autoclass:: cosserat.problems.path.RodPath
 #    :members:
 #
@@ -128,6 +137,9 @@
 #    :members:
 #
 # .. autoclass:: cosserat.rods.loads.load.Load
+#    :members:
+#
+# .. autoclass:: cosserat.rods.loads.base.BaseMotion
 #    :members:
 #
 # .. autoclass:: cosserat.rods.constraints.Constraint

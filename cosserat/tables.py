@@ -1,14 +1,16 @@
-"""Tables of numbers in a case: rows in the case itself, or a CSV file whose header has the units."""
+"""Tables of numbers in a case, rows or a CSV file whose header has the units; tables that one value may stand for."""
 
 from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
+from pydantic import BaseModel, GetCoreSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.parameters import Quantity, Reader, from_file, nearest
@@ -157,3 +159,28 @@ class Columns(Reader):
             return index, to_si(f"1 {written}", unit, unit_required=True)
         except PydanticCustomError as error:
             raise refused(f"whose column '{name}' {error.message()}") from None
+
+
+@dataclass(frozen=True)
+class ShortForm:
+    """Annotation of a table that may be given by one of its values alone, such as `damping = 0.02`.
+
+    about : of this value.  key : its key.  others : what else is in the table.
+    """
+
+    about: Quantity
+    key: str
+    others: tuple[tuple[str, str], ...] = ()
+
+    def widened(self, value: object) -> object:
+        """The table that a short form means, none for the number zero; a table as it is."""
+        if value is None or isinstance(value, Mapping | BaseModel):
+            return value
+        if isinstance(value, int | float) and value == 0:
+            return None
+        return {**dict(self.others), self.key: value}
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_before_validator_function(self.widened, handler(source))

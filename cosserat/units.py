@@ -27,6 +27,7 @@ _KINDS = {
     "kg/m^3": "a density",
     "s": "a time",
     "Hz": "a frequency",
+    "1/s": "a rate",
     "m/s": "a speed",
     "m/s^2": "an acceleration",
     "N": "a force",

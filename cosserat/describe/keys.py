@@ -27,6 +27,7 @@ from cosserat.parameters import (
 )
 from cosserat.problem import Problem
 from cosserat.publications import kinds
+from cosserat.tables import ShortForm
 
 Form = Literal["quantity", "count", "word", "name", "text", "truth", "table", "list", "row", "either"]
 
@@ -38,7 +39,8 @@ class Value:
     about : unit and range of a quantity or a count.
     words : the allowed words.
     tables : the possible classes of a table; several differ in one key, such as `kind`.
-    items : types of the items of a list, of the places of a row, or of the alternatives of "either".
+    items : types of the items of a list, of the places of a row, or of the alternatives of "either"; of a table,
+        its short form.
     said : the type in words, if its parts do not say it.
     """
 
@@ -188,6 +190,7 @@ def _value(annotation: Any) -> Value | None:
     while get_origin(annotation) is Annotated:
         about += annotation.__metadata__
         annotation = annotation.__origin__
+    short = tuple(Value("quantity", mark.about) for mark in about if isinstance(mark, ShortForm))
     for mark in about:
         if isinstance(mark, Quantity | Count):
             return Value("quantity" if isinstance(mark, Quantity) else "count", mark)
@@ -201,7 +204,7 @@ def _value(annotation: Any) -> Value | None:
     if origin in (Union, types.UnionType):
         found = [value for part in parts if (value := _value(part)) is not None]
         if len(found) == 1:
-            return found[0]
+            return replace(found[0], items=found[0].items + short)
         if not all(value.tables for value in found):
             return Value("either", items=tuple(found))
         return Value("table", tables=tuple(table for value in found for table in value.tables))

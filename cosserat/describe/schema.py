@@ -151,7 +151,8 @@ def _node(key: Key, found: tuple[Key, ...], *, whole: bool, like: bool = False) 
         shown["examples"] = [_example(value.innermost.about)]
     if value.form == "table" and not value.problem:
         choices = dict.fromkeys(k.when for k in found if k.path == inside + k.name)
-        form = _any([_table(found, inside, when, whole=whole, like=like) for when in choices])
+        tables = [_table(found, inside, when, whole=whole, like=like) for when in choices]
+        form = _any([*tables, *map(_form, value.items)])
     elif value.form == "list" and value.items[0].tables:  # an inherited list is replaced as a whole
         form = {"type": "array", "items": _table(found, inside, key.when, whole=True)}
     else:
@@ -168,7 +169,8 @@ def _or_none(form: Schema) -> Schema:
 
 
 def _any(forms: list[Schema]) -> Schema:
-    return forms[0] if len(forms) == 1 else {"anyOf": forms}
+    flat = [inner for form in forms for inner in (form["anyOf"] if set(form) == {"anyOf"} else [form])]
+    return flat[0] if len(flat) == 1 else {"anyOf": flat}
 
 
 def _example(about: Quantity) -> str | float:

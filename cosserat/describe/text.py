@@ -105,6 +105,8 @@ def _type(value: Value) -> str:
         return f"[{', '.join(_type(item) for item in value.items)}]"
     if value.problem:
         return f'a table, a whole problem of kind "{value.problem}"'
+    if value.form == "table" and value.items:
+        return _either(["a table", *map(_type, value.items)])
     limits = span(value.about) if value.about else ""
     return words[value.form] + (f" ({limits})" if limits else "")
 

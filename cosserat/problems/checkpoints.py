@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, NotConvergedError
+from cosserat.problems.damping import Vibrations, stated
+from cosserat.rods.kinematics import lengths
 from cosserat.rods.loads.couples import TERMS
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import (
@@ -24,8 +27,8 @@ from cosserat.rods.resolution import (
 from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import band_product
+from cosserat.solvers.damping import DAMPED, followed_fraction
 from cosserat.solvers.integrate import (
-    DAMPED,
     State,
     check_stable_step,
     highest_frequency,
@@ -47,6 +50,10 @@ ROTATION = "largest_step_rotation_rad"
 """Statistic: largest rotation of a section in one step; of a method that chooses its steps, zero."""
 JUDGED = 100
 """Most states of a motion that are checked for unresolved modes."""
+UNFOLLOWED = 0.05
+"""Largest fraction of a stated stiffness-proportional damping that steps may miss without a warning."""
+TURNED = 0.3
+"""Largest rotation at which damping of modes about the reference has no warning [rad]; its cosine is 0.955."""
 WORK_PER_PART = 5e5
 """Work limit of one part, in vertex-steps: about 1 s at 2 us each (`cosserat speed`)."""
 
@@ -155,6 +162,8 @@ class CheckpointedRun:
             *self._driven_too_fast(),
             *coarse(whole["d"]),
             *self._damped_beyond(),
+            *self._strained_beyond(),
+            *self._turned_beyond(whole),
         )
 
     def _unbalanced(self, whole: Solution) -> Iterator[str]:
@@ -207,6 +216,45 @@ class CheckpointedRun:
             yield (
                 f"damping: modes faster than {DAMPED / (c * h**2):.3g} rad/s (the fastest has {highest:.3g}) lose "
                 f"energy at another rate than the damping rate of {c:.3g} 1/s; take a shorter 'integrator.step'"
+            )
+
+    def damping(self) -> dict[str, float]:
+        """Statistics: sizes of the damping, frequencies and ratios of the lowest modes; empty without damping."""
+        return stated(self.system, self._vibrations) if self._damped else {}
+
+    @property
+    def _damped(self) -> bool:
+        system = self.system
+        return bool(system.damping_rate or system.damping_time or system.damped_modes.rate.size)
+
+    @cached_property
+    def _vibrations(self) -> Vibrations:
+        return self.problem.vibrations()
+
+    def _strained_beyond(self) -> Iterator[str]:
+        """Stiffness-proportional damping whose steps are too long for the modes that it states."""
+        time, damping = self.system.damping_time, self.problem.damping
+        if not time or damping is None:
+            return
+        fastest = max(damping.followed(self._vibrations))
+        followed = followed_fraction(fastest, time, self.step)
+        if abs(followed - 1) > UNFOLLOWED:
+            yield (
+                f"damping: at {fastest / (2 * np.pi):.4g} Hz, motions in steps of {self.step:.3g} s fade at "
+                f"{followed:.3g} of the rate of the stiffness-proportional damping; take a shorter 'integrator.step'"
+            )
+
+    def _turned_beyond(self, whole: Solution) -> Iterator[str]:
+        """Damping of modes about the reference in a rod that leaves it far."""
+        if not self.system.damped_modes.rate.size:
+            return
+        d, D = whole["d"], whole["d_ref"]
+        cosine = (d * D).sum(axis=2) / (lengths(d) * lengths(D))
+        turned = float(np.arccos(np.clip(cosine.min(), -1, 1)))
+        if turned > TURNED:
+            yield (
+                f"damping: sections turn by up to {turned:.2g} rad from the reference, about which the damped modes "
+                f"are; beyond {TURNED} rad their ratios do not hold, so take a damping of kind 'stiffness' or 'mass'"
             )
 
 

@@ -11,37 +11,28 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.exact import beams
-from cosserat.parameters import Parameters, Quantity
+from cosserat.parameters import Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.checkpoints import CheckpointedRun, joined, state_of
+from cosserat.problems.damping import AnyDamping, Vibrations
 from cosserat.problems.outputs import of_instants, outputs
 from cosserat.problems.posed import PosedProblem
+from cosserat.problems.starts import Start, begin, warnings
+from cosserat.problems.static import RodStatics
 from cosserat.rods.holding import free_motions
-from cosserat.rods.naming import Direction, unit_vector
+from cosserat.rods.loads.base import BaseMotion
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.solution import Solution
 from cosserat.solvers.integrate import IntegratorSettings, State
-from cosserat.solvers.modes import Modes, first_elastic_frequency, modes
+from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.system import MechanicalSystem
+from cosserat.tables import ShortForm
 
 Array = NDArray[np.float64]
 
 
-class Start(Parameters):
-    """Start of a motion: a shape, and velocities of the whole rod."""
-
-    shape: Literal["reference", "first beam mode"] = "reference"
-    """"first beam mode" bends the rod by eq. (3.5.16) and rotates the directors with it."""
-    amplitude: Annotated[float, Quantity("m")] = 0.0
-    """Displacement of the tip in the first beam mode, twice A_1 of eq. (3.5.16)."""
-    speed: Annotated[float, Quantity("m/s")] = 0.0
-    """Speed of the whole rod."""
-    along: Direction = "E3"
-    """Direction of that speed."""
-    spin: Annotated[float, Quantity("rad/s")] = 0.0
-    """Rate of rotation about the first vertex, from E3 towards E2."""
+_SHORT = ShortForm(Quantity("1", at_least=0), "ratio", (("kind", "mass"),))
 
 
 class RodMotion(PosedProblem):
@@ -52,29 +43,43 @@ class RodMotion(PosedProblem):
     always: ClassVar[tuple[str, ...]] = ("couples",)
     thinned: ClassVar[Mapping[str, int]] = {"time": 40}
     start: Start = Start()
+    start_from: RodStatics | None = None
+    """Static problem whose equilibrium is the start; its loads may be others, or more."""
     duration: Annotated[float, Quantity("s", above=0)]
     """Time from the start to the end."""
     every: Annotated[float, Quantity("s", above=0)]
     """Time between two frames."""
-    damping: Annotated[float, Quantity("1", r"\zeta", "section 3.5", at_least=0)] = 0.0
-    """Mass-proportional damping, as a fraction of the critical damping of the lowest mode that deforms the rod.
-
-    ASSUME a force -2 zeta omega_1 M v: the page names none.
-    """
+    base_motion: BaseMotion | None = None
+    """Acceleration of the base that carries the supports; displacements and velocities are then relative to it."""
+    damping: Annotated[AnyDamping | None, _SHORT] = None
+    """Damping; a number alone is the ratio of kind "mass"."""
     integrator: IntegratorSettings
 
     @model_validator(mode="after")
     def _starts_as_it_can(self) -> Self:
-        if self.start.shape != "reference" and self.pose is not None:
+        fault = self.start.fault(
+            straight=self.rod.rest.straight,
+            static=self.start_from is not None,
+            posed=self.pose is not None,
+        )
+        if fault:
+            raise PydanticCustomError("start", fault)
+        return self
+
+    @model_validator(mode="after")
+    def _can_be_damped(self) -> Self:
+        method, damping = self.integrator.method, self.damping
+        if method != "implicit" and damping is not None and damping.kind != "mass":
             raise PydanticCustomError(
-                "start",
-                f"has 'pose' and start.shape = '{self.start.shape}'; leave one of them out",
+                "damping",
+                f"has integrator.method = '{method}', which has no damping of kind '{damping.kind}'; take "
+                "'implicit', or a damping of kind 'mass'",
             )
-        if self.start.shape != "reference" and not self.rod.rest.straight:
+        if self.pose is not None and damping is not None and damping.kind != "mass":
             raise PydanticCustomError(
-                "start",
-                f"has start.shape = '{self.start.shape}', which is that of a straight rod, but 'rod.rest' is not "
-                "straight; begin from the 'reference' or take a straight rod",
+                "damping",
+                f"has a 'pose' and a damping of kind '{damping.kind}', which is about the shape at rest; take one of "
+                "kind 'mass'",
             )
         return self
 
@@ -91,12 +96,14 @@ class RodMotion(PosedProblem):
     def system(self, geometry: Geometry, *, displacements: bool = False) -> MechanicalSystem:
         """The rod with its loads, constraints, mass and damping."""
         system = super().system(geometry, displacements=displacements)
-        if not self.damping:
+        if self.damping is None:
             return system
+        return self.damping.damped(system, self.vibrations(displacements=displacements))
+
+    def vibrations(self, *, displacements: bool = False) -> Vibrations:
+        """Small motions of the unloaded rod about its reference configuration."""
         body = self._unloaded(displacements=displacements)
-        held = not free_motions(body).any()
-        lowest = first_elastic_frequency(body, body.space.reference, supported=held)
-        return replace(system, damping_rate=2 * self.damping * lowest)
+        return Vibrations(body, not free_motions(body).any())
 
     def modes(self, count: int, name: str = "the rod") -> Modes:
         """The lowest natural frequencies and shapes of the unloaded rod about its reference configuration.
@@ -117,27 +124,7 @@ class RodMotion(PosedProblem):
 
     def begin(self) -> State:
         """The state at time zero, in the DOFs of the system."""
-        geometry = self.geometry
-        X, D, xi = geometry.X.copy(), geometry.D.copy(), geometry.arc_length
-        if self.start.shape == "first beam mode":
-            shape, slope = beams.first_beam_mode(self.rod.length, xi)
-            turn = np.arctan(self.start.amplitude * slope)
-            X[:, 1] += self.start.amplitude * shape
-            D = geometry.director_length[:, None] * np.column_stack([-np.sin(turn), np.cos(turn)])
-            D = self.rod.strain_energy.start_directors(self.rod, geometry, X, D)
-        system, kinematics = super().system(geometry, displacements=False), self.rod.kinematics
-        start = kinematics.split(system.unframed.space.reference.copy())
-        start[:, 0], start[:, 1] = X, D
-        frame = system.frame
-        q = np.where(system.constrained, system.space.reference, frame.into(start.ravel()))
-        placed, pivot, v = frame.out(q), np.zeros_like(start), np.zeros_like(start)
-        pivot[:, 0] = placed[: kinematics.dimension]
-        v[:, 0] = self.start.speed * unit_vector(self.start.along)
-        rotation = kinematics.rigid_motions(placed - pivot.ravel())[kinematics.dimension]
-        moving = frame.into(v.ravel() + self.start.spin * rotation)
-        rate = np.where(system.constrained, 0.0, moving)
-        place, given, _ = system.constraints.at_time(0.0)
-        return State(q + place, rate + given, system.committed(q + place, system.history))
+        return begin(self)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """The motion at its frames; with a store of parts it resumes where an earlier run was interrupted.
@@ -164,6 +151,7 @@ class RodMotion(PosedProblem):
             reached = part["time"][-1]
             run.progress((number + 1) / checkpointed.parts, f"{reached:.4g} of {self.duration:g} s")
         whole = joined(done, checkpointed.substeps_per_frame)
+        whole = replace(whole, statistics=dict(whole.statistics) | checkpointed.damping())
 
         def derive() -> Solution:
             system, count = checkpointed.system, whole["time"].size
@@ -173,7 +161,7 @@ class RodMotion(PosedProblem):
             work = whole["load_work"] + potential[0] - potential
             return replace(found, fields={**found.fields, "total_load_work": (("time",), work)})
 
-        return replace(whole, warnings=checkpointed.warnings(whole), derive=derive)
+        return replace(whole, warnings=(*warnings(self), *checkpointed.warnings(whole)), derive=derive)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

@@ -25,6 +25,7 @@ from cosserat.rods.constraints import (
 from cosserat.rods.energies.reissner import STRESSES
 from cosserat.rods.holding import held_components
 from cosserat.rods.imperfections import AnyImperfection
+from cosserat.rods.loads.base import BaseMotion
 from cosserat.rods.loads.couples import Couple, LineCouple
 from cosserat.rods.loads.dead import Gravity, LineLoad, PointForce
 from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
@@ -48,6 +49,7 @@ Array = NDArray[np.float64]
 
 LOADS: dict[str, type[Load]] = {
     "gravity": Gravity,
+    "base_motion": BaseMotion,
     "line_loads": LineLoad,
     "forces": PointForce,
     "couples": Couple,
@@ -205,7 +207,8 @@ class RodProblem(Problem):
         """The functions of time of its loads and constraints, with their keys."""
         items = [(key, load) for key in LOADS for load in self.loads_of(key)]
         given = [
-            (key, getattr(item, "time_function", None)) for key, item in [*items, *self.constraints()]
+            *((key, load.level) for key, load in items),
+            *((key, getattr(item, "time_function", None)) for key, item in self.constraints()),
         ]
         return [(key, function) for key, function in given if function is not None]
 
@@ -241,11 +244,11 @@ class RodProblem(Problem):
             loads = self.loads_of(key)
             if not loads and key not in self.always:
                 continue
-            constant = [load for load in loads if load.time_function is None]
+            constant = [load for load in loads if load.level is None]
             if constant or key in self.always:
                 yield kind.potential(constant, body)
-            for level in dict.fromkeys(load.time_function for load in loads if load.time_function):
-                alike = [load for load in loads if load.time_function == level]
+            for level in dict.fromkeys(load.level for load in loads if load.level):
+                alike = [load for load in loads if load.level == level]
                 yield replace(kind.potential(alike, body), level=level)
 
     def energy(self, geometry: Geometry) -> Potential:

@@ -11,7 +11,13 @@ body hardly deforms in a step, z may not exist.  After some iterations the step 
 to third order in the deformation.
 
 Mass-proportional damping c multiplies all momenta by exp(-c h / 2) before and after an undamped step (Strang, SIAM J.
-Numer. Anal. 5, 506, 1968): a mode loses energy at the rate c, resolved or not, while c omega h^2 < 8.
+Numer. Anal. 5, 506, 1968): a mode loses energy at the rate c, resolved or not, while c omega h^2 < 8.  Damping of some
+modes does the same to their momenta alone.
+
+Stiffness-proportional damping T is the force T K (change of the DOFs) / h inside the step.  K is the stiffness of the
+material at the midpoint of the step: its Hessian there with zero stresses, B^T C B with the rates of strain B.  So it
+takes energy in every step, and none from a rotation, however large.  A mode of frequency omega loses energy at the rate
+ln((1 + a + b) / (1 + a - b)) / h, a = (omega h / 2)^2, b = T omega^2 h / 2: for small b, T omega^2 / (1 + a).
 
 Newton's method solves each step.  It keeps its matrix from one step to the next while the corrections shrink fast, as
 they do if little changes in a step.
@@ -221,18 +227,15 @@ def _sigma(
     return float(missing / along)
 
 
-@njit(cache=True)
-def _decay(
-    v: Vector, mass: Band, factor: Band, constrained: Mask, share: float, work: Vector, exchanged: Vector
+@_uncounted
+def _lose(
+    v: Vector, loss: Vector, mass: Band, constrained: Mask, work: Vector, exchanged: Vector
 ) -> None:
-    """Damp the momenta of the free DOFs; exchanged: energy that damping takes and that supports give."""
+    """Add a loss to the velocities; exchanged: energy that damping takes and that supports give.  work : M v."""
     n = v.size
-    _multiply(mass, v, work)
-    before, loss = 0.0, work.copy()
+    before = 0.0
     for i in range(n):
         before += v[i] * work[i] / 2
-        loss[i] = 0.0 if constrained[i] else -share * work[i]
-    _substitute(factor, loss)
     for i in range(n):
         v[i] += loss[i]
     _multiply(mass, loss, work)
@@ -246,6 +249,69 @@ def _decay(
         now += v[i] * work[i] / 2
     exchanged[_DAMPED] += before - now + given
     exchanged[_DRIVEN] += given
+
+
+@_uncounted
+def _decay(v: Vector, run: Run, room: Room, share: float, exchanged: Vector) -> None:
+    """Damp the momenta of the free DOFs: they lose a share."""
+    work, loss = room.product, room.z
+    _multiply(run.mass, v, work)
+    for i in range(v.size):
+        loss[i] = 0.0 if run.constrained[i] else -share * work[i]
+    _substitute(room.mass_factor, loss)
+    _lose(v, loss, run.mass, run.constrained, work, exchanged)
+
+
+@_uncounted
+def _fade(v: Vector, run: Run, room: Room, exchanged: Vector) -> None:
+    """Damp the momenta of the damped modes for half a step."""
+    loss = room.z
+    loss[:] = 0.0
+    _multiply(run.mass, v, room.product)
+    for k in range(run.damped_modes.shape[0]):
+        shape, amplitude = run.damped_modes[k], 0.0
+        for i in range(v.size):
+            amplitude += shape[i] * room.product[i]
+        _add(loss, (np.exp(-run.modal_rates[k] * run.h / 2) - 1) * amplitude, shape)
+    _lose(v, loss, run.mass, run.constrained, room.product, exchanged)
+
+
+@_uncounted
+def _damp(v: Vector, run: Run, room: Room, share: float, exchanged: Vector) -> None:
+    """Damp momenta for half a step."""
+    if share > 0.0:
+        _decay(v, run, room, share, exchanged)
+    if run.modal_rates.size > 0:
+        _fade(v, run, room, exchanged)
+
+
+@_uncounted
+def _material(bodies: Bodies, run: Run, room: Room) -> None:
+    """Overwrite `resisting` by the stiffness of the material at the midpoint: its Hessian with zero stresses."""
+    room.resisting[:, :] = 0.0
+    bodies.kernels[0](
+        room.middle,
+        run.reference,
+        bodies.constants[0],
+        bodies.history[0],
+        run.rest_strains,
+        HESSIAN,
+        room.force,
+        room.resisting,
+        room.resisting[:0],
+        bodies.terms[0],
+    )
+    rotate_band(room.resisting, run.framed, run.axes, 1.0, True)
+
+
+@_uncounted
+def _resist(bodies: Bodies, run: Run, room: Room, gradient: Vector) -> None:
+    """Add the force of the stiffness-proportional damping to the gradient."""
+    _material(bodies, run, room)
+    _multiply(room.resisting, room.change, room.resisted)
+    for i in range(room.resisted.size):
+        room.resisted[i] *= run.damping_time / run.h
+    _add(gradient, 1.0, room.resisted)
 
 
 _FRESH, _JUDGED, _TURNING, _STIFFEST = range(
@@ -336,6 +402,15 @@ def _place(run: Run, room: Room, q: Vector) -> None:
 
 
 @_uncounted
+def _push(bodies: Bodies, run: Run, room: Room, gradient: Vector, none: Band, done: int) -> None:
+    """Add the gradient of the forced loads, and minus the force of the stiffness-proportional damping."""
+    if bodies.forced:
+        _forced(bodies, run, room, GRADIENT, gradient, none, done)
+    if run.damping_time > 0.0:
+        _resist(bodies, run, room, gradient)
+
+
+@_uncounted
 def _commit(bodies: Bodies, q: Vector, gradient: Vector, band: Band) -> None:
     """Overwrite the internal variables by those at q, an accepted state."""
     for k in bodies.counted:
@@ -399,6 +474,12 @@ def _factorise(bodies: Bodies, run: Run, room: Room, memory: Vector, done: int) 
         _forced(bodies, run, room, HESSIAN, gradient, factor, done)
     rotate_band(factor, run.framed, run.axes, 1.0, True)
     memory[_STIFFEST] = _step_matrix(factor, run.mass, 2 / run.h**2, run.constrained)
+    if run.damping_time > 0.0:
+        _material(bodies, run, room)
+        for j in range(factor.shape[0]):
+            for k in range(factor.shape[1]):
+                factor[j, k] += run.damping_time / run.h * room.resisting[j, k]
+        _uncouple(factor, run.constrained)
     memory[_FRESH], memory[_JUDGED] = 1.0, 0.0
     return _cholesky(factor)
 
@@ -531,8 +612,7 @@ def _solve_step(
         if near and iteration <= _MAX_CORRECTED_ITERATIONS:
             blur = _EPS * largest * np.sqrt(2 * memory[_STIFFEST])
             _meet_energy(change, middle, translations, rotations, z, gradient, before, after, blur)
-        if bodies.forced:
-            _forced(bodies, run, room, GRADIENT, gradient, none, done)
+        _push(bodies, run, room, gradient, none, done)
         _accelerate(change, moved, rates, done, run.h, gained)
         _multiply(mass, gained, product)
         _unbalance(constrained, pull, inertia, product, gradient, force)
@@ -566,6 +646,7 @@ def _accept(
         exchanged[_DRIVEN] += pushed * room.gained[k] + (gradient[k] - load[k]) * change[k]
     for i in range(change.size):
         exchanged[_WORKED] += (load[i] - run.load[i] - room.pushed[i]) * change[i]
+        exchanged[_DAMPED] += room.resisted[i] * change[i]
     for i in range(0, q.size, run.dimension):
         square = 0.0
         for k in range(i, i + run.dimension):
@@ -597,14 +678,12 @@ def integrate_steps(
     _place(run, room, q)
     before = _started(bodies, room.end, room.gradient, room.factor)
     for done in range(steps):
-        if run.damping_rate > 0.0:
-            _decay(v, run.mass, room.mass_factor, run.constrained, fraction, room.product, exchanged)
+        _damp(v, run, room, fraction, exchanged)
         _predict(run, room, v, done, memory[_TURNING] != 0.0)
         if not _solve_step(bodies, run, room, q, memory, before, done):
             return done
         _accept(run, room, q, v, exchanged, turned, done)
-        if run.damping_rate > 0.0:
-            _decay(v, run.mass, room.mass_factor, run.constrained, fraction, room.product, exchanged)
+        _damp(v, run, room, fraction, exchanged)
         _place(run, room, q)
         _commit(bodies, room.end, room.gradient, room.factor)
         before = _started(bodies, room.end, room.gradient, room.factor)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import Vector
+from cosserat.solvers.damping import rest_dofs, rest_strains
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
 from cosserat.solvers.potential import KERNEL, NOTHING, Potential
@@ -34,21 +35,11 @@ def _compiled_steps(count: int) -> Callable[..., int]:
     bodies = types.NamedTuple((*several, whole, types.boolean, types.boolean, whole), Bodies)
     number = types.float64
     given = (
-        matrix,
-        vector,
-        mask,
-        matrix,
-        number,
-        number,
-        types.int64,
-        vector,
-        whole,
-        *(matrix,) * 5,
-        whole,
-        matrix,
+        *(matrix, vector, mask, matrix, number, number, types.int64, vector, whole, *(matrix,) * 5),
+        *(whole, matrix, number, vector, matrix, matrix, vector),
     )
     run = types.NamedTuple(given, Run)
-    room = types.NamedTuple((*(vector,) * 14, matrix, matrix, matrix, matrix), Room)
+    room = types.NamedTuple((*(vector,) * 15, *(matrix,) * 5), Room)
     signature = types.int64(bodies, run, room, vector, vector, vector, vector)
     (compiled,) = njit(signature, cache=True)(integrate_steps).overloads.values()
     # called directly: the types are known, and to find them anew takes half a millisecond a call
@@ -93,11 +84,17 @@ def integrate_implicitly(
         *_varied(system, potentials, np.asarray(state.time + h * np.arange(count + 1))),
         system.frame.first,
         system.frame.axes,
+        system.damping_time,
+        rest_dofs(system),
+        rest_strains(system, name),
+        system.damped_modes.shape,
+        system.damped_modes.rate,
     )
-    vectors = [np.zeros(n) for _ in range(14)]
+    vectors = [np.zeros(n) for _ in range(15)]
     factor = np.empty((n, max(width, system.half_bandwidth + 1)))
     pushing = np.empty_like(factor if bodies.forced else factor[:0])
-    room = Room._make([*vectors, rotations, factor, mass.copy(), pushing])
+    resisting = np.empty_like(factor if system.damping_time else factor[:0])
+    room = Room._make([*vectors, rotations, factor, mass.copy(), pushing, resisting])
     q, v = state.q.copy(), state.v.copy()
     exchanged = np.array([state.dissipated, state.driven, state.load_work])
     turned = np.zeros(1)
@@ -108,10 +105,9 @@ def integrate_implicitly(
             iterations=MAX_ITERATIONS,
             tolerance=TOLERANCE,
         )
-    time = state.time + count * h
     dissipated, driven, load_work = exchanged.tolist()
-    after = State(q, v, tuple(history), time, dissipated, driven, load_work, float(turned[0]))
-    return after, count
+    reached = (state.time + count * h, dissipated, driven, load_work, float(turned[0]))
+    return State(q, v, tuple(history), *reached), count
 
 
 def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:

@@ -21,8 +21,6 @@ from cosserat.solvers.system import History, MechanicalSystem, Tangent
 if TYPE_CHECKING:
     from scipy.sparse import dia_array
 
-DAMPED = 8.0
-"""Largest c omega h^2 at which the implicit method damps a mode of frequency omega at the rate c."""
 _MAX_DENSE_DOFS = 8  # up to so many DOFs all eigenvalues are found; an iteration needs more DOFs
 _WHOLE_STEPS_TOLERANCE = 1e-9  # rounding of a duration to whole steps
 

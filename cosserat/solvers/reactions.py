@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Vector, band_product, constrain, solve_positive
+from cosserat.solvers.damping import momentum_damping, strain_damping
 from cosserat.solvers.integrate import State
 from cosserat.solvers.system import History, MechanicalSystem
 
@@ -17,9 +18,10 @@ Fields = NDArray[np.float64]
 def reactions(system: MechanicalSystem, states: Sequence[State]) -> Fields:
     """The force of each constrained DOF at some states, zero for the others: (S, n) [N].
 
-    derived: M a = R - gradient - D, where D = c M v is the damping of the free DOFs and R the force of the constrained
-    ones.  With the prescribed accelerations the rows of the free DOFs give theirs, then the others give R.  These are
-    the forces of an instant: if a step does not resolve the fast modes of a body, their phases in it are arbitrary.
+    derived: M a = R - gradient - D, where D is the damping, by mass and by modes of the free DOFs alone, and R the
+    force of the constrained ones.  With the prescribed accelerations the rows of the free DOFs give theirs, then the
+    others give R.  These are the forces of an instant: if a step does not resolve the fast modes of a body, their
+    phases in it are arbitrary.
     """
     fixed = system.constrained
     forces, given = np.zeros((len(states), fixed.size)), np.zeros((len(states), fixed.size))
@@ -28,10 +30,11 @@ def reactions(system: MechanicalSystem, states: Sequence[State]) -> Fields:
     for number, state in enumerate(states):
         system.add_gradient(state.q, state.history, forces[number])
         forces[number] -= system.forces_at(state.q, state.history, state.time)
+        forces[number] += strain_damping(system, state.q, state.v)
         given[number, fixed] = system.constraints.at_time(state.time)[-1][fixed]
     pull = np.array(
         [
-            -gradient - band_product(system.inertia, system.damping_rate * state.v + acceleration)
+            -gradient - band_product(system.inertia, momentum_damping(system, state.v) + acceleration)
             for state, gradient, acceleration in zip(states, forces, given, strict=True)
         ]
     )

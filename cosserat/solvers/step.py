@@ -40,7 +40,9 @@ class Run(NamedTuple):
     """Constants of all steps.
 
     mass : band (n, w).  load : (n,) constant dead load.  constrained : (n,).  translations : (d, n), or (0, n) where a
-    DOF is constrained.  h : the time step.  damping_rate : c.
+    DOF is constrained.  h : the time step.  damping_rate : c.  damping_time : T of the stiffness-proportional damping.
+    reference, rest_strains : DOFs (n,) of the reference along the axes of space, and the strains of the body there.
+    damped_modes : (m, n) shapes, of unit modal mass; modal_rates : (m,) rates at which they lose energy.
     dimension : number of components of a vector.
     weights : (n,) one over the lengths of vectors whose change is a rotation, zero for other DOFs.
     moved : (m,) constrained DOFs that move; places, rates : (steps + 1, m) their displacements and rates.
@@ -65,10 +67,15 @@ class Run(NamedTuple):
     levels: Fields
     framed: NDArray[np.int64]
     axes: Fields
+    damping_time: float
+    reference: Vector
+    rest_strains: Fields
+    damped_modes: Fields
+    modal_rates: Vector
 
 
 class Room(NamedTuple):
-    """Work space; all (n,) except `factor`, `mass_factor` and `pushing`, which are bands, and `rotations`.
+    """Work space; all (n,) except `rotations` and the bands `factor`, `mass_factor`, `pushing` and `resisting`.
 
     change, first : of the DOFs in the step, and its first guess.  earlier, earliest : changes of the last two steps.
     middle, end : DOFs along the axes of space, as potentials take them.  gradient : of energy and loads.
@@ -76,6 +83,7 @@ class Room(NamedTuple):
     gained : change of the DOFs at the prescribed velocity.  product : M gained.
     force : unbalanced force.  z : direction of the force that corrects the energy.
     load : the dead load of the step.  pushed, pushing : gradient and Hessian of the forced loads.
+    resisted, resisting : minus the force of the stiffness-proportional damping, and the stiffness of the material.
     """
 
     change: Vector
@@ -92,7 +100,9 @@ class Room(NamedTuple):
     z: Vector
     load: Vector
     pushed: Vector
+    resisted: Vector
     rotations: Fields
     factor: Band
     mass_factor: Band
     pushing: Band
+    resisting: Band

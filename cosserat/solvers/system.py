@@ -24,6 +24,7 @@ from cosserat.solvers.banded import (
     solve_positive,
     uncouple,
 )
+from cosserat.solvers.damping import NO_MODES, DampedModes, damped_like
 from cosserat.solvers.frames import NO_FRAME, Frame
 from cosserat.solvers.indefinite import solve_any
 from cosserat.solvers.potential import Level, Potential
@@ -153,8 +154,8 @@ class MechanicalSystem:
     """A body, its loads, its constraints and its mass.
 
     internal : the energy of the body.  external : its loads; a load factor multiplies all of them.
-    mass : symmetric band (n, w + 1); None for statics.
-    damping_rate : c of the damping force -c M v [1/s].
+    damping_rate, damping_time : c [1/s] and T [s] of the force -c M v - T K v, K the stiffness of the material alone.
+    damped_modes : modes that are damped on their own.  mass : symmetric band (n, w + 1); None for statics.
     attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
     frame : frames of some pairs of DOFs.  plain : the same body without them, if there are some.
     """
@@ -168,11 +169,13 @@ class MechanicalSystem:
     attached: tuple[Potential, ...] = ()
     frame: Frame = NO_FRAME
     plain: MechanicalSystem | None = None
+    damping_time: float = 0.0
+    damped_modes: DampedModes = NO_MODES
 
     @property
     def unframed(self) -> MechanicalSystem:
         """The same body with its DOFs along the axes of space, for what is said of a state."""
-        return self if self.plain is None else replace(self.plain, damping_rate=self.damping_rate)
+        return self if self.plain is None else damped_like(self, self.plain)
 
     @property
     def own(self) -> tuple[Potential, ...]:

@@ -138,7 +138,10 @@ BASES = {
     "rod path": 'like = ["elastica", "_loads"]\nkind = "rod path"',
     "modes": 'like = ["elastica", "_loads"]\nkind = "modes"',
     "critical loads": 'like = ["elastica", "_loads"]\nkind = "critical loads"',
-    "rod motion": 'like = ["vibration_c4_20", "_loads"]',
+    "rod motion": """
+        like = ["vibration_c4_20", "_loads"]
+        base_motion = { along = "E2", acceleration = "1 m/s^2" }
+    """,
     "calibration": 'like = "calibration"',
     "convergence": 'like = "convergence"',
     "posture": 'like = "worm_at_rest"\ncrawler.segments = [{ length = "250 mm" }]',
@@ -248,6 +251,15 @@ CHOICES = {
         "shear_stiffness": "1 N",
         "height": "2 m",
     },
+    "mass": {"kind": "mass", "ratio": 0.1},
+    "rayleigh": {  # each key is there, in the end too many of them
+        "kind": "rayleigh",
+        "ratios": [0.1, 0.1],
+        "modes": [1, 2],
+        "frequencies": ["1 Hz", "2 Hz"],
+    },
+    "stiffness": {"kind": "stiffness", "ratio": 0.1},
+    "modal": {"kind": "modal", "ratios": [0.1, 0.1], "ratio": 0.1, "modes": 2},
     "ramp": {"kind": "ramp", "duration": "1 s"},
     "sine": {"kind": "sine", "frequency": "1 Hz"},
     "pulse": {"kind": "pulse", "duration": "1 s"},
@@ -301,6 +313,9 @@ JOINED = {
     "gait.eta": "gamma and eta cross",
     "gait.phases": "times run from 0 to",
     "gait.measured[].length": "places from 0 to",
+    "damping": "just one of them|give two|needs 'modes'|leave one of them out|would feed energy",
+    "base_motion": "just one of them|leave one of them out",
+    "start": "leave one of them out|give the number of the mode",
     "step": "more than 100000 instants",
     **{
         f"{load}.time_function": "only kind = 'rod motion' has a time"

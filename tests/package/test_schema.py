@@ -35,6 +35,7 @@ NAMES = {
     "kg/m^3": "density",
     "s": "time",
     "Hz": "frequency",
+    "1/s": "rate",
     "m/s": "speed",
     "m/s^2": "acceleration",
     "N": "force",

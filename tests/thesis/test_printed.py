@@ -61,16 +61,18 @@ def flat(table, defaults, prefix=""):
         if field is not None and not field.is_required() and value == plain(field.default):
             continue
         if isinstance(value, dict):
-            inner = fields_of(field.annotation) if field is not None else {}
+            inner = fields_of(field.annotation, value) if field is not None else {}
             yield from flat(value, inner, f"{prefix}{key}.")
         else:
             yield f"{prefix}{key}"
 
 
-def fields_of(annotation):
-    """The keys of a table that may be left out or not."""
-    classes = [annotation, *get_args(annotation)]
-    return next((c.model_fields for c in classes if hasattr(c, "model_fields")), {})
+def fields_of(annotation, value):
+    """The keys that the class of a table has, of several classes the one of its `kind`."""
+    if hasattr(annotation, "model_fields"):
+        kind = annotation.model_fields.get("kind")
+        return annotation.model_fields if kind is None or value.get("kind") == kind.default else {}
+    return next((found for part in get_args(annotation) if (found := fields_of(part, value))), {})
 
 
 def holds(held, value):

@@ -17,7 +17,7 @@ from cosserat.rods.masses import Mass, added, mass_band
 from cosserat.rods.places import located
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
-from cosserat.rods.time_functions import AnyTimeFunction
+from cosserat.rods.time_functions import AnyTimeFunction, TimeFunction
 from cosserat.rods.variation import overlap, vertex_cuts
 from cosserat.solvers.potential import Potential
 
@@ -75,6 +75,11 @@ class Load(Parameters):
 
     time_function: AnyTimeFunction | None = None
     """Factor that depends on time, of a motion only; a load without one acts from the start."""
+
+    @property
+    def level(self) -> TimeFunction | None:
+        """How it depends on time; None for a constant load."""
+        return self.time_function
 
     @property
     def places(self) -> tuple[str | int, ...]:

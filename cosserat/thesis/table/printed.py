@@ -96,7 +96,7 @@ _VIBRATING: Inputs = {
     "start.shape": Input("first beam mode", "section 3.5, 'in its first mode shape'"),
     "start.amplitude": Input("1 cm", "not given", "m", "E3.19"),
 }
-_DAMPED: Inputs = {"damping": Input("1", "section 3.5, 'towards critical damping'", "1", "E3.22")}
+_DAMPED: Inputs = {"damping.ratio": Input("1", "section 3.5, 'towards critical damping'", "1", "E3.22")}
 _K_1: Inputs = {
     "rod.section.shear_factor": Input("1", "given for no beam of the four problems", "1", "E3.17")
 }
