@@ -74,7 +74,7 @@ class RodMotion(PosedProblem):
             raise PydanticCustomError(
                 "start",
                 f"has start.shape = '{self.start.shape}', which is that of a straight rod, but 'rod.rest' is not "
-                "straight; begin from the 'reference' or take a straight rod",
+                "straight along E3; begin from the 'reference' or take a straight rod",
             )
         return self
 
