@@ -3,7 +3,7 @@
 import pytest
 
 from .__main__ import main
-from .cases import CHECKS, QUICK, Row, inputs
+from .checks import CHECKS, QUICK, Row, inputs
 
 
 @pytest.mark.parametrize("name", sorted(QUICK))
