@@ -24,8 +24,8 @@ def list_of_kinds() -> str:
         [
             *lines,
             "",
-            "'cosserat describe KIND' lists the keys of a case of that kind, and 'cosserat describe KIND KEY' those of one",
-            "table, such as rod.section or forces.  Every case may also have:",
+            "'cosserat describe KIND' lists the keys of a case of that kind, 'cosserat describe KIND KEY' those",
+            "of one table, such as rod.section or forces.  Every case may also have:",
             "",
             *(paragraph(key) for key in common_keys()),
         ]

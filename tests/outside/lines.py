@@ -80,16 +80,18 @@ def in_python(files, beginnings):
 
 
 def _statement(files, beginning):
-    """Lines of the first statement with this beginning; one of several lines counts without its docstring."""
+    """Lines of the first statement with this beginning; a function counts without its docstring."""
     for text in files.python:
+        code = text.splitlines()
         for node in ast.walk(ast.parse(text)):
-            if not isinstance(node, ast.stmt):
-                continue
-            lines = text.splitlines()[node.lineno - 1 : node.end_lineno]
-            if lines[0].strip().startswith(beginning):
-                doc = ast.get_docstring(node, clean=False) if isinstance(node, ast.FunctionDef) else None
-                return sum(map(_length, lines)) - (len((doc or "").splitlines()))
+            if isinstance(node, ast.stmt) and code[node.lineno - 1].strip().startswith(beginning):
+                described = isinstance(node, ast.FunctionDef) and ast.get_docstring(node)
+                return _lines(code, node) - (_lines(code, node.body[0]) if described else 0)
     raise KeyError(f"no statement begins with {beginning!r}")
+
+
+def _lines(code, node):
+    return sum(map(_length, code[node.lineno - 1 : node.end_lineno]))
 
 
 def table():
@@ -109,14 +111,16 @@ def rows():
         yield name, old, count(now(), entry["now"]), entry.get("unsaid", "")
 
 
-def show():
-    """Print the table."""
-    print(f"{'case':<20}{'lines before':>18}{'now':>18}  could not be said before")
-    print(f"{'':<20}{'TOML + Python':>18}{'TOML + Python':>18}")
-    totals = [0, 0]
+def text():
+    """The table; a case that could not be said, or not all of it, does not count in the sums."""
+    shown = [f"{'':<20}{'lines before':>18}{'lines now':>18}"]
+    shown += [f"{'case':<20}{'TOML + Python':>18}{'TOML + Python':>18}  could not be said before"]
+    sums = [0, 0]
     for name, old, new, unsaid in rows():
-        said = "-" if old is None else f"{old[0]} + {old[1]} = {sum(old)}"
-        print(f"{name:<20}{said:>18}{f'{new[0]} + {new[1]} = {sum(new)}':>18}  {unsaid}")
+        numbers = [
+            "-" if pair is None else f"{pair[0]} + {pair[1]} = {sum(pair)}" for pair in (old, new)
+        ]
+        shown.append(f"{name:<20}{numbers[0]:>18}{numbers[1]:>18}  {unsaid}".rstrip())
         if old is not None and not unsaid:
-            totals = [totals[0] + sum(old), totals[1] + sum(new)]
-    print(f"{'all that could be':<20}{totals[0]:>18}{totals[1]:>18}")
+            sums = [sums[0] + sum(old), sums[1] + sum(new)]
+    return "\n".join([*shown, f"{'those said in full':<20}{sums[0]:>18}{sums[1]:>18}"])

@@ -1,7 +1,10 @@
 """Quick problems of every kind compared with independent codes; `python -m tests.outside` runs all of them."""
 
+import textwrap
+
 import pytest
 
+from . import lines
 from .__main__ import main
 from .checks import CHECKS, QUICK, Row, inputs
 
@@ -32,3 +35,66 @@ def test_the_command_prints_a_table_and_fails_where_a_row_does_not_hold(capsys, 
     monkeypatch.setitem(CHECKS, "toggle", lambda: iter([Row("x", 1.0, 2.0, 0.1, "nothing")]))
     assert main(["toggle"]) == 1
     assert "DOES NOT HOLD" in capsys.readouterr().out
+
+
+# ---------------------------------------------------------------- lines
+
+
+def test_each_case_has_its_lines():
+    assert set(lines.table()) == set(CHECKS)
+    for name, entry in lines.table().items():
+        toml, python = lines.count(lines.now(), entry["now"])
+        assert toml >= 3, name
+        assert python >= 1, name
+        assert "before" in entry or entry["unsaid"], name
+
+
+def test_lines_are_counted_with_all_that_a_case_inherits():
+    """By hand: comments and blank lines do not count, and 106 characters are two lines."""
+    long = "a = " + "1" * 102
+    toml = f"""
+        [_base] # what others share
+        kind = "x"
+
+        [one]
+        like = "_base"
+        {long}
+        [one.rod]
+        # nothing
+        length = "1 m"
+        [two]
+        b = 1
+        """
+    python = """
+        def answer(data):
+            \"\"\"Read.
+
+            More of it.
+            \"\"\"
+            return (
+                data.x
+            )  # it
+        found = 1
+        """
+    text = lines.Files((textwrap.dedent(toml),), (textwrap.dedent(python),))
+    assert lines.in_toml(text, ["one"]) == 8
+    assert lines.in_toml(text, ["two"]) == 2
+    assert lines.in_toml(text, ["one", "two"]) == 10
+    assert lines.in_python(text, ["def answer", "found"]) == 5
+    with pytest.raises(KeyError, match="no statement begins with 'lost'"):
+        lines.in_python(text, ["lost"])
+
+
+def test_the_command_prints_lines_before_and_now(capsys, monkeypatch):
+    try:
+        lines.before()
+    except lines.NoHistoryError:
+        pytest.skip("this copy of the repository does not have its whole history")
+    assert main(["--lines"]) == 0
+    said = capsys.readouterr().out.split("\n")
+    assert len(said) == len(CHECKS) + 4
+    assert any(line.startswith("buckling ") for line in said)
+    lines.before.cache_clear()
+    monkeypatch.setattr(lines, "BEFORE", "0" * 40)
+    assert main(["--lines"]) == 1
+    assert "fetch the whole history" in capsys.readouterr().err

@@ -53,12 +53,7 @@ def shock():
 def toggle_limit():
     right = closed.toggle_limit(1.0, 0.1, 10e6 * 0.2 * 0.05)
     data = run("toggle_limit")
-    yield Row(
-        "load at which it snaps [N]",
-        right,
-        float(data.special_load_factor[0]),
-        1e-8 * right,
-        "linear bar",
-    )
+    snaps = float(data.special_load_factor[0])
+    yield Row("load at which it snaps [N]", right, snaps, 1e-8 * right, "linear bar")
     limits = float(data.special[0] == "limit point, first instability")
     yield Row("limit points there", 1.0, limits, 0.0, "linear bar")
