@@ -19,6 +19,7 @@ from cosserat.parameters import FROM_FILE, Count, Quantity
 from cosserat.problem import Problem
 from cosserat.publications import kinds, published_tables
 from cosserat.rods.problem import LOADS as LOADED
+from cosserat.synonyms import SYNONYMS
 
 KINDS = list(kinds())
 
@@ -399,6 +400,13 @@ def test_an_unknown_key_is_refused_with_those_of_its_level(words, sentence, caps
     said = capsys.readouterr().err
     assert sentence in said
     assert said.count("\n") == 1
+
+
+def test_words_for_a_key_lead_to_keys_and_kinds_and_are_none_themselves():
+    names = {key.name for kind in KINDS for key in keys(kind)}
+    assert set(SYNONYMS.values()) <= names | set(KINDS)
+    assert list(SYNONYMS) == sorted(SYNONYMS) == [word.lower() for word in SYNONYMS]
+    assert not set(SYNONYMS) & set(KINDS)
 
 
 def test_an_unknown_kind_is_refused_with_the_nearest_name(capsys):
