@@ -127,3 +127,21 @@ def shocked_bar(length, speed, EA, force, duration, t):
         tip = tip + 2 * (-1) ** k * impulse(t - 2 * k * once)
         wall = wall - 2 * (-1) ** k * push(t - (2 * k - 1) * once)
     return speed / EA * tip, wall
+
+
+def rail(force, foundation, EI, GA):
+    """Deflection under a force on an infinite beam on a foundation [m], and its moment at a distance [N m].
+
+    w = Re C exp(-r x), of EI d4w/dx4 - k EI / GA d2w/dx2 + k w = 0 beside the force, with shear in the beam: the
+    section under the force does not turn, and Q jumps by the force.  Without shear P b / 2 k and P / 4 b (Hetenyi).
+    """
+    square = complex(foundation / (2 * GA), np.sqrt(foundation / EI - (foundation / (2 * GA)) ** 2))
+    r = np.sqrt(square)
+    turn, across = foundation / (r * GA) - r, foundation / r
+    C = complex(*np.linalg.solve([[z.real, -z.imag] for z in (turn, across)], [0, force / 2]))
+    return C.real, lambda x: -(EI * (square - foundation / GA) * C * np.exp(-r * x)).real
+
+
+def bar_let_go(length, force, EA, speed, t):
+    """Displacement of the end of a bar that a force had stretched, from the instant at which it ends (D'Alembert)."""
+    return force * length / EA - struck_bar(length, force, EA, speed, t)

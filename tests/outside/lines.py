@@ -60,9 +60,11 @@ def _length(line):
 
 def in_toml(files, cases):
     """Lines of cases of one file and of all that they inherit."""
-    text = next(text for text in files.toml if cases[0] in tomllib.loads(text))
-    tables, blocks, name = tomllib.loads(text), {}, ""
-    for line in text.splitlines():
+    found = [text for text in files.toml if set(cases) <= set(tomllib.loads(text))]
+    if not found:
+        raise KeyError(f"no file has the cases {', '.join(cases)}")
+    tables, blocks, name = tomllib.loads(found[0]), {}, ""
+    for line in found[0].splitlines():
         if heading := re.match(r"\[+(\w+)", line):
             name = heading[1]
         blocks[name] = blocks.get(name, 0) + _length(line)

@@ -1,12 +1,14 @@
 """Quick problems of every kind compared with independent codes; `python -m tests.outside` runs all of them."""
 
 import textwrap
+from pathlib import Path
 
 import pytest
 
 from . import lines
 from .__main__ import main
 from .checks import CHECKS, QUICK, Row, inputs
+from .wishes import ELSEWHERE
 
 
 @pytest.mark.parametrize("name", sorted(QUICK))
@@ -18,7 +20,15 @@ def test_a_quick_case_holds(name):
 
 def test_quick_cases_cover_every_kind():
     asked = {inputs()[name].problem.kind for name in QUICK if name in inputs()}
-    assert asked >= {"rod statics", "rod path", "rod motion", "posture", "crawl"}
+    bodies = {"rod statics", "rod path", "rod motion", "modes", "critical loads", "posture", "crawl"}
+    assert asked >= bodies
+
+
+def test_right_values_of_other_wishes_are_in_tests_of_their_own():
+    for wish, places in ELSEWHERE.items():
+        for place in places:
+            file, name = place.split(": ")
+            assert f"def {name}(" in (Path(__file__).parents[1] / file).read_text(), (wish, place)
 
 
 def test_a_row_outside_its_tolerance_fails():
