@@ -391,7 +391,7 @@ def test_the_keys_of_one_table_are_described(words, paths, capsys):
     [
         ("rod statics suports", "no key 'suports' in kind 'rod statics'; did you mean 'supports'?"),
         ("rod path arc.frist", "no key 'arc.frist' in kind 'rod path'; did you mean 'arc.first'?"),
-        ("modes springy", "no key 'springy' in kind 'modes'; known are: kind, rod, supports, "),
+        ("modes wheels", "no key 'wheels' in kind 'modes'; known are: kind, rod, supports, "),
         ("modes rod.length.x", "no key 'rod.length.x' in kind 'modes'; known are: rod.section.shape, "),
     ],
 )
