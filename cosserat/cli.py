@@ -215,7 +215,11 @@ def _add_results(add: AddCommand) -> None:
 def _add_listings(add: AddCommand) -> None:
     """Add the commands that tell what there is."""
     sub = add("describe", _describe, "list the kinds of cases, or the keys of one kind")
-    sub.add_argument("kind", nargs="*", help="such as rod statics (default: list the kinds)")
+    sub.add_argument(
+        "kind",
+        nargs="*",
+        help="such as rod statics, perhaps with one of its keys, such as rod.section (default: list the kinds)",
+    )
 
     sub = add("schema", _schema, "print the JSON Schema of case files, for editors")
     sub.add_argument(
@@ -318,9 +322,9 @@ def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
 
 
 def _describe(options: argparse.Namespace) -> None:
-    from cosserat.describe.text import list_of_keys, list_of_kinds
+    from cosserat.describe.text import description
 
-    print(list_of_keys(" ".join(options.kind)) if options.kind else list_of_kinds())
+    print(description(options.kind))
 
 
 def _schema(options: argparse.Namespace) -> None:

@@ -24,6 +24,7 @@ from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationErro
 from pydantic_core import ErrorDetails, PydanticCustomError, core_schema
 
 from cosserat.errors import InputError
+from cosserat.synonyms import meant
 from cosserat.units import how_to_write, to_si
 
 FROM_FILE = {"units": "required"}
@@ -318,7 +319,7 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
         remedy = f"write a {tables_of} with {', '.join(needed) or 'its keys'}"
     elif get_origin(field.annotation) is Literal:
         remedy = f"write {' or '.join(map(repr, get_args(field.annotation)))}"
-    elif field.annotation is str and not field.metadata:
+    elif field.annotation is str and not any(isinstance(m, Quantity | Reader) for m in field.metadata):
         remedy = "write a text"
     return ", ".join(["", *filter(None, meaning)]) + f": {remedy}"
 
@@ -388,6 +389,10 @@ def tables_with_a_choice(
 
 
 def nearest(word: str, known: list[str], cutoff: float = 0.8) -> str:
-    """The clause after a misspelt word: the nearest known one, as like as `cutoff` of 1 or more, or all of them."""
-    close = difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
+    """The clause after an unknown word: the known one that is meant, or the nearest one, or all of them.
+
+    cutoff : likeness, up to 1, from which a word counts as near.
+    """
+    said = meant(word, known)
+    close = [said] if said else difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
     return f"; did you mean '{close[0]}'?" if close else f"; known are: {', '.join(known)}"

@@ -15,6 +15,7 @@ _COMPUTING = (
     "tables.py",
     "units.py",
     "parameters.py",
+    "synonyms.py",
     "tables.py",
     "problem.py",
     "kinds.py",

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import textwrap
+from collections.abc import Sequence
 
 from cosserat.describe.keys import Key, Value, common_keys, keys, title
-from cosserat.parameters import Count, Quantity, cited
+from cosserat.errors import InputError
+from cosserat.parameters import Count, Quantity, cited, nearest
 from cosserat.publications import kinds
 from cosserat.units import what_is_in
 
@@ -22,21 +24,43 @@ def list_of_kinds() -> str:
         [
             *lines,
             "",
-            "'cosserat describe KIND' lists the keys of a case of that kind.  Every case may also have:",
+            "'cosserat describe KIND' lists the keys of a case of that kind, 'cosserat describe KIND KEY' those",
+            "of one table, such as rod.section or forces.  Every case may also have:",
             "",
             *(paragraph(key) for key in common_keys()),
         ]
     )
 
 
-def list_of_keys(kind: str) -> str:
-    """Every key of a kind with its type, unit, range, default, meaning and source.
+def description(words: Sequence[str]) -> str:
+    """What `cosserat describe` answers to these words: a kind, perhaps with one of its keys behind it.
 
     Raises
     ------
-    InputError : there is no such kind.
+    InputError : there is no such kind or key.
     """
-    found = keys(kind)
+    if not words:
+        return list_of_kinds()
+    kind, inner = " ".join(words), " ".join(words[:-1])
+    return list_of_keys(inner, words[-1]) if inner in kinds() else list_of_keys(kind)
+
+
+def list_of_keys(kind: str, under: str = "") -> str:
+    """Every key of a kind with its type, unit, range, default, meaning and source.
+
+    under : a key, such as rod.section or forces, of which and inside which the keys are.
+
+    Raises
+    ------
+    InputError : there is no such kind or key.
+    """
+    found: Sequence[Key] = keys(kind)
+    if under:
+        named = [(key.path.replace("[]", ""), key) for key in found]
+        found = [key for path, key in named if f"{path}.".startswith(f"{under}.")]
+        if not found:
+            level = list(dict.fromkeys(path for path, _ in named if path.count(".") == under.count(".")))
+            raise InputError(f"there is no key '{under}' in kind '{kind}'{nearest(under, level)}")
     return "\n\n".join([f"{kind}: {title(kind)}", *(paragraph(key) for key in found)])
 
 

@@ -137,8 +137,10 @@ def _reactions(states: States) -> Solution:
         "reaction_moment": (along, cross(directors, force[:, :, 1:]).sum(axis=-1)),
         "reaction_director_force": ((*along, "axis"), force[:, :, 1]),
     }
-    arc = states.geometry.arc_length
-    names = {vertex_at(item.at, arc): str(item.at) for _, item in states.problem.constraints()}
+    arc, names = states.geometry.arc_length, dict[int, str]()
+    items = [item for _, item in states.problem.constraints()]
+    for item in sorted(items, key=lambda item: item.label == str(item.at)):  # names before places
+        names.setdefault(vertex_at(item.at, arc), item.label)
     return Solution(fields, {}, {"support": tuple(names[int(vertex)] for vertex in vertices)})
 
 

@@ -127,6 +127,11 @@ class Constraint(Parameters):
     """The place that is constrained; the rod has a vertex there."""
 
     @property
+    def label(self) -> str:
+        """What it is called in the result."""
+        return str(self.at)
+
+    @property
     def fixes(self) -> tuple[DofName, ...]:
         """The DOFs of the vertex that it fixes."""
         return ()

@@ -1,11 +1,14 @@
-"""Names in a case: of directions in the plane and of degrees of freedom (DOFs)."""
+"""Names in a case: of directions in the plane, of degrees of freedom (DOFs), of points and supports."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.parameters import Quantity, Reader, from_file
@@ -49,6 +52,25 @@ class DirectionName(Reader):
 
 Direction = Annotated[str | float | tuple[float, float], DirectionName()]
 DofName = Literal["x3", "x2", "d3", "d2"]
+
+
+def _check_name(name: str) -> str:
+    if not re.fullmatch(r"[^\W\d][\w -]*", name):
+        raise PydanticCustomError("name", f"is {name!r}; begin it with a letter, such as 'tip'")
+    return name
+
+
+Name = Annotated[str, AfterValidator(_check_name)]
+"""The name of a point or a support in the result."""
+
+
+def check_names(key: str, names: Sequence[str]) -> None:
+    """Raise PydanticCustomError if two things of one key have the same name."""
+    for name in names:
+        if names.count(name) > 1:
+            raise PydanticCustomError(
+                "twice", f"'{key}' has two named {name!r}; give each a name of its own"
+            )
 
 
 def unit_vector(direction: str | float | tuple[float, float]) -> Array:

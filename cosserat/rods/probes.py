@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import AfterValidator
-from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Parameters
+from cosserat.rods.naming import Name
 from cosserat.rods.places import Place, located
 
 Array = NDArray[np.float64]
-
-
-def _check_name(name: str) -> str:
-    if not re.fullmatch(r"[^\W\d][\w -]*", name):
-        raise PydanticCustomError("name", f"is {name!r}; begin it with a letter, such as 'tip'")
-    return name
 
 
 class Probe(Parameters):
@@ -28,18 +19,8 @@ class Probe(Parameters):
 
     at: Place
     """Its place; between two vertices their values are interpolated."""
-    name: Annotated[str, AfterValidator(_check_name)]
+    name: Name
     """Name of the point in the result."""
-
-
-def check_names(probes: Sequence[Probe]) -> None:
-    """Raise PydanticCustomError if two points have one name."""
-    names = [probe.name for probe in probes]
-    for name in names:
-        if names.count(name) > 1:
-            raise PydanticCustomError(
-                "twice", f"'probes' has two named {name!r}; give each a name of its own"
-            )
 
 
 def at_probes(probes: Sequence[Probe], arc: Array, values: Array) -> Array:

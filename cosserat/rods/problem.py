@@ -33,8 +33,9 @@ from cosserat.rods.loads.load import Load, LoadedRod
 from cosserat.rods.loads.pressure import Pressure
 from cosserat.rods.loads.strains import PreStrain, StressFreeStrain, Temperature
 from cosserat.rods.masses import Mass
+from cosserat.rods.naming import check_names
 from cosserat.rods.places import check_place, mesh
-from cosserat.rods.probes import Probe, check_names
+from cosserat.rods.probes import Probe
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.rods.space import RodSpace
@@ -159,7 +160,8 @@ class RodProblem(Problem):
             load.check(self.rod, key)
         for item in self.attachments():
             item.check(self.rod)
-        check_names(self.probes)
+        check_names("probes", [probe.name for probe in self.probes])
+        check_names("supports", [support.name for support in self.supports if support.name])
         return self
 
     @model_validator(mode="after")

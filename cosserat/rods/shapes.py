@@ -42,7 +42,7 @@ class Shape(Parameters):
 
     @property
     def straight(self) -> bool:
-        """Whether it is a straight line along E3."""
+        """Whether it is a straight line from the origin along E3."""
         return False
 
     def curvatures(self, arc: Array) -> Array:
@@ -54,27 +54,39 @@ class Shape(Parameters):
         """Raise PydanticCustomError if it does not fit a rod of that length [m]; key : its name."""
 
 
-class Straight(Shape):
-    """Straight along E3."""
+class Directed(Shape):
+    """A shape that begins at the origin in a direction."""
+
+    along: Direction = "E3"
+    """Direction in which the rod begins."""
+
+    @property
+    def first(self) -> float:
+        """Angle of the first tangent from E3 towards E2 [rad]."""
+        return float(np.arctan2(*unit_vector(self.along)[::-1]))
+
+
+class Straight(Directed):
+    """Straight."""
 
     kind: Literal["straight"] = "straight"
 
     @property
     def straight(self) -> bool:
-        """Always."""
-        return True
+        """Along E3."""
+        return self.first == 0.0
 
     def angles(self, arc: Array) -> Array:
-        """Zero."""
-        return np.zeros_like(arc)
+        """The same everywhere."""
+        return np.full_like(arc, self.first)
 
     def curvatures(self, arc: Array) -> Array:
         """Zero."""
         return np.zeros(arc.size - 1)
 
 
-class Arc(Shape):
-    """An arc that begins along E3."""
+class Arc(Directed):
+    """An arc."""
 
     kind: Literal["arc"] = "arc"
     curvature: Annotated[float, Quantity("m^-1", "K", "3.3.23")]
@@ -82,20 +94,20 @@ class Arc(Shape):
 
     @property
     def straight(self) -> bool:
-        """Without curvature."""
-        return self.curvature == 0.0
+        """Along E3 without curvature."""
+        return self.curvature == 0.0 and self.first == 0.0
 
     def angles(self, arc: Array) -> Array:
-        """Proportional to the arc length."""
-        return self.curvature * arc
+        """Linear in the arc length."""
+        return self.first + self.curvature * arc
 
     def curvatures(self, arc: Array) -> Array:
         """The same everywhere."""
         return np.full(arc.size - 1, self.curvature)
 
 
-class CurvatureTable(Shape):
-    """A curvature that varies along the rod, which begins along E3."""
+class CurvatureTable(Directed):
+    """A curvature that varies along the rod."""
 
     kind: Literal["curvature"] = "curvature"
     curvature: Annotated[Rows, Columns((("at", "m"), ("curvature", "m^-1")))]
@@ -121,7 +133,7 @@ class CurvatureTable(Shape):
         found = (
             CubicSpline(at, values) if self.between == "spline" else make_interp_spline(at, values, 1)
         )
-        angles: Array = found.antiderivative()(arc)
+        angles: Array = self.first + found.antiderivative()(arc)
         return angles
 
 

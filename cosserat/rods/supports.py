@@ -16,7 +16,7 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.parameters import Reader
 from cosserat.rods.constraints import Constraint
-from cosserat.rods.naming import Direction, DofName, unit_vector
+from cosserat.rods.naming import Direction, DofName, Name, unit_vector
 
 Array = NDArray[np.float64]
 _FREE = "clamped, free to stretch"
@@ -91,6 +91,13 @@ class Support(Constraint):
     """
     along: Direction | None = None
     """Direction in which a roller rolls ("E3" by default) or a guided section moves ("E2" by default)."""
+    name: Name | None = None
+    """Name of the support in the result; its place by default."""
+
+    @property
+    def label(self) -> str:
+        """Its name, or else its place."""
+        return self.name or super().label
 
     @model_validator(mode="after")
     def _has_a_direction(self) -> Self:

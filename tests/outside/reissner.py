@@ -41,6 +41,13 @@ class Rod:
         shear = correction * young / (2 * (1 + poisson)) * area
         return cls(length, young * area * height**2 / 12, young * area, shear, curvature)
 
+    @classmethod
+    def circle(cls, length, diameter, young, poisson=0.0):
+        """With the shear factor of Cowper (1966)."""
+        area = np.pi * diameter**2 / 4
+        shear = 6 * (1 + poisson) / (7 + 6 * poisson) * young / (2 * (1 + poisson)) * area
+        return cls(length, young * area * diameter**2 / 16, young * area, shear)
+
     def turning(self, s):
         """The curvature at rest at the fractions s of the length, counted in 1 / L."""
         return self.length * (self.K(self.length * s) if callable(self.K) else self.K)

@@ -20,7 +20,14 @@ def test_reference_codes_do_not_import_the_package(name):
     tree = ast.parse(Path(__file__).with_name(f"{name}.py").read_text())
     names = {a.name for n in ast.walk(tree) if isinstance(n, ast.Import) for a in n.names}
     names |= {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)}
-    assert {n.split(".")[0] for n in names} <= {"dataclasses", "itertools", "numpy", "scipy", *CODES}
+    assert {n.split(".")[0] for n in names} <= {
+        "collections",
+        "dataclasses",
+        "itertools",
+        "numpy",
+        "scipy",
+        *CODES,
+    }
 
 
 @pytest.mark.parametrize(
@@ -104,9 +111,13 @@ def test_both_codes_give_timoshenkos_frequency_of_a_thick_hinged_beam():
 def test_a_strip_that_is_shaken_slowly_follows_and_at_its_frequency_lags_a_quarter():
     beam = Piece(1.0, 1.0, 1e6, 1.0, 0.0)
     lowest = timoshenko.frequencies([beam], 1, start=0.5)[0]
-    assert timoshenko.shaken(beam, 1e-3 * lowest, 0.02) == pytest.approx(1.0, abs=1e-3)
+    tip, force = timoshenko.shaken(beam, 1e-3 * lowest, 0.02)
+    assert tip == pytest.approx(1.0, abs=1e-3)
+    omega = 2e-3 * np.pi * lowest  # the mass is 1, of which the clamped end has no drag
+    assert force.real == pytest.approx(-(omega**2), rel=0.05)
+    assert force.imag == pytest.approx(0.04 * omega * 1e3 * omega, rel=0.05)
     # 1.5660 is the share of the first mode in a translation, at the tip of a cantilever
-    assert abs(timoshenko.shaken(beam, lowest, 0.005)) == pytest.approx(1.566 / 0.01, rel=1e-2)
+    assert abs(timoshenko.shaken(beam, lowest, 0.005)[0]) == pytest.approx(1.566 / 0.01, rel=1e-2)
 
 
 def test_closed_forms_have_the_right_limits():
@@ -117,6 +128,8 @@ def test_closed_forms_have_the_right_limits():
         1 / 8 + 1 / 6 - 1 / 24
     )  # the part beyond as a cantilever; its hinge turns
     assert closed.toggle(1.0, 0.1, 1e-9, 1.0) == pytest.approx(1e-9 * np.sin(0.1) ** 2, rel=1e-6)
+    peak = max(closed.toggle(1.0, 0.1, v, 1.0) for v in np.linspace(0, 0.1, 2001))
+    assert closed.toggle_limit(1.0, 0.1, 1.0) == pytest.approx(peak, rel=1e-6)
     assert closed.toggle(1.0, 0.1, np.sin(0.1), 1.0) == pytest.approx(0, abs=1e-15)
     assert closed.struck_bar(1.0, 1.0, 1.0, 1.0, np.array([0, 1, 2, 3, 4, 6])) == pytest.approx(
         [0, 1, 2, 1, 0, 2]
@@ -125,6 +138,38 @@ def test_closed_forms_have_the_right_limits():
     # a wedge of height 1 - s / 2: integral of (1 - s)^2 / (1 - s/2)^3
     wedge = closed.cantilever_tip(1.0, 1.0, lambda s: (1 - s / 2) ** 3)
     assert wedge == pytest.approx(8 * (np.log(2) - 5 / 8), rel=1e-12)
+
+
+def test_a_long_beam_on_a_foundation_is_hetenyis_and_balances_its_force():
+    sag, moment = closed.rail(2.0, 4.0, 1.0, 1e12)  # b = 1
+    assert sag == pytest.approx(2.0 / (2 * 4.0), rel=1e-9)
+    assert moment(0.0) == pytest.approx(2.0 / 4, rel=1e-9)
+    assert moment(np.pi / 4) == pytest.approx(0.0, abs=1e-9)
+    soft, moment = closed.rail(
+        2.0, 4.0, 1.0, 3.0
+    )  # shear makes it softer; M' = -Q, half of the force on either side
+    assert soft > sag
+    assert (moment(1e-6) - moment(0.0)) / 1e-6 == pytest.approx(-1.0, rel=1e-5)
+
+
+def test_a_simple_beam_under_a_force_and_a_line_load_balances():
+    s = np.array([1e-12, 0.3, 0.7, 1.2, 2.0 - 1e-12])
+    N, Q, M = closed.inner_forces(2.0, s, (0.5, -np.pi / 2, 4.0), (1.0, 2.0, 3.0))
+    np.testing.assert_allclose(N, 0.0, atol=1e-12)
+    np.testing.assert_allclose(
+        Q, [-3.75, -3.75, 0.25, 0.85, 3.25], rtol=1e-9
+    )  # reactions by moments about the ends
+    assert M[[0, -1]] == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert M[1] == pytest.approx(3.75 * 0.3)  # it sags
+
+
+def test_a_shock_that_passes_once_is_the_impulse():
+    """Before the wall answers u = c I / EA; long after, nothing is lost: the wall has given twice the impulse."""
+    t = np.linspace(0, 3, 3001)
+    tip, wall = closed.shocked_bar(1.0, 1.0, 2.0, 3.0, 0.5, t)
+    whole = 3.0 * 2 / np.pi * 0.5
+    assert tip[1500] == pytest.approx(whole / 2)
+    assert np.trapezoid(wall[:1800], t[:1800]) == pytest.approx(2 * whole, rel=1e-5)
 
 
 def test_a_table_of_sides_is_found_again():

@@ -8,7 +8,7 @@ import pytest
 import cosserat
 
 from . import eccentric
-from .cases import ORDER, inputs
+from .checks import ORDER, inputs
 
 AT = {"on a vertex": 0.5, "inside an edge": 13 / 30}
 """Meshes of 10, 40 and 160 edges have a vertex at the first and meet the second at the same share of an edge."""

@@ -8,7 +8,7 @@ from cosserat.exact import elastica
 from cosserat.studies.calibration import beam_of
 
 from . import closed, timoshenko
-from .cases import ORDER, frequencies, inputs, last, piece, run
+from .checks import ORDER, frequencies, inputs, last, piece, run
 
 # ---------------------------------------------------------------- a free rod falls without turning
 

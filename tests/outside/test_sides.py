@@ -10,7 +10,7 @@ import pytest
 import cosserat
 from cosserat.data.dataset import warnings_of
 
-from .cases import inputs, last, rectangle
+from .checks import inputs, last, rectangle
 from .sides import BOWS, EULER, MULTIPLES, PUSHED, RIBBONS, SHIFTED, SIDES
 
 MESH = 3e-3

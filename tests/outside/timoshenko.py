@@ -25,6 +25,16 @@ class Piece:
             length, young * area * height**2 / 12, shear, line_density, line_density * height**2 / 12
         )
 
+    @classmethod
+    def tube(cls, length, diameter, wall, young, density, poisson):
+        """A round tube with the shear factor of Cowper (1966), m the inner over the outer radius."""
+        outer, inner = diameter / 2, diameter / 2 - wall
+        area, second = np.pi * (outer**2 - inner**2), np.pi / 4 * (outer**4 - inner**4)
+        square, one = (inner / outer) ** 2, (1 + (inner / outer) ** 2) ** 2
+        factor = 6 * (1 + poisson) * one / ((7 + 6 * poisson) * one + (20 + 12 * poisson) * square)
+        shear = factor * young / (2 * (1 + poisson)) * area
+        return cls(length, young * second, shear, density * area, density * second)
+
     def part(self, length):
         return Piece(length, self.EI, self.GA, self.m, self.J)
 
@@ -120,10 +130,13 @@ def elements(piece, count):
 
 
 def shaken(piece, frequency, damping, count=40):
-    """Complex amplitude of the tip per amplitude of the clamped end that is shaken across, drag 2 zeta omega_1 M v."""
+    """Complex amplitudes of the tip [1] and of the force of the clamp [N/m] per amplitude of the clamped end that is
+    shaken across; drag 2 zeta omega_1 M v on all but this end."""
     K, M = elements(piece, count)
     lowest = np.sqrt(eigh(K[2:, 2:], M[2:, 2:], eigvals_only=True, subset_by_index=[0, 0])[0])
     omega = 2 * np.pi * frequency
     Z = K + (2j * damping * lowest * omega - omega**2) * M
-    u = np.linalg.solve(Z[2:, 2:], -Z[2:, 0])
-    return u[-2]
+    u = np.zeros(len(K), dtype=complex)
+    u[0] = 1
+    u[2:] = np.linalg.solve(Z[2:, 2:], -Z[2:, 0])
+    return u[-2], (K[0] - omega**2 * M[0]) @ u

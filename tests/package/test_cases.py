@@ -105,6 +105,11 @@ def test_vary_changes_nothing_else():
     [
         ('rod.lenght = "5 m"', r"'rod\.lenght' is not a key; did you mean 'length'\?"),
         ("gravty = 3", r"'gravty' is not a key; did you mean 'gravity'\?"),
+        ("moments = []", r"'moments' is not a key; did you mean 'couples'\?"),
+        ("rod.material.E = 3", r"'rod\.material\.E' is not a key; did you mean 'young'\?"),
+        ('kind = "statics"', r"'kind' is 'statics'; did you mean 'rod statics'\?"),
+        ('kind = "buckling"', r"'kind' is 'buckling'; did you mean 'critical loads'\?"),
+        ('kind = "worm"', r"'kind' is 'worm'; did you mean 'crawl'\?"),
         ("rod.calibration.c9 = 1", r"'rod\.calibration\.c9' is not a key; known are: c1, c2"),
         ("rod.length = 5", r"'rod\.length' is 5, without a unit; write it with its unit"),
         (
@@ -144,7 +149,7 @@ def test_vary_changes_nothing_else():
         ("rod.ground = 3", r"'rod\.ground' is not a key; known are: energy, vertices"),
         (
             'forces = [{ direction = "E2" }]',
-            r"'forces\.0\.direction' is not a key; known are: time_function, at, along",
+            r"'forces\.0\.direction' is not a key; did you mean 'along'\?",
         ),
         ("pins = []", r"'pins' is not a key; known are: rod, supports"),
         ("title = 7", r"'title' is 7; it must be a text"),

@@ -28,6 +28,7 @@ ROOMS = (
     "solution",
     "errors",
     "units",
+    "synonyms",
     "parameters",
     "tables",
     "problem",

@@ -19,6 +19,7 @@ from cosserat.parameters import FROM_FILE, Count, Quantity
 from cosserat.problem import Problem
 from cosserat.publications import kinds, published_tables
 from cosserat.rods.problem import LOADS as LOADED
+from cosserat.synonyms import SYNONYMS
 
 KINDS = list(kinds())
 
@@ -382,6 +383,45 @@ def test_a_key_is_printed_as_expected():
     )
     assert said_of["supports"].startswith("a list of tables; required ")
     assert said_of["rod.vertices"].startswith("a whole number (from 3 to 20000000); required ")
+
+
+@pytest.mark.parametrize(
+    ("words", "paths"),
+    [
+        ("modes count", ["count"]),
+        ("rod path arc", ["arc", "arc.first", "arc.longest", "arc.count", "arc.limit", "arc.branch"]),
+        ("rod statics couples", ["couples", "couples[].at", "couples[].moment"]),
+        ("rod motion rod.length", ["rod.length"]),
+    ],
+)
+def test_the_keys_of_one_table_are_described(words, paths, capsys):
+    assert main(["describe", *words.split()]) == 0
+    blocks = capsys.readouterr().out.split("\n\n")[1:]
+    asked = [block.split("\n")[0].split()[0] for block in blocks]
+    assert [path for path in asked if "time_function" not in path] == paths
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("rod statics suports", "no key 'suports' in kind 'rod statics'; did you mean 'supports'?"),
+        ("rod path arc.frist", "no key 'arc.frist' in kind 'rod path'; did you mean 'arc.first'?"),
+        ("modes wheels", "no key 'wheels' in kind 'modes'; known are: kind, rod, supports, "),
+        ("modes rod.length.x", "no key 'rod.length.x' in kind 'modes'; known are: rod.section.shape, "),
+    ],
+)
+def test_an_unknown_key_is_refused_with_those_of_its_level(words, sentence, capsys):
+    assert main(["describe", *words.split()]) == 2
+    said = capsys.readouterr().err
+    assert sentence in said
+    assert said.count("\n") == 1
+
+
+def test_words_for_a_key_lead_to_keys_and_kinds_and_are_none_themselves():
+    names = {key.name for kind in KINDS for key in keys(kind)}
+    assert set(SYNONYMS.values()) <= names | set(KINDS)
+    assert list(SYNONYMS) == sorted(SYNONYMS) == [word.lower() for word in SYNONYMS]
+    assert not set(SYNONYMS) & set(KINDS)
 
 
 def test_an_unknown_kind_is_refused_with_the_nearest_name(capsys):

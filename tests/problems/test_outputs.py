@@ -172,6 +172,23 @@ def test_points_and_supports_may_be_anywhere():
     np.testing.assert_allclose(np.log(np.divide(*errors)) / np.log(3), 2, atol=0.1)
 
 
+def test_a_support_has_its_name_or_its_place():
+    """A name counts before the place of what moves the same vertex, in whatever order they are."""
+    data = solved_case(
+        rod=steel(vertices=5),
+        supports=[
+            {"at": 0, "fixed": ["x3", "x2"], "name": "wall"},
+            {"at": "50 %", "fixed": ["x2"]},
+            {"at": "last", "fixed": ["x2"], "name": "pier 2"},
+        ],
+        prescribed_displacements=[{"at": "last", "dof": "x2", "by": 1e-3}],
+    )
+    assert list(data.support.to_numpy()) == ["wall", "50.0 %", "pier 2"]
+    across = data.reaction_force.sel(axis="E2")
+    assert float(across.sel(support="pier 2")) == pytest.approx(float(across.sel(support="wall")))
+    assert float(across.sel(support="pier 2")) > 0
+
+
 def test_a_clamp_that_cannot_stretch_gives_its_force_on_the_director():
     """The couple of the clamp is that of the free body; a bonded section of a pulled bar is held open."""
     data = solved_case(forces=[{"at": "last", "along": "E3", "force": 1e5}])

@@ -142,6 +142,17 @@ def test_a_constant_table_is_an_arc(energy):
     np.testing.assert_allclose(*tips, rtol=1e-9)
 
 
+@pytest.mark.parametrize("energy", ["elastica", "published"])
+@pytest.mark.parametrize("rest", [{"kind": "straight"}, {"kind": "arc", "curvature": 2.0}, CLOTHOID])
+def test_a_rod_along_another_direction_is_the_same_rod_turned(energy, rest):
+    angle, tips = 0.7, []
+    for first, pull in ((0.0, -0.4), (angle, angle - 0.4)):
+        case = shaped(rest | {"along": first}, 11, energy).vary("x", gravity={"g": 1.0, "along": pull})
+        tips.append(complex(*cosserat.run(case).x[-1].to_numpy()))
+    assert abs(tips[0] - shaped(rest, 11).problem.geometry.X[-1] @ [1, 1j]) > 1e-3
+    assert tips[1] == pytest.approx(tips[0] * np.exp(1j * angle), abs=1e-9)
+
+
 @pytest.mark.parametrize("centreline", [0.2, 0.5])
 def test_the_line_of_the_area_centres_is_as_long_as_that_of_parallel_curves(centreline):
     """A curve at the distance e inside one that turns by t is shorter by e t, whatever its curvature."""
@@ -208,6 +219,7 @@ def test_a_curved_rod_hangs_as_a_boundary_value_problem_says(kind):
             'row 0, curvature, is "1 m", in m',
         ),
         ({"kind": "arc"}, "'rod.rest.curvature' is missing"),
+        ({"kind": "straight", "along": "up"}, "'rod.rest.along' is 'up'; it must be"),
         ({"kind": "bow"}, "'arc'"),
     ],
 )
@@ -230,5 +242,9 @@ def test_points_come_from_a_file_beside_the_case_and_give_the_length(tmp_path):
 
 
 def test_a_motion_from_a_beam_mode_needs_a_straight_rod():
-    with pytest.raises(InputError, match=r"but 'rod.rest' is not straight; begin from the 'reference'"):
+    with pytest.raises(
+        InputError, match=r"'rod.rest' is not straight along E3; begin from the 'reference'"
+    ):
         cosserat.case("vibration_consistent").vary("x", rod={"rest": {"kind": "arc", "curvature": 0.1}})
+    with pytest.raises(InputError, match=r"'rod.rest' is not straight along E3"):
+        cosserat.case("vibration_consistent").vary("x", rod={"rest": {"along": "30 deg"}})

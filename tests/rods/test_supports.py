@@ -251,6 +251,14 @@ def test_an_interrupted_motion_on_an_oblique_roller_goes_on_to_the_same_bits(mon
         ('at = "first", fixed = "roller", along = "up"', "'supports.0.along' is 'up'; it must be"),
         ('at = "first", fixed = "pinned", along = "E2"', "has 'along', but fixed = 'pinned' has no dir"),
         ('at = "first", fixed = ["x3"], along = "E2"', "but fixed = ['x3'] has no direction in which"),
+        (
+            'at = "first", fixed = "pinned", name = "2nd"',
+            "'supports.0.name' is '2nd'; begin it with a l",
+        ),
+        (
+            'at = "first", fixed = "pinned", name = "a" }, { at = "last", fixed = "roller", name = "a"',
+            "'supports' has two named 'a'; give each a name of its own",
+        ),
     ],
 )
 def test_a_fault_is_one_sentence(support, sentence, tmp_path):
