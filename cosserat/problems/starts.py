@@ -63,8 +63,8 @@ class Start(Parameters):
             return f"has 'pose' and {own}; leave one of them out, or write start.shape = 'equilibrium'"
         if self.shape == "first beam mode" and not straight:
             return (
-                f"has start.shape = '{self.shape}', which is that of a straight rod, but 'rod.rest' is not straight; "
-                "begin from the 'reference' or take a straight rod"
+                f"has start.shape = '{self.shape}', which is that of a straight rod, but 'rod.rest' is not straight "
+                "along E3; begin from the 'reference' or take a straight rod"
             )
         if static and self.shape != "equilibrium":
             return (

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 
 from . import timoshenko
-from .cases import piece, run
+from .checks import piece, run
 
 
 def relative_tip(strip, frequency, damping, count=40):

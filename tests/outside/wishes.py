@@ -50,6 +50,9 @@ ELSEWHERE = {
         "rods/test_following.py: test_half_a_ring_between_guides_buckles_at_three_EI_over_R_cubed",
         "rods/test_following.py: test_a_follower_force_across_the_tip_meets_the_elastica",
     ),
+    "damping that grows with stiffness, Rayleigh's pair": (
+        "problems/test_damping.py: test_two_modes_fade_at_their_rates_to_second_order",
+    ),
     "places in metres, supports by words, inclined ones": (
         "rods/test_places.py: test_a_load_between_vertices_is_of_second_order",
         "rods/test_places.py: test_a_support_in_metres_is_where_it_is_asked_for",
@@ -135,3 +138,16 @@ def rail():
     yield Row("moment beside it, error", 0.0, errors[-1], 5e-4, "Hetenyi with shear")
     for coarse, fine in itertools.pairwise(errors):
         yield Row("order of the moment", 2.0, float(np.log2(coarse / fine)), ORDER, "theory")
+
+
+@check(quick=True)
+def let_go():
+    """A force of 40 N ends at once: a triangle between both stretches of 0.1 mm, whose kinks the mesh rounds off."""
+    data = run("let_go")
+    t, tip = data.time.to_numpy(), displaced(data, "E3")
+    right = closed.bar_let_go(1.0, 40.0, 1e9 * 4e-4, 1e3, t)
+    yield Row("displacement at the start [m]", 1e-4, float(tip[0]), 1e-11, "F L / EA")
+    away = float(np.abs(tip - right).max())
+    yield Row("largest error in two periods [m]", 0.0, away, 1.5e-2 * 2e-4, "D'Alembert")
+    half = float(np.interp(0.0, -tip[:50], t[:50]))
+    yield Row("when it is as long as at rest [s]", 1e-3, half, 1e-6, "D'Alembert")
