@@ -35,7 +35,7 @@ def picture() -> Figure:
 
 def _draw_frame(ax: Axes) -> None:
     """A rod bent from E3 towards E2, with its directors, its surfaces and its axes."""
-    angles = np.linspace(0.0, 0.75, 40)
+    angles = np.linspace(0.0, 0.76, 40)
     x = 2.4 * np.column_stack([np.sin(angles), 1 - np.cos(angles)])
     d = 0.28 * np.column_stack([-np.sin(angles), np.cos(angles)])
     body = np.concatenate([x + d, (x - d)[::-1]])
@@ -55,7 +55,7 @@ def _draw_frame(ax: Axes) -> None:
     label(ax, np.add(corner, (-0.1, -0.02)), r"$\mathbf{E}_1 \otimes$", INK, ha="right", va="top")
     turn(ax, corner, 0.34, 0.1, 1.45)
     label(ax, np.add(corner, (0.33, 0.28)), r"$\varphi, \kappa > 0$", VARIANT)
-    ax.set(title="(a) axes, rotations, surfaces", xlim=(-0.65, 2.0), ylim=(-0.75, 1.9))
+    ax.set(title="(a) axes, rotations, surfaces", xlim=(-0.65, 2.0), ylim=(-0.76, 1.9))
 
 
 def _draw_cut(ax: Axes) -> None:
@@ -63,7 +63,7 @@ def _draw_cut(ax: Axes) -> None:
     half, gap = 0.42, 0.62
     for side in (1.0, -1.0):  # before the cut, then beyond it
         face = -side * gap * NORMAL
-        far = face - side * 0.75 * NORMAL
+        far = face - side * 0.76 * NORMAL
         corners = [
             face + half * SECTION,
             face - half * SECTION,
@@ -99,7 +99,7 @@ def _draw_stress(ax: Axes) -> None:
         ax, (mean + bending, -0.52), r"$\frac{N}{A} + \frac{M h}{2 I}$", COMPUTED, ha="right", va="top"
     )
     label(ax, (-0.06, 0.53), r"$\frac{N}{A} - \frac{M h}{2 I}$", COMPUTED, ha="right", va="bottom")
-    ax.set(title="(c) stress as beams have it", xlim=(-0.8, 1.8), ylim=(-0.85, 0.85))
+    ax.set(title="(c) stress as beams have it", xlim=(-0.8, 1.8), ylim=(-0.86, 0.86))
     ax.set(xlabel=r"axial stress [$M h / 2 I$]", ylabel="height above the area centre [$h$]")
 
 

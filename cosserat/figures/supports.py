@@ -69,7 +69,7 @@ def _draw_spring(ax: Axes, spring: Spring, x: Array, size: float) -> None:
         _draw_zigzag(ax, x, -unit_vector(spring.along), size)
     if spring.rotational_stiffness:
         turn = np.linspace(0, 5 * np.pi, 80)
-        spiral = x + (1.6 * size * turn / turn[-1])[:, None] * np.column_stack(
+        spiral = x + (1.55 * size * turn / turn[-1])[:, None] * np.column_stack(
             [np.cos(turn), np.sin(turn)]
         )
         ax.plot(*spiral.T, color=EXACT, linewidth=1.2, zorder=4)

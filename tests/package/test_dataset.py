@@ -45,7 +45,7 @@ def test_every_described_variable_is_written(solved):
     """Variables of a user's energy, load, point or varying crawler are in no published case and no example."""
     own = {"mode_u_imaginary", "mode_delta_imaginary", "internal_variables", "other_dofs", "other_rates"}
     own |= {"resting_radius", "muscle_force", "muscle_pressure"}
-    own |= {"probe", "probe_displacement", "probe_rotation"}
+    own |= {"attached_force", "probe", "probe_displacement", "probe_rotation"}
     every = [solved[name] for name in (*solved, *examples())]
     written = {str(name) for data in every for name in data.variables}
     assert written | own == set(VARIABLES) | set(LABELS)

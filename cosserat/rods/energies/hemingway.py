@@ -50,7 +50,7 @@ class Hemingway(Energy):
         vertex, edge = lump(
             rod.stations,
             geometry.arc_length,
-            area=section.area,
+            area=rod.area,
             second_moment=rod.second_moment,
             young=young,
             poisson=poisson,
