@@ -135,7 +135,7 @@ page.rows("C-e", "C-r", "C-column")
 # A case of kind `rod path` follows the equilibria by arc-length continuation, through limit points:
 
 # %% tags=["remove-input"]
-page.source(continuation._corrected)
+page.source(continuation.corrected)
 
 # %% tags=["remove-input"]
 page.figure(
