@@ -336,7 +336,7 @@ def _schema(options: argparse.Namespace) -> None:
 
 
 def _show(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import case_of, load, statistics_of, warnings_of
+    from cosserat.data.dataset import by_name, case_of, load, statistics_of, warnings_of
 
     dataset = load(options.file)
     case, statistics = case_of(dataset), statistics_of(dataset)
@@ -350,9 +350,11 @@ def _show(options: argparse.Namespace) -> None:
     print("\nvariables: least, largest, unit")
     for variable, values in dataset.data_vars.items():
         about = {"units": "", "long_name": "", **values.attrs}
-        print(
-            f"  {variable!s:<9} {values.min():>14.7g} {values.max():>14.7g} {about['units']:<4} {about['long_name']}"
-        )
+        for label, part in by_name(values):
+            print(
+                f"  {f'{variable}{label}':<9} {part.min():>14.7g} {part.max():>14.7g} {about['units']:<4} "
+                f"{about['long_name']}"
+            )
 
 
 def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]]:

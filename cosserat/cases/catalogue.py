@@ -152,7 +152,9 @@ def _read(file: str | Path) -> dict[str, Any]:
 
 
 def _remedy(error: str, text: str) -> str:
-    """The remedy for a line that is not TOML: decimal commas and numbers with units outside quotation marks."""
+    """The remedy for a text that is not TOML, by what people often write."""
+    if re.search(r"immutable|Cannot (?:overwrite|declare)", error):
+        return "give each key once; to a table written between braces nothing can be added elsewhere"
     place = re.search(r"at line (\d+)", error)
     line = text.split("\n")[int(place[1]) - 1] if place else ""
     number = r"=\s*[+-]?\d[\d_]*"
@@ -160,6 +162,8 @@ def _remedy(error: str, text: str) -> str:
         return "for a decimal comma write a decimal point"
     if re.search(rf"{number}(?:\.\d*)?(?:[eE][+-]?\d+)?\s*[^\W\d_]", line):
         return 'write a number that has a unit between quotation marks, such as "2.5 mm"'
+    if "key part" in error and line.rstrip().endswith(("{", ",")):
+        return 'keep a table between braces on one line, or write its keys with dots, such as rod.length = "1 m"'
     return "see the published cases in cosserat/thesis/cases for examples"
 
 

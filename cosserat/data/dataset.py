@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
@@ -222,3 +224,12 @@ def opened(result: xr.Dataset | str | Path) -> xr.Dataset:
 
 def _sorted_json(value: object) -> str:
     return json.dumps(value, sort_keys=True)
+
+
+def by_name(values: xr.DataArray) -> Iterator[tuple[str, xr.DataArray]]:
+    """A variable; of named points and supports, the part of each and its component, with a blank and their names."""
+    named = [dim for dim in ("probe", "support") if dim in values.dims]
+    dims = named + [dim for dim in ("axis",) if named and dim in values.dims]
+    for at in itertools.product(*(range(values.sizes[dim]) for dim in dims)):
+        names = ", ".join(str(values[dim].to_numpy()[k]) for dim, k in zip(dims, at, strict=True))
+        yield f" {names}".rstrip(), values.isel(dict(zip(dims, at, strict=True)))

@@ -1,4 +1,4 @@
-"""Motions: frames of the body, the path of its last vertex, and energies."""
+"""Motions: frames of the body, the path of its last vertex, energies, and the displacements of named points."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ _SHAPES = 7  # frames of a motion in one picture
 
 
 def picture(data: xr.Dataset) -> Figure:
-    """The picture of `cosserat plot` for a motion: the body in some frames, the path of the last vertex, energies."""
-    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
+    """The picture of `cosserat plot`: the body in some frames, the path of its last vertex, energies, named points."""
+    named = int("probe_displacement" in data)
+    figure, (left, right, *below) = canvas(7.2, 3.4 + 3.0 * named, 1 + named, 2)
     problem = problem_of(data, RodProblem)
     X, D = data.x_ref.to_numpy(), data.d_ref.to_numpy()
     magnified = magnification(data.x.to_numpy() - X, problem.rod.length)
@@ -28,17 +29,21 @@ def picture(data: xr.Dataset) -> Figure:
     draw_outline(left, x[-1], d[-1], problem, facecolor=BODY, edgecolor=COMPUTED, label="last frame")
     draw_supports(left, problem, x[-1], D)
     draw_masses(left, problem, x[-1], d[-1])
-    draw_loads(left, problem, x[-1], d[-1])
+    draw_loads(left, problem, x[-1], d[-1], float(data.time[-1]))
     left.plot(*x[:, -1].T, color=VARIANT, linewidth=0.8, label="last vertex")
     left.set_aspect("equal", adjustable="datalim")
     left.set(
         xlabel=r"along $\mathbf{E}_3$ [m]",
         ylabel=r"along $\mathbf{E}_2$ [m]",
-        title=f"{data.attrs['title']}, displacements × {magnified:g}",
     )
+    left.set_title(f"{data.attrs['title']}, displacements × {magnified:g}", pad=24)  # above the legend
     right.plot(data.time, data.kinetic_energy, color=COMPUTED, label="kinetic")
     right.plot(data.time, data.strain_energy, color=VARIANT, label="strain")
     right.set(xlabel="time [s]", ylabel="energy [J]")
-    for ax in (left, right):
-        ax.legend()
+    for ax, axis in zip(below, ("E3", "E2"), strict=False):
+        for name in data.probe.to_numpy():
+            ax.plot(data.time, data.probe_displacement.sel(probe=name, axis=axis), label=name)
+        ax.set(xlabel="time [s]", ylabel=f"displacement along {axis} [m]")
+    for ax in (left, right, *below):
+        ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     return figure

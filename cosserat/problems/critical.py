@@ -7,13 +7,15 @@ from dataclasses import replace
 from typing import Annotated, Literal, Self
 
 import numpy as np
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.posed import check_unposed
 from cosserat.problems.special import scaled, special_fields
 from cosserat.problems.static import check_supports
-from cosserat.rods.problem import RodProblem
+from cosserat.rods.problem import LOADS, RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
@@ -55,6 +57,17 @@ class RodCriticalLoads(RodProblem):
     """Most critical loads of the linear criterion, from the lowest; only loads of the given sign count."""
     search: SearchSettings = SearchSettings()
     """The search for the true one."""
+
+    @model_validator(mode="after")
+    def _has_a_load(self) -> Self:
+        if not any(
+            self.loads_of(key) for key in (*LOADS, "prescribed_displacements", "prescribed_rotations")
+        ):
+            raise PydanticCustomError(
+                "unloaded",
+                "has no load that could grow to a critical one; give one, such as in 'forces'",
+            )
+        return self
 
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:

@@ -86,8 +86,15 @@ class RodModes(RodProblem):
             "lowest_Hz": float(found.angular_frequency[0] / (2 * np.pi)),
             "highest_Hz": float(found.angular_frequency[-1] / (2 * np.pi)),
         }
-        warnings = (*solver.warnings(), *coarse(rest["d"]), *_growing(found))
+        warnings = (*solver.warnings(), *coarse(rest["d"]), *_growing(found), *self._fewer(found))
         return replace(rest, fields=fields, statistics=statistics, warnings=warnings)
+
+    def _fewer(self, found: SmallMotions) -> list[str]:
+        number = found.growth.size
+        return [
+            f"fewer modes: a rod of {self.rod.vertices} vertices on these supports has {number}, and 'count' asks for "
+            f"{self.count}; raise 'rod.vertices'"
+        ] * (number < self.count)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

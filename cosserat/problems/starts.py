@@ -50,7 +50,9 @@ class Start(Parameters):
         ]
         | None
     ) = None
-    """Velocities along the rod and rates of rotation of its sections, by arc length; straight lines between the rows.
+    """Velocities along the rod and rates of rotation of its sections, by arc length; straight lines between the rows,
+    and beyond the first and the last row their values, so end a blow with rows of zero.
+
     They add to `speed` and `spin`."""
 
     def fault(self, *, straight: bool, static: bool, posed: bool) -> str:

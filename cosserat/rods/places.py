@@ -103,18 +103,19 @@ def vertex_at(at: str | int, arc: Array) -> int:
     return place.index
 
 
-def check_place(at: str | int, vertices: int, length: float) -> None:
-    """Raise PydanticCustomError if a place is not on a rod of that number of vertices and length."""
+def check_place(at: str | int, vertices: int, length: float, key: str) -> None:
+    """Raise PydanticCustomError if a place, given below a key, is not on a rod of these vertices and this length."""
     if isinstance(at, int):
         if at >= vertices:
             raise PydanticCustomError(
                 "range",
-                f"'at' is {at}, but the rod's vertices are 0 to {vertices - 1}; "
+                f"'{key}' 'at' is {at}, but the rod's vertices are 0 to {vertices - 1}; "
                 "choose one of those, 'first' or 'last'",
             )
     elif at not in ("first", "last") and arc_of(at, np.array([0.0, length])) > length * (1 + _NEAR):
         raise PydanticCustomError(
-            "range", f"'at' is {at}, but the rod is {length:g} m long; choose a place on it"
+            "range",
+            f"'{key}' 'at' is {at}, but the rod is {length:g} m long; choose a place on it",
         )
 
 

@@ -151,11 +151,14 @@ class RodProblem(Problem):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         loads = [(key, load) for key in LOADS for load in self.loads_of(key)]
-        named = [at for item in self.attachments() for at in item.places]
-        named += [at for _, load in loads for at in load.places]
-        named += [mass.at for mass in self.masses] + [probe.at for probe in self.probes]
-        for at in [*(item.at for _, item in self.constraints()), *named]:
-            check_place(at, self.rod.vertices, self.rod.length)
+        named = [(key, item.at) for key, item in self.constraints()]
+        named += [
+            (key, at) for key in ATTACHMENTS for item in getattr(self, key, ()) for at in item.places
+        ]
+        named += [(key, at) for key, load in loads for at in load.places]
+        named += [(key, item.at) for key in ("masses", "probes") for item in getattr(self, key)]
+        for key, at in named:
+            check_place(at, self.rod.vertices, self.rod.length, key)
         for key, load in loads:
             load.check(self.rod, key)
         for item in self.attachments():

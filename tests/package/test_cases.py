@@ -253,6 +253,9 @@ def test_unknown_cases_and_unreadable_files_are_refused(tmp_path):
         ),
         ("rod.material.young = 1e9Pa", "between quotation marks"),
         ("rod.vertices = [1, 2", "in cosserat/thesis/cases"),
+        ('rod = { vertices = 9 }\nrod.length = "1 m"', "give each key once"),
+        ("rod.vertices = 9\nrod.vertices = 10", "give each key once"),
+        ("rod = {\n  vertices = 9 }", "on one line, or write its keys with dots"),
     ],
 )
 def test_a_number_that_is_not_toml_is_refused_with_its_remedy(tmp_path, line, remedy):

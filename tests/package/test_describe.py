@@ -179,7 +179,7 @@ prescribed_rotations = [{ at = "last", by = "1 deg" }]
 STRAINS = {
     "rod": {"energy": "consistent", "calibration": "none"},
     "prestrains": [{"extension": 0.0}],
-    "temperatures": [{"expansion": "1e-5 1/K"}],
+    "temperatures": [{"change": "0 K", "expansion": "1e-5 1/K"}],
 }
 """Loads that only one energy takes."""
 

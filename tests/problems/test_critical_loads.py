@@ -118,8 +118,6 @@ def test_the_published_rod_has_critical_loads_too():
     """Coefficients of its own make it another column; both criteria agree up to its shortening and shear."""
     problem = cosserat.case("clamped_free").problem
     push = [{"at": "last", "along": "-E3", "force": 1e6}]
-    found = critical(problem.replace(gravity=None).replace(forces=()), 1)
-    assert "special_load_factor" not in found
     pushed = cosserat.case("clamped_free").vary("x", gravity={"g": 0.0, "along": "E3"}, forces=push)
     found = critical(pushed.problem, 1)
     euler = np.pi**2 / 4 * problem.rod.material.young * problem.rod.second_moment / problem.rod.length**2
@@ -302,6 +300,12 @@ def test_bad_input(changes, sentence):
     with pytest.raises(InputError) as error:
         RodCriticalLoads.read(table, "x", units_required=False)
     assert sentence in str(error.value)
+
+
+def test_a_rod_without_loads_is_refused():
+    table = column(11).model_dump(exclude={"pose"}) | {"kind": "critical loads", "forces": []}
+    with pytest.raises(InputError, match="has no load that could grow to a critical one; give one"):
+        RodCriticalLoads.read(table, "x", units_required=False)
 
 
 def test_a_rod_that_floats_is_refused():

@@ -229,6 +229,14 @@ def test_bad_input(changes, sentence):
     assert sentence in str(error.value)
 
 
+def test_more_modes_than_the_rod_has_are_named():
+    """Eleven vertices of four components, less the four of the clamp."""
+    found = modes(11, 50)
+    assert found["natural_frequency"].size == 40
+    assert [text for text in found.warnings if "has 40, and 'count' asks for 50" in text]
+    assert not modes(11, 40).warnings
+
+
 def test_a_loaded_rod_that_floats_is_refused():
     force = [{"at": "last", "along": "E2", "force": 1.0}]
     with pytest.raises(UnsupportedRodError, match="leave the rod free to move"):

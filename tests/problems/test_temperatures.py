@@ -249,10 +249,21 @@ def test_a_bar_heated_at_once_swings_about_its_length_at_rest():
         ),
         ({"prestrains": [{"extension": -1.0}]}, "'prestrains.0.extension' is -1; it must be above -1"),
         ({"prestrains": [{"curvature": "1 m"}]}, "'prestrains.0.curvature' is \"1 m\""),
-        ({"prestrains": [{"start": 0.5, "end": 0.2}]}, "has one from 0.5 m to 0.2 m"),
-        ({"prestrains": [{"end": 1.2}]}, "has one from 0 m to 1.2 m, but the rod goes from 0 to 1 m"),
+        ({"prestrains": [{"curvature": 1, "start": 0.5, "end": 0.2}]}, "has one from 0.5 m to 0.2 m"),
         (
-            {"prestrains": [{}], "rod": {"barrier": True}},
+            {"prestrains": [{"curvature": 1, "end": 1.2}]},
+            "has one from 0 m to 1.2 m, but the rod goes from 0 to 1 m",
+        ),
+        (
+            {"prestrains": [{}]},
+            "'prestrains.0' has no strain; give 'extension' or 'curvature' or 'section'",
+        ),
+        (
+            {"temperatures": [{"expansion": 1e-5}]},
+            "'temperatures.0' has no strain; give 'change' or 'gr",
+        ),
+        (
+            {"prestrains": [{"curvature": 1}], "rod": {"barrier": True}},
             "'prestrains' needs rod.energy = 'consistent' without 'rod.barrier'",
         ),
     ],

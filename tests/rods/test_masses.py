@@ -164,7 +164,10 @@ def test_a_mass_is_at_its_place_in_any_reference():
         ('at = "last", mass = "1 kg", rotary_inertia = "1 kg"', "a mass and not a moment of inertia"),
         ('at = "last", mass = "1 kg", rotary_inertia = "-1 kg*m^2"', "it must be at least 0"),
         ('at = "last", mass = "1 kg", offset = ["1 m"]', "'masses.0.offset"),
-        ('at = "3 m", mass = "1 kg"', "'at' is 3.0 m, but the rod is 1 m long; choose a place on it"),
+        (
+            'at = "3 m", mass = "1 kg"',
+            "'masses' 'at' is 3.0 m, but the rod is 1 m long; choose a place on it",
+        ),
     ],
 )
 def test_a_fault_is_one_sentence(table, sentence, tmp_path):

@@ -125,6 +125,6 @@ def test_supports_need_vertices():
 
 def test_a_place_beyond_the_rod_is_refused():
     with pytest.raises(
-        InputError, match=r"'at' is 2\.5 m, but the rod is 2 m long; choose a place on it"
+        InputError, match=r"'forces' 'at' is 2\.5 m, but the rod is 2 m long; choose a place on it"
     ):
         cantilever(5, forces=[{"at": "2.5 m", "along": "E2", "force": 1.0}])

@@ -15,10 +15,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Annotated, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Quantity
@@ -38,6 +39,17 @@ def is_quadratic(rod: Rod) -> bool:
 
 class StressFreeStrain(Stretch):
     """Strains, over a stretch of the rod, at which it is without stress."""
+
+    causes: ClassVar[tuple[str, ...]]
+    """The keys of which one at least is given."""
+
+    @model_validator(mode="after")
+    def _has_a_cause(self) -> Self:
+        if not self.model_fields_set & {*self.causes}:
+            raise PydanticCustomError(
+                "cause", f"has no strain; give {' or '.join(map(repr, self.causes))}"
+            )
+        return self
 
     @abstractmethod
     def strains(self, poisson: Array) -> tuple[Array, Array, Array]:
@@ -91,6 +103,7 @@ def _confined(rod: Rod, cuts: Array) -> Array:
 class PreStrain(StressFreeStrain):
     """A prescribed extension or curvature, over a stretch of the rod, that needs no stress."""
 
+    causes: ClassVar[tuple[str, ...]] = ("extension", "curvature", "section")
     extension: Annotated[float, Quantity("1", above=-1)] = 0.0
     """Axial strain without stress."""
     curvature: Annotated[float, Quantity("m^-1")] = 0.0
@@ -107,6 +120,7 @@ class PreStrain(StressFreeStrain):
 class Temperature(StressFreeStrain):
     """A change of temperature over a stretch of the rod; sections expand as well as lengths."""
 
+    causes: ClassVar[tuple[str, ...]] = ("change", "gradient")
     change: Annotated[float, Quantity("K")] = 0.0
     """Change of the temperature at the elastic centres of the sections, which are the area centres of one material."""
     gradient: Annotated[float, Quantity("K/m")] = 0.0
