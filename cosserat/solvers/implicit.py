@@ -21,7 +21,7 @@ from cosserat.solvers.step import CORRECTED, COUNTED, FORCED, Bodies, Room, Run
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
-_POTENTIAL_SLOTS = 3  # of compiled steps; more potentials need another compilation
+_POTENTIAL_SLOTS = 6  # of compiled steps; more potentials need another compilation
 types: Any = numba_types  # which says nothing of its own types
 
 

@@ -331,9 +331,12 @@ JOINED = {
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
-    case = base(kind)
+    case, seen = base(kind), set()
     assert said(case) == ""
     for key, (path, field) in zip(keys(kind), fields(kind), strict=True):
+        if id(field) in seen:  # of a table that stands at several places
+            continue
+        seen.add(id(field))
         if path == "gait.chambers":
             case = put(case, "gait", CHAMBERS)
         if path.startswith(("prestrains", "temperatures")):

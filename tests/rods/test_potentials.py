@@ -40,6 +40,7 @@ LOAD_EXAMPLES = {
         {"section": -0.2, "start": 0.3},
     ],
     "temperatures": [{"change": 4e3, "gradient": 5e3, "expansion": 2e-5, "end": 0.9}],
+    "base_motion": [{"along": "30 deg", "acceleration": 3.0}],
     "couples": [{"at": "last", "moment": 0.4}, {"at": 1, "moment": -0.3}],
     "line_couples": [{"density": 0.4, "start": 0.13}],
     "follower_forces": [
