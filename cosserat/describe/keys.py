@@ -143,7 +143,7 @@ def _kind_of(owner: type[BaseModel]) -> str:
 
 
 def _keys(owner: type[BaseModel], before: str, when: str, by: str) -> Iterator[Key]:
-    for name, field in owner.model_fields.items():
+    for name, field in sorted(owner.model_fields.items(), key=lambda item: item[0] != by):
         value = _value(_whole(field))
         assert value is not None, f"{owner.__name__}.{name} can only be nothing"
         key = Key(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from cosserat.describe.keys import Key, Value, common_keys, keys, title
 from cosserat.errors import InputError
@@ -61,13 +61,33 @@ def list_of_keys(kind: str, under: str = "") -> str:
         if not found:
             level = list(dict.fromkeys(path for path, _ in named if path.count(".") == under.count(".")))
             raise InputError(f"there is no key '{under}' in kind '{kind}'{nearest(under, level)}")
-    return "\n\n".join([f"{kind}: {title(kind)}", *(paragraph(key) for key in found)])
+    return "\n\n".join([f"{kind}: {title(kind)}", *(paragraph(key, told) for key, told in _once(found))])
 
 
-def paragraph(key: Key) -> str:
-    """Description of a key, in a few lines."""
+def _once(found: Sequence[Key]) -> Iterator[tuple[Key, str]]:
+    """The keys, without those inside tables that are like another; of such a table the path of that other."""
+    alike: dict[tuple[type, ...], list[str]] = {}
+    for key in found:
+        if key.value.innermost.tables and not key.value.problem:
+            alike.setdefault(key.value.innermost.tables, []).append(key.path)
+    folded = {
+        path: home
+        for paths in alike.values()
+        for home in [min(paths, key=lambda path: path.count("[]"))]
+        for path in paths
+        if path != home
+    }
+    inside = tuple(start for path in folded for start in (f"{path}.", f"{path}[]."))
+    for key in found:
+        if not key.path.startswith(inside):
+            yield key, folded.get(key.path, "")
+
+
+def paragraph(key: Key, like: str = "") -> str:
+    """Description of a key, in a few lines; `like` : the path of a table that has the same keys inside."""
     where = f'   (where {key.by} = "{key.when}")' if key.when and key.name != key.by else ""
     lines = [f"{type_of(key)}; {need(key)}", key.meaning, thesis(key)]
+    lines += [f"The keys inside are those of {like}."] if like else []
     wrapped = [
         textwrap.fill(" ".join(line.split()), WIDTH, initial_indent="    ", subsequent_indent="    ")
         for line in lines

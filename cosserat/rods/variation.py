@@ -24,7 +24,7 @@ class Station(Parameters):
     at: Annotated[float, Quantity("m", r"\xi", "3.4.8", at_least=0)]
     """Distance from the first vertex along the reference centreline."""
     width: Annotated[float, Quantity("1", above=0)] = 1.0
-    """Width of the section over that of the rod."""
+    """Width of the section over that of the rod; a circle, tube or square takes the same factor for its height."""
     height: Annotated[float, Quantity("1", above=0)] = 1.0
     """Height of the section over that of the rod."""
     young: Annotated[float, Quantity("1", above=0)] = 1.0
