@@ -17,6 +17,9 @@ endif
 all: environment
 	@$(BIN)/snakemake all
 
+# Two test processes, each with one thread for linear algebra.
+test test-workflow: export OMP_NUM_THREADS = 1
+
 test: environment
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .

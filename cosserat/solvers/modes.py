@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Dense = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-MOST_DENSE = 1200
+MOST_DENSE = 300
 """Free DOFs up to which all eigenvalues are found by dense methods; beyond, a few by sparse ones."""
 FEW = 5
 """Free DOFs for each mode that is asked for, below which all are found."""

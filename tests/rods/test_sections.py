@@ -5,13 +5,13 @@ import functools
 import numpy as np
 import pytest
 from conftest import assembled
+from outside import closed, published_energy, timoshenko
 from scipy.integrate import quad
 
 import cosserat
 from cosserat.errors import InputError
 from cosserat.rods.material import Material
 from cosserat.rods.sections import SHAPES
-from tests.outside import closed, published_energy, timoshenko
 
 STEEL = {"young": 210e9, "poisson": 0.3, "density": 7860.0}
 CLAMP = [{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}]

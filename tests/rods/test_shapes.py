@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from conftest import assembled
+from outside import reissner
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, fresnel
@@ -13,7 +14,6 @@ from scipy.special import ellipe, ellipeinc, fresnel
 import cosserat
 from cosserat.errors import InputError
 from cosserat.rods.shapes import CurvatureTable, Points
-from tests.outside import reissner
 
 RATE = 9.0
 """Curvature per length of a clothoid, of 1 m [1/m^2]."""
