@@ -6,12 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 from outside import reissner
+from outside.reissner import CLAMP, FREE, Load
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk, j0
 
 import cosserat
 from cosserat.errors import InputError
-from outside.reissner import CLAMP, FREE, Load
 
 RIBBON = {
     "section": {"height": 5e-3, "width": 5e-3},
