@@ -25,6 +25,7 @@ def picture(data: xr.Dataset) -> Figure:
     draw_path(right, moved, data.load_factor.to_numpy(), data)
     draw_special(right, data)
     right.set(xlabel="largest displacement [m]", ylabel="load / full load [1]")
+    right.locator_params(axis="x", nbins=5)
     right.legend()
     return figure
 

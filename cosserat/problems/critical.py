@@ -40,7 +40,7 @@ class SearchSettings(Parameters):
     """Most arcs."""
     limit: Annotated[float, Quantity("1", above=0)] = 3.0
     """Where the search ends: a multiple of the lowest load of the linear criterion; of the loads themselves if it has
-    none, or if a load has no potential."""
+    none."""
 
 
 class RodCriticalLoads(RodProblem):
@@ -94,9 +94,6 @@ class RodCriticalLoads(RodProblem):
         linear = linear_criterion(solver, self.count)
         linear = replace(linear, mode=system.frame.out(linear.mode))
         lowest = float(linear.factor[0]) if linear.factor.size else 1.0
-        unit = (
-            lowest if system.symmetric else 1.0
-        )  # without a potential the first to come may be flutter
         arc = ArcLengthSettings(
             self.search.first,
             self.search.longest,
@@ -105,7 +102,7 @@ class RodCriticalLoads(RodProblem):
             limit=2 * self.search.limit,
             branches=0,
         )
-        true, reached = first_special_point(solver, arc, unit)
+        true, reached = first_special_point(solver, arc, lowest)
         found = [] if true is None else [true.unframed(system)]
         special, labels, statistics = special_fields(self.rod, geometry, found)
         if linear.factor.size:
