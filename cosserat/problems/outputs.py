@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -60,9 +60,6 @@ class States:
         rod = self.problem.rod
         at_rest = rod.strain_energy.reference(self.geometry)
         return rod.kinematics.split(at_rest + self.u)
-
-
-Maker = Callable[[States], Solution]
 
 
 def outputs(states: States) -> Solution:

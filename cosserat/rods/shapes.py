@@ -20,12 +20,12 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Parameters, Quantity
 from cosserat.rods.naming import Direction, unit_vector
+from cosserat.rods.quadrature import gauss
 from cosserat.tables import Columns, Rows
 
 Array = NDArray[np.float64]
 _NEAR = 1e-6  # difference of two lengths, as a fraction, up to which they are the same
 _PIECES = 32  # of the arc length between two points
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 class Shape(Parameters):
@@ -220,8 +220,8 @@ def curve(points: Rows, tangent: str | float | tuple[float, float] | None) -> Cu
     derivative = CubicSpline(knots, through, bc_type=(first, "not-a-knot")).derivative()
     steps = np.arange(_PIECES * (knots.size - 1) + 1) / _PIECES
     grid = np.interp(steps, np.arange(knots.size), knots)
-    half = np.diff(grid)[:, None] / 2
-    speeds = np.linalg.norm(derivative(grid[:-1, None] + half * (1 + _NODES)), axis=-1)
-    arc = np.insert(np.cumsum((half * speeds) @ _WEIGHTS), 0, 0.0)
+    nodes, weights = gauss(grid)
+    speeds = np.linalg.norm(derivative(nodes), axis=-1)
+    arc = np.insert(np.cumsum((speeds * weights).sum(axis=1)), 0, 0.0)
     angle = np.unwrap(np.arctan2(*derivative(grid).T[::-1]))
     return Curve(derivative, grid, arc, angle)

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from cosserat.parameters import Parameters, Quantity
+from cosserat.rods.quadrature import gauss
 from cosserat.tables import Columns, Rows
 
 Array = NDArray[np.float64]
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _FASTEST_CHANGE = np.pi / 2
 """A rise over a time T is as fast as a sine of the angular frequency pi / 2 T."""
 
@@ -46,9 +46,8 @@ class TimeFunction(Parameters):
         """
         inside = [b for b in self.breaks if times[0] < b < times[-1]]
         cuts = np.unique(np.concatenate([times, inside]))
-        half = np.diff(cuts)[:, None] / 2
-        values = self.value((cuts[:-1, None] + half * (1 + _NODES)).ravel()).reshape(-1, _NODES.size)
-        integrals = (values * half) @ _WEIGHTS
+        nodes, weights = gauss(cuts)
+        integrals = (self.value(nodes.ravel()).reshape(nodes.shape) * weights).sum(axis=1)
         owner = np.clip(np.searchsorted(times, cuts[:-1], side="right") - 1, 0, times.size - 2)
         first = np.searchsorted(owner, np.arange(times.size - 1))
         result: Array = np.add.reduceat(integrals, first) / np.diff(times)

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.parameters import Parameters, Quantity
+from cosserat.rods.quadrature import gauss
 from cosserat.rods.reference import Lumped
 
 Array = NDArray[np.float64]
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 class Station(Parameters):
@@ -46,9 +46,9 @@ class Scales(NamedTuple):
 
 
 def _gauss(cuts: Array) -> tuple[Array, Array]:
-    """Nodes and weights of Gauss's rule on every interval between neighbouring cuts, in order."""
-    half = (cuts[1:, None] - cuts[:-1, None]) / 2
-    return (cuts[:-1, None] + half * (1 + _NODES)).ravel(), (half * _WEIGHTS).ravel()
+    """Nodes and weights on every interval between neighbouring cuts, in order."""
+    nodes, weights = gauss(cuts)
+    return nodes.ravel(), weights.ravel()
 
 
 _ONE = _gauss(np.array([0.0, 1.0]))
