@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from cosserat.cases.catalogue import Case, published
     from cosserat.cases.catalogue import find as case
     from cosserat.cases.catalogue import load as load_cases
-    from cosserat.data.dataset import case_of, load, save
+    from cosserat.data.dataset import case_of
+    from cosserat.data.netcdf import load, save
     from cosserat.errors import CosseratError, InputError, NotConvergedError, UnsupportedRodError
     from cosserat.export.table import to_dataframe
     from cosserat.figures.doors import animate, plot
@@ -30,8 +31,8 @@ _HOMES = {
         ("published", "published"),
         ("load_cases", "load"),
     ),
-    "cosserat.data.dataset": (
-        ("case_of", "case_of"),
+    "cosserat.data.dataset": (("case_of", "case_of"),),
+    "cosserat.data.netcdf": (
         ("load", "load"),
         ("save", "save"),
     ),

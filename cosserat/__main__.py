@@ -1,8 +1,23 @@
-"""`python -m cosserat`."""
+"""`python -m cosserat`, and the command `cosserat`: signals are minded before anything else is imported."""
 
 import sys
 
-from cosserat.cli import main
+from cosserat.signals import Stopped, end_by_signals, ignore_signals
+
+
+def main() -> int:
+    """Run the command of the command line; returns its exit status."""
+    try:
+        end_by_signals()
+        from cosserat import cli
+
+        return cli.main()
+    except Stopped as stopped:
+        print(f"cosserat: {stopped}", file=sys.stderr)
+        return stopped.status
+    finally:
+        ignore_signals()
+
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import gc
 import os
+import signal
 import sys
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from cosserat.errors import CosseratError, CrossingError, DivergedError, InputError, NotConvergedError
+from cosserat import commands
+from cosserat.errors import CosseratError, CosseratWarning, InputError
+from cosserat.limits import GIGABYTES, HOURS
 from cosserat.parameters import nearest
 from cosserat.publications import AddCommand, Command, publications
-
-if TYPE_CHECKING:
-    from cosserat.cases.catalogue import Case
+from cosserat.signals import Stopped
 
 _OWN = "commands"
 _EXAMPLE = """\
@@ -49,20 +52,21 @@ examples:
   cosserat export elastica.nc --to csv
   cosserat export elastica.nc -o vertices.csv --place vertex
   cosserat export worm.nc -o worm.pvd"""
-_INTERRUPTED = "cosserat: interrupted; no incomplete file was written"
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run one command.
 
-    Returns 0 for success, 1 if a claim or a solve failed, 2 for bad input, 130 if interrupted.
+    Returns 0 for success, 1 if a claim or a solve failed, 2 for bad input, 130 if interrupted (143 by SIGTERM, 129 by
+    SIGHUP).
     """
     gc.set_threshold(100_000)  # a tenth of the time of a short run, mostly imports
     try:
-        options = _read(sys.argv[1:] if arguments is None else arguments)
-        command: Command = options.command
-        command(options)
-        sys.stdout.flush()
+        with _warnings_as_lines():
+            options = _read(sys.argv[1:] if arguments is None else arguments)
+            command: Command = options.command
+            command(options)
+            sys.stdout.flush()
     except CosseratError as error:
         print(f"cosserat: {error}", file=sys.stderr)
         return 2 if isinstance(error, InputError) else 1
@@ -72,13 +76,29 @@ def main(arguments: list[str] | None = None) -> int:
             file=sys.stderr,
         )
         return 2
-    except KeyboardInterrupt as stopped:
-        print(f"cosserat: {stopped}" if str(stopped) else _INTERRUPTED, file=sys.stderr)
-        return 130
+    except KeyboardInterrupt as interrupt:
+        stopped = interrupt if isinstance(interrupt, Stopped) else Stopped(signal.SIGINT)
+        with contextlib.suppress(OSError):  # a closed terminal takes no line
+            print(f"cosserat: {stopped}", file=sys.stderr)
+        return stopped.status
     except BrokenPipeError:
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - whoever read our output has gone
         return 0
     return 0
+
+
+@contextlib.contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """Print warnings of cosserat as one line each, and none of other packages."""
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        print(f"warning: {message}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        warnings.simplefilter("always", CosseratWarning)
+        warnings.showwarning = show
+        yield
 
 
 def _read(arguments: list[str]) -> argparse.Namespace:
@@ -90,15 +110,15 @@ def _read(arguments: list[str]) -> argparse.Namespace:
     """
     parser = parser_of_commands()
     actions = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
-    commands: dict[str, argparse.ArgumentParser] = dict(actions[0].choices or {})
+    known: dict[str, argparse.ArgumentParser] = dict(actions[0].choices or {})
     word = arguments[0] if arguments else "--help"
-    if not word.startswith("-") and word not in commands:
-        raise InputError(f"there is no command '{word}'{nearest(word, list(commands), 0.6)}")
+    if not word.startswith("-") and word not in known:
+        raise InputError(f"there is no command '{word}'{nearest(word, list(known), 0.6)}")
     options, unknown = parser.parse_known_args(arguments or [word])
     if unknown and unknown[0].startswith("-"):
-        known = [name for name in commands[word]._option_string_actions if name.startswith("--")]
+        named = [name for name in known[word]._option_string_actions if name.startswith("--")]
         given = unknown[0].partition("=")[0]
-        raise InputError(f"'cosserat {word}' has no option '{given}'{nearest(given, known)}")
+        raise InputError(f"'cosserat {word}' has no option '{given}'{nearest(given, named)}")
     if unknown:
         raise InputError(
             f"'{unknown[0]}' is one word too many; 'cosserat {word} --help' tells what it takes"
@@ -117,12 +137,12 @@ def parser_of_commands() -> argparse.ArgumentParser:
     parser.add_argument(
         "--version", action=_Version, help="print the version and the digest of the computing code"
     )
-    commands = parser.add_subparsers(
+    groups = parser.add_subparsers(
         prog="cosserat", required=True, metavar="COMMAND", help=argparse.SUPPRESS
     )
 
     def add(name: str, command: Command, text: str) -> argparse.ArgumentParser:
-        sub = commands.add_parser(
+        sub = groups.add_parser(
             name,
             description=text[0].upper() + text[1:] + ".",
             formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -144,7 +164,7 @@ def parser_of_commands() -> argparse.ArgumentParser:
 
 def _add_commands(add: AddCommand) -> None:
     """Add the commands for cases and results of one's own."""
-    sub = add("run", _run, "solve one case and write its netCDF file")
+    sub = add("run", commands.run, "solve one case and write its netCDF file")
     sub.add_argument(
         "case",
         help="name of a case, as 'cosserat cases' lists it; '-' reads cases from standard input, each a line of the "
@@ -164,6 +184,18 @@ def _add_commands(add: AddCommand) -> None:
         action="store_true",
         help="if a growing load cannot be followed to its end, write the part that was reached and still fail",
     )
+    sub.add_argument(
+        "--hours",
+        type=float,
+        default=HOURS,
+        help="longest time that the run may take, as estimated or measured (default: %(default)g)",
+    )
+    sub.add_argument(
+        "--gigabytes",
+        type=float,
+        default=GIGABYTES,
+        help="largest result that may be computed (default: %(default)g)",
+    )
 
     _add_results(add)
     _add_listings(add)
@@ -171,7 +203,7 @@ def _add_commands(add: AddCommand) -> None:
 
 def _add_results(add: AddCommand) -> None:
     """Add the commands for results."""
-    sub = add("plot", _plot, "draw a result, or animate it")
+    sub = add("plot", commands.plot, "draw a result, or animate it")
     sub.add_argument("file", type=Path, help="netCDF file of cosserat")
     written = sub.add_mutually_exclusive_group()
     written.add_argument(
@@ -190,11 +222,15 @@ def _add_results(add: AddCommand) -> None:
         "--frames", type=int, default=100, help="most frames of an animation (default: %(default)s)"
     )
 
-    sub = add("show", _show, "print what a result holds: parameters, solver, range of each variable")
+    sub = add(
+        "show", commands.show, "print what a result holds: parameters, solver, range of each variable"
+    )
     sub.add_argument("file", type=Path, help="netCDF file of cosserat")
 
     sub = add(
-        "export", _export, "write a result for other programs: a table as CSV, or the body for VTK"
+        "export",
+        commands.export,
+        "write a result for other programs: a table as CSV, or the body for VTK",
     )
     sub.epilog = _EXPORT
     sub.add_argument("file", type=Path, help="netCDF file of cosserat")
@@ -214,21 +250,21 @@ def _add_results(add: AddCommand) -> None:
 
 def _add_listings(add: AddCommand) -> None:
     """Add the commands that tell what there is."""
-    sub = add("describe", _describe, "list the kinds of cases, or the keys of one kind")
+    sub = add("describe", commands.describe, "list the kinds of cases, or the keys of one kind")
     sub.add_argument(
         "kind",
         nargs="*",
         help="such as rod statics, perhaps with one of its keys, such as rod.section (default: list the kinds)",
     )
 
-    sub = add("schema", _schema, "print the JSON Schema of case files, for editors")
+    sub = add("schema", commands.schema, "print the JSON Schema of case files, for editors")
     sub.add_argument(
         "--merged",
         action="store_true",
         help="of one case with all keys inherited by 'like' (default: of a file as it is written)",
     )
 
-    sub = add("cases", _cases, "list the cases: the published ones, or those of your file")
+    sub = add("cases", commands.cases, "list the cases: the published ones, or those of your file")
     sub.add_argument("--file", type=Path, help="TOML file of cases (default: the published ones)")
 
 
@@ -253,130 +289,3 @@ def _published() -> list[str]:
 
     width = 2 + max(map(len, titles()))
     return _lines(((name, title) for name, (title, _) in titles().items()), width)
-
-
-def _cases(options: argparse.Namespace) -> None:
-    from cosserat.publications import titles
-
-    if options.file is None:
-        known = titles()
-    else:
-        from cosserat.cases.catalogue import load
-
-        known = {name: (case.title, case.source) for name, case in load(options.file).items()}
-    width = max(map(len, known), default=0)
-    for name, (title, source) in known.items():
-        print(f"{name:<{width}}  {title}" + (f" ({source})" if source else ""))
-
-
-def _run(options: argparse.Namespace) -> None:
-    from cosserat.cases.catalogue import find, parse
-
-    if options.case != "-":
-        cases = [find(options.case, options.file)]
-    elif options.file is not None:
-        raise InputError("'-' reads the case from standard input, so '--file' has no use; leave it out")
-    else:
-        cases = [parse(line) for line in sys.stdin.read().strip().split("\n")]
-    folder = Path() if options.output is None else options.output
-    if len(cases) > 1 and not os.path.isdir(folder):
-        raise InputError(f"{folder} is not a folder; write several cases to an existing folder")
-    for case in cases:
-        path = folder / f"{case.name}.nc" if os.path.isdir(folder) else folder
-        _run_case(case, path, keep_last=options.keep_last)
-
-
-def _run_case(case: Case, path: Path, *, keep_last: bool) -> None:
-    """Solve one case, write its file and report the effort."""
-    from cosserat.data.checkpoints import Parts
-    from cosserat.data.dataset import effort, save, statistics_of, warnings_of
-    from cosserat.data.files import check_destination
-
-    check_destination(path, ".nc")
-    from cosserat.runner import run
-
-    try:
-        dataset = run(case, result=path)
-    except (NotConvergedError, CrossingError, DivergedError, KeyboardInterrupt) as stopped:
-        kept, reached = Parts(path).folder, getattr(stopped, "dataset", None)
-        if reached is not None and keep_last:
-            save(reached, path)
-            part = statistics_of(reached)["load_factor_reached"]
-            raise type(stopped)(
-                f"{stopped}; the part reached, {part:.4g} of the load, is in {path}"
-            ) from None
-        if not kept.is_dir():
-            raise
-        if isinstance(stopped, KeyboardInterrupt):
-            raise KeyboardInterrupt(
-                f"interrupted; run the same command again to resume from {kept}"
-            ) from None
-        raise type(stopped)(
-            f"{stopped}; the computed part is in {kept}; remove that folder before you change the case"
-        ) from None
-    save(dataset, path)
-    Parts(path).remove()
-    print(f"{case.name}: {effort(dataset)}; wrote {path}")
-    for warning in warnings_of(dataset):
-        print(f"warning: {warning}", file=sys.stderr)
-
-
-def _describe(options: argparse.Namespace) -> None:
-    from cosserat.describe.text import description
-
-    print(description(options.kind))
-
-
-def _schema(options: argparse.Namespace) -> None:
-    import json
-
-    from cosserat.describe.schema import as_written, merged
-
-    print(json.dumps(merged() if options.merged else as_written(), indent=1, ensure_ascii=False))
-
-
-def _show(options: argparse.Namespace) -> None:
-    from cosserat.data.dataset import by_name, case_of, load, statistics_of, warnings_of
-
-    dataset = load(options.file)
-    case, statistics = case_of(dataset), statistics_of(dataset)
-    print(f"{case.name}: {case.title}\n{dataset.attrs['source']}")
-    for warning in warnings_of(dataset):
-        print(f"warning: {warning}")
-    print("\nparameters (SI units)")
-    for name, value in _flat(case.problem.model_dump()):
-        print(f"  {name} = {value}")
-    print("\nsolver\n" + "\n".join(f"  {name} = {value}" for name, value in statistics.items()))
-    print("\nvariables: least, largest, unit")
-    for variable, values in dataset.data_vars.items():
-        about = {"units": "", "long_name": "", **values.attrs}
-        for label, part in by_name(values):
-            print(
-                f"  {f'{variable}{label}':<9} {part.min():>14.7g} {part.max():>14.7g} {about['units']:<4} "
-                f"{about['long_name']}"
-            )
-
-
-def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]]:
-    rows: list[tuple[str, object]] = []
-    for key, value in table.items():
-        rows += _flat(value, f"{prefix}{key}.") if isinstance(value, dict) else [(prefix + key, value)]
-    return rows
-
-
-def _plot(options: argparse.Namespace) -> None:
-    from cosserat.figures.doors import animate, plot
-
-    if options.animate is not None:
-        path = options.animate
-        animate(options.file, path, options.frames)
-    else:
-        path = options.output or options.file.with_suffix(".svg")
-        plot(options.file, path)
-    print(f"wrote {path}")
-
-
-def _export(options: argparse.Namespace) -> None:
-    from cosserat.export.doors import export
-
-    print(f"wrote {export(options.file, options.to, options.output, options.place)}")

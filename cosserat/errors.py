@@ -33,6 +33,18 @@ def path_of(given: object) -> Path:
     raise InputError(f"{given!r} names no file; give a path as a text or a pathlib.Path")
 
 
+class OverLimitError(InputError):
+    """A run would take more time or space than allowed; the sentence names the limit and how to raise it."""
+
+
+class CosseratWarning(UserWarning):
+    """Something that a user should know about a file or a folder; warnings about numbers are in the Dataset."""
+
+
+class ChangedResultWarning(CosseratWarning):
+    """A result was written or changed by another program: nothing says that a solver computed its values."""
+
+
 class UnsupportedRodError(InputError):
     """The supports leave the rod free to move without deforming."""
 

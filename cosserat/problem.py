@@ -40,6 +40,27 @@ ALONE = Run()
 """A run that reports nothing and stores nothing."""
 
 
+@dataclass(frozen=True)
+class Forecast:
+    """What solving a problem will take, as far as it can be foreseen; `cosserat.limits` compares it.
+
+    seconds : time.  size : bytes of the result.  work, stored : what takes them, in words.  less_work, less_stored :
+    the remedies.
+    """
+
+    seconds: float = 0.0
+    size: float = 0.0
+    work: str = "the run"
+    less_work: str = "make it smaller"
+    stored: str = "the result"
+    less_stored: str = "make it smaller"
+
+    @classmethod
+    def of(cls, seconds: float, numbers: float, what: str, remedy: str) -> Forecast:
+        """Where the same things take time and space: so many seconds, and stored numbers."""
+        return cls(seconds, 8.0 * numbers, what, remedy, what, remedy)
+
+
 class Problem(Parameters, ABC):
     """Base of every kind of problem; `cosserat.kinds` lists them."""
 
@@ -52,6 +73,11 @@ class Problem(Parameters, ABC):
     def body(self) -> str:
         """The body in a few words, with units; empty if there is none."""
         return ""
+
+    @property
+    def forecast(self) -> Forecast:
+        """What solving it will take; nothing worth naming by default."""
+        return Forecast()
 
     @abstractmethod
     def solve(self, name: str, run: Run = ALONE) -> Solution:

@@ -1,27 +1,32 @@
-"""A progress bar of long work, in terminals and notebooks."""
+"""Progress of long work: a bar in terminals and notebooks, lines elsewhere."""
 
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
+import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 
-from cosserat.problem import Progress, silent
+from cosserat.problem import Progress
 
 _AFTER, _EVERY = 1.0, 0.1  # seconds before a bar appears, and between its changes
 _LOOK = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
+_FIRST_LINE, _SLOWER = 10.0, 1.5  # seconds before the first line, and growth of the time between lines
 
 
 @contextlib.contextmanager
 def bar(title: str) -> Iterator[Progress]:
-    """A function that reports progress as a bar of tqdm; the bar goes when the block ends.
+    """A function that reports progress: as a bar of tqdm, which goes when the block ends, or as lines.
 
-    It appears after a second, if standard error is a terminal or the code runs in a notebook.  The environment
-    variable TQDM_DISABLE=1 switches it off.
+    The bar appears after a second, if standard error is a terminal or the code runs in a notebook.  Elsewhere, as in
+    the log of a batch system, lines come after ten seconds and then ever more slowly.  The environment variable
+    TQDM_DISABLE=1 switches both off.
     """
     if not (sys.stderr.isatty() or _in_notebook()):
-        yield silent
+        yield Lines(title)
         return
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # that a notebook without ipywidgets has a bar of text
@@ -41,6 +46,44 @@ def bar(title: str) -> Iterator[Progress]:
             shown.update(fraction - shown.n)
 
         yield report
+
+
+@dataclass
+class Lines:
+    """Progress as lines on standard error."""
+
+    title: str
+    clock: Callable[[], float] = time.monotonic
+    wait: float = _FIRST_LINE
+    began: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.began = self.clock()
+
+    def __call__(self, fraction: float, words: str) -> None:
+        """Print a line if it is time for one."""
+        passed = self.clock() - self.began
+        if passed < self.wait or os.environ.get("TQDM_DISABLE", "0") not in ("", "0"):
+            return
+        self.wait = max(_SLOWER * self.wait, passed)
+        left = f", about {duration(passed * (1 / fraction - 1))} left" if fraction > 0 else ""
+        print(f"{self.title}: {fraction:.0%}, {words}{left}", file=sys.stderr, flush=True)
+
+
+def duration(seconds: float) -> str:
+    """A time for a sentence, such as "40 s", "3 min" or "2.5 h"."""
+    for unit, scale in (("years", 3.156e7), ("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 1.5 * scale:
+            return f"{seconds / scale:.2g} {unit}"
+    return f"{seconds:.2g} s"
+
+
+def size(count: float) -> str:
+    """A number of bytes for a sentence, such as "4.8 MB"."""
+    for unit, scale in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+        if count >= scale:
+            return f"{count / scale:.3g} {unit}"
+    return f"{count:.0f} bytes"
 
 
 def _in_notebook() -> bool:

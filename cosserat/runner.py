@@ -3,23 +3,33 @@
 from __future__ import annotations
 
 import contextlib
+import time
+import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
+from threadpoolctl import threadpool_limits
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.checkpoints import Parts
-from cosserat.data.dataset import statistics_of, to_dataset
+from cosserat.data.dataset import statistics_of, to_dataset, warnings_of
+from cosserat.data.locks import only_writer
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CrossingError, InputError, NotConvergedError, path_of
+from cosserat.limits import Limits, Watched
 from cosserat.problem import Progress, Run
 from cosserat.progress import bar
 from cosserat.solution import Solution
 
 
 def run(
-    case: Case | str, *, result: str | Path | None = None, progress: Progress | None = None
+    case: Case | str,
+    *,
+    result: str | Path | None = None,
+    progress: Progress | None = None,
+    limits: Limits | None = None,
 ) -> xr.Dataset:
     """Solve a case, given by itself or by the name of a published one.
 
@@ -27,27 +37,60 @@ def run(
 
     result : the future file of the Dataset; a long run keeps its parts beside it, and an interrupted one resumes
         from them to the same numbers.
-    progress : called with the progress of a long run; by default a bar shows it in terminals and notebooks.
+    progress : called with the progress of a long run; by default a bar shows it in terminals and notebooks, and lines
+        elsewhere.
+    limits : most time and space that the run may take; by default 24 hours and 10 GB.
 
     Raises
     ------
-    InputError : no case of that name, its rod is not supported, or the stored parts are of another run.
+    InputError : no case of that name, its rod is not supported, the stored parts are of another run, or another
+        process is writing the same result.
+    OverLimitError : it takes more time or space than the limits allow.
     NotConvergedError, DivergedError, OutOfReachError : no solution; a motion keeps its parts up to there, and for a
         growing load the error's `dataset` is the part reached.
     """
     known = find(case) if isinstance(case, str) else case
     if not isinstance(known, Case):
         raise InputError(f"run takes a case or the name of a published one, not {case!r}")
-    kept = None if result is None else _Stored(known, Parts(path_of(result)))
+    path = None if result is None else path_of(result)
+    allowed, name = limits or Limits(), f"case '{known.name}'"
+    allowed.check(known.problem.forecast, name, path)
+    kept = None if path is None else _Stored(known, Parts(path))
+    if kept is not None:
+        kept.parts.check()
     shown = bar(known.name) if progress is None else contextlib.nullcontext(progress)
-    try:
-        with shown as report:
-            solution = known.problem.solve(f"case '{known.name}'", Run(report, kept))
-    except (NotConvergedError, CrossingError) as error:
-        if error.reached is not None:
-            error.dataset = to_dataset(known, error.reached)
-        raise
-    return to_dataset(known, solution)
+    with (
+        contextlib.nullcontext() if path is None else only_writer(path),
+        threadpool_limits(1),  # more threads of linear algebra change the last digits
+        _numerical_warnings() as caught,
+    ):
+        try:
+            with shown as report:
+                watched = Watched(report, allowed, name, time.monotonic())
+                solution = known.problem.solve(name, Run(watched, kept))
+        except (NotConvergedError, CrossingError) as error:
+            if error.reached is not None:
+                error.dataset = to_dataset(known, error.reached)
+            raise
+        dataset = to_dataset(known, solution)
+    return _with_warnings(dataset, caught)
+
+
+@contextlib.contextmanager
+def _numerical_warnings() -> Iterator[list[warnings.WarningMessage]]:
+    """Collect warnings of NumPy, SciPy and Numba, which name lines of code and no key of a case."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("default")
+        yield caught
+
+
+def _with_warnings(dataset: xr.Dataset, caught: list[warnings.WarningMessage]) -> xr.Dataset:
+    """A Dataset with a sentence about the numerical warnings of its solution."""
+    if not caught:
+        return dataset
+    said = ", ".join(sorted({str(warning.message).splitlines()[0] for warning in caught}))
+    sentence = f"numerics: {said} in the solution; check the sizes of the values of the case"
+    return dataset.assign_attrs(warnings="\n".join([*warnings_of(dataset), sentence]))
 
 
 def modes(case: Case | str, count: int = 6) -> xr.Dataset:

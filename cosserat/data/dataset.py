@@ -1,4 +1,4 @@
-"""Solutions as xarray Datasets with units, meaning and origin; netCDF files that are whole or absent."""
+"""Solutions as xarray Datasets with units, meaning and origin."""
 
 from __future__ import annotations
 
@@ -6,24 +6,22 @@ import itertools
 import json
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, parse
-from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
-from cosserat.errors import InputError, path_of
+from cosserat.errors import InputError
 from cosserat.publications import reference
 from cosserat.solution import Solution
+from cosserat.text import printable
 
 P = TypeVar("P")
-_FRAME = "frame"
-"""Dimension of instants in a file, with `time` along it.  Tools of CF take a dimension named `time` for dates; here
-times are plain seconds from the start."""
+FORMAT = 1
+"""Number of the format of files, raised when an older version could misread a new one."""
 _ALONG = ("time", "point")
 """Dimensions that may come before those of one state."""
 
@@ -69,7 +67,7 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
             variables[dim] = xr.Variable((dim,), list(solution.labels[dim]), {"long_name": meaning})
     dataset = xr.Dataset(variables).set_coords([name for name in COORDINATES if name in variables])
     dataset.attrs = {
-        "Conventions": "CF-1.11",
+        "Conventions": f"CF-1.11 cosserat-{FORMAT}",
         "title": case.title,
         "institution": "the cosserat project",
         "references": reference(),
@@ -125,9 +123,11 @@ def case_of(dataset: xr.Dataset) -> Case:
             f"{name_of(dataset)} has no attribute 'parameters'; use one that cosserat wrote"
         )
     try:
-        return parse(dataset.attrs["parameters"])
+        return parse(str(dataset.attrs["parameters"]))
     except InputError as error:
-        raise InputError(f"{name_of(dataset)}: {error}") from None
+        wrote, own = version_of(dataset), source().split(",")[0]
+        other = f", written by {wrote} and read by {own}," if wrote != own else ""
+        raise InputError(f"{name_of(dataset)}{other}: {error}") from None
 
 
 def name_of(dataset: xr.Dataset) -> str:
@@ -166,60 +166,9 @@ def effort(dataset: xr.Dataset) -> str:
     return case_of(dataset).problem.summary(statistics_of(dataset), sizes)
 
 
-def save(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write a netCDF file under a temporary name and rename it, so that no half-written file is ever seen.
-
-    The same Dataset gives the same bytes.  Instants are along the dimension `frame` of the file, with `time` as their
-    coordinate in plain seconds.
-
-    Raises
-    ------
-    InputError : the destination cannot be written.
-    """
-    path = path_of(path)
-    check_destination(path, ".nc")
-    encoding = {
-        str(name): {"_FillValue": None}
-        for name, variable in dataset.variables.items()
-        if variable.dtype.kind == "f"
-    }
-    with whole_or_absent(path) as temporary, uninterrupted():
-        written = dataset.rename_dims(time=_FRAME) if "time" in dataset.dims else dataset
-        written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
-
-
-def load(path: str | Path) -> xr.Dataset:
-    """Read a netCDF file whole into memory.
-
-    Raises
-    ------
-    InputError : the file is missing or cannot be read as netCDF.
-    """
-    path = path_of(path)
-    if path.is_dir():
-        raise InputError(f"{path} is a folder; give the name of a netCDF file")
-    if not path.is_file():
-        raise InputError(
-            f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"
-        )
-    try:
-        with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
-            read = dataset.load()
-            return read.swap_dims({_FRAME: "time"}) if _FRAME in read.dims and "time" in read else read
-    except (OSError, ValueError, RuntimeError) as error:
-        raise InputError(
-            f"cannot read {path} as netCDF ({error}); delete it and run its case again"
-        ) from None
-
-
-def opened(result: xr.Dataset | str | Path) -> xr.Dataset:
-    """A result, given by itself or by the name of its file.
-
-    Raises
-    ------
-    InputError : the file is missing or cannot be read as netCDF.
-    """
-    return result if isinstance(result, xr.Dataset) else load(result)
+def version_of(dataset: xr.Dataset) -> str:
+    """The version that wrote a Dataset, such as "cosserat 0.1.0"."""
+    return printable(str(dataset.attrs.get("source", "another program")).split(",")[0])
 
 
 def _sorted_json(value: object) -> str:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import glob
 import os
 import platform
+import shutil
 import signal
 import threading
 from collections.abc import Iterator
@@ -13,6 +15,10 @@ from pathlib import Path
 from types import FrameType
 
 from cosserat.errors import InputError
+from cosserat.progress import size
+from cosserat.signals import SIGNALS
+
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def check_destination(path: Path, *suffixes: str) -> None:
@@ -42,15 +48,19 @@ def check_destination(path: Path, *suffixes: str) -> None:
 
 
 @contextlib.contextmanager
-def whole_or_absent(path: Path) -> Iterator[Path]:
+def whole_or_absent(path: Path, need: int | None = None) -> Iterator[Path]:
     """A temporary file beside `path`; it replaces `path` when the block succeeds.
 
-    Temporary files of killed processes of this machine for the same `path` are deleted first.
+    Temporary files of killed processes of this machine for the same `path` are deleted first.  A link is followed: the
+    file that it leads to is replaced.
+
+    need : number of bytes that will be written, for the sentence about a full disk, if it is known.
 
     Raises
     ------
     InputError : the system refuses to write.
     """
+    path = path.resolve() if path.is_symlink() else path
     ours = f".{path.name}.{platform.node()}."
     temporary = path.with_name(f"{ours}{os.getpid()}.part")
     try:
@@ -60,11 +70,20 @@ def whole_or_absent(path: Path) -> Iterator[Path]:
         yield temporary
         temporary.replace(path)
     except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"cannot write {path}: {reason}; check name, space and permissions") from None
+        raise InputError(f"cannot write {path}: {_why(error, path, need)}") from None
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
+
+
+def _why(error: OSError, path: Path, need: int | None) -> str:
+    """Why the system refuses to write, and the remedy."""
+    reason = error.strerror or str(error)
+    free = shutil.disk_usage(path.parent).free if path.parent.is_dir() else 0
+    if error.errno not in _FULL and (need is None or free > need):
+        return f"{reason}; check name, space and permissions"
+    needed = "" if need is None else f"it needs {size(need)}, and "
+    return f"{reason}: {needed}{size(free)} are free in {path.parent}; free some space or choose another disk"
 
 
 def _is_running(process: str) -> bool:
@@ -82,21 +101,24 @@ def _is_running(process: str) -> bool:
 
 @contextlib.contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Delay a Ctrl-C until the block has ended: inside, it would leave xarray's locks taken for ever.
+    """Delay signals to end until the block has ended: inside, an exception would leave xarray's locks taken for ever.
 
     Only Python's main thread is interrupted; in other threads this does nothing.
     """
-    if (
-        threading.current_thread() is not threading.main_thread()
-        or signal.getsignal(signal.SIGINT) is None
-    ):
+    usual = {number: signal.getsignal(number) for number in SIGNALS}
+    if threading.current_thread() is not threading.main_thread() or None in usual.values():
         yield
         return
     waiting: list[tuple[int, FrameType | None]] = []
-    usual = signal.signal(signal.SIGINT, lambda number, frame: waiting.append((number, frame)))
+    for number, handler in usual.items():
+        if callable(handler):
+            signal.signal(number, lambda *given: waiting.append(given))
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, usual)
-        if waiting and callable(usual):
-            usual(*waiting[0])
+        for number, handler in usual.items():
+            signal.signal(number, handler)
+        for given in waiting[:1]:
+            handler = usual[signal.Signals(given[0])]
+            if callable(handler):
+                handler(*given)

@@ -11,8 +11,10 @@ from pathlib import Path
 _PACKAGE = Path(__file__).parents[1]
 _COMPUTING = (
     "errors.py",
+    "limits.py",
+    "signals.py",
     "solution.py",
-    "tables.py",
+    "text.py",
     "units.py",
     "parameters.py",
     "synonyms.py",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cosserat.data.dataset import load
+from cosserat.data.netcdf import load
 from cosserat.errors import InputError
 from cosserat.export.table import write_csv
 from cosserat.export.vtk import instant_of, write_vtk

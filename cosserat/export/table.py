@@ -19,8 +19,8 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from cosserat.data.dataset import opened
 from cosserat.data.files import check_destination, whole_or_absent
+from cosserat.data.netcdf import opened
 from cosserat.data.variables import LABELS
 from cosserat.errors import InputError
 from cosserat.parameters import nearest

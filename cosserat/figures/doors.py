@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import xarray as xr
 from matplotlib.figure import Figure
 
-from cosserat.data.dataset import case_of, name_of, opened, warnings_of
+from cosserat.data.dataset import case_of, name_of, warnings_of
 from cosserat.data.files import check_destination
+from cosserat.data.netcdf import opened
 from cosserat.errors import InputError, path_of
 from cosserat.figures.animated import ENDINGS, FRAMES, MOST_FRAMES, write_animation
 from cosserat.figures.style import PICTURES, note, settings, write

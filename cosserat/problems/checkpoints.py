@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import CosseratError, CrossingError, DivergedError, NotConvergedError
+from cosserat.problem import Forecast
 from cosserat.problems.damping import Vibrations, stated
 from cosserat.rods.kinematics import lengths
 from cosserat.rods.loads.couples import TERMS
@@ -29,6 +30,7 @@ from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import band_product
 from cosserat.solvers.damping import DAMPED, followed_fraction
 from cosserat.solvers.integrate import (
+    IntegratorSettings,
     State,
     check_stable_step,
     highest_frequency,
@@ -59,6 +61,10 @@ WORK_PER_PART = 5e5
 
 _COST = {"implicit": (0.0, 1.0), "rk4": (30.0, 0.5), "rk45": (300.0, 2.0)}
 """(a, b): a step costs as much as an implicit one of a + b N vertices; for "rk45", the longest stable step."""
+_SECONDS = 2e-6
+"""Time of one vertex-step of the implicit method (`cosserat speed`)."""
+_STORED = 20
+"""About so many numbers of each vertex, and of the whole rod, are stored of an instant."""
 
 
 @dataclass(frozen=True)
@@ -305,12 +311,31 @@ def joined(parts: list[Solution], substeps_per_frame: int) -> Solution:
     return Solution(fields, statistics, first.labels)
 
 
+def forecast(problem: RodMotion) -> Forecast:
+    """Time and space of a motion; of a method that chooses its steps, as if they were as long as it starts with."""
+    frames, settings = problem.frames, problem.integrator
+    steps = frames * step_count(problem.between_frames, settings)
+    numbers = _STORED * (problem.rod.vertices + 1) * (frames + 1)
+    return Forecast(
+        seconds=_SECONDS * frames * _work(problem, settings),
+        size=8.0 * numbers,
+        work=f"{steps:.3g} steps of {settings.step:g} s",
+        less_work="take a longer 'integrator.step' or a shorter 'duration'",
+        stored=f"{frames + 1:.3g} frames of {problem.rod.vertices} vertices",
+        less_stored="take a longer 'every'",
+    )
+
+
 def _work_of_a_frame(problem: RodMotion, system: MechanicalSystem) -> float:
     """Cost of one frame, in vertex-steps of the implicit method."""
     settings = problem.integrator
     if settings.method == "rk45":
         stable = stable_step(system, system.space.reference)
         settings = settings.replace(step=min(settings.step, stable))
+    return _work(problem, settings)
+
+
+def _work(problem: RodMotion, settings: IntegratorSettings) -> float:
     alone, each = _COST[settings.method]
     return step_count(problem.between_frames, settings) * (alone + each * problem.rod.vertices)
 

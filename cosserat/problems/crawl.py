@@ -19,11 +19,13 @@ from cosserat.peristalsis.gait import Gait, Instant
 from cosserat.peristalsis.instant import InstantProblem, holds_force
 from cosserat.peristalsis.profile import Profile, check_tilt
 from cosserat.peristalsis.region import Muscle, Region
-from cosserat.problem import ALONE, Problem, Run
+from cosserat.problem import ALONE, Forecast, Problem, Run
 from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
+_SECONDS = {"banded": 2e-3, "collocation": 0.05}  # about the time of an instant
+_STORED = 10  # about so many numbers are stored of each section at each instant
 _MIN_REGION_LENGTH = 1e-6  # as a fraction of the length; a shorter region is empty
 _EQUAL_LOADS_TOLERANCE = 1e-3  # loads that differ on less of the body are the same
 _EQUAL_STRETCH_TOLERANCE = 1e-3  # regions whose mu_1 differs by less are equally thick
@@ -286,6 +288,14 @@ class Crawl(CrawlerProblem):
             "move 'gait.anchor' to a thicker part, or exchange 'gait.gamma' and 'gait.eta'"
         )
 
+    @property
+    def forecast(self) -> Forecast:
+        """Instants, and the sections that are stored of each."""
+        instants = self.strides * self.gait.duration / self.step
+        seconds, numbers = _SECONDS[self.solver] * instants, _STORED * instants * self.places.size
+        remedy = "take a longer 'step' or fewer 'strides'"
+        return Forecast.of(seconds, numbers, f"{instants:.3g} instants", remedy)
+
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Every instant of the gait, each placed on the ground by its anchor, eqs. (2.5.10), (2.5.11).
 
@@ -300,7 +310,7 @@ class Crawl(CrawlerProblem):
         nodal, tilt = None, 0.0
         for stride in range(self.strides):
             first = [instant.risen(self.gait.rise(instant.time)) for instant in instants]
-            for instant in first if stride == 0 else instants[1:]:
+            for number, instant in enumerate(first if stride == 0 else instants[1:], start=1):
                 when = f"{name} at t = {stride * self.gait.duration + instant.time:.4g} s"
                 profile, nodal, sine = self.solve_instant(instant.regions, nodal, when)
                 placed = self.length_along(profile)
@@ -311,7 +321,8 @@ class Crawl(CrawlerProblem):
                     placed = placed + float((held - after.interpolate(placed, at))[0])
                 steps.append(_Step(stride, instant, profile, placed))
                 tilt = max(tilt, sine)
-            run.progress((stride + 1) / self.strides, f"stride {stride + 1} of {self.strides}")
+                done = (stride + (number + (stride > 0)) / len(instants)) / self.strides
+                run.progress(done, f"stride {stride + 1} of {self.strides}")
         said = (self.thin_anchor_warning(), self.first_stride_warning())
         return Solution(
             self._fields(steps),

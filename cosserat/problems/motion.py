@@ -12,8 +12,8 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Quantity
-from cosserat.problem import ALONE, Run
-from cosserat.problems.checkpoints import CheckpointedRun, joined, state_of
+from cosserat.problem import ALONE, Forecast, Run
+from cosserat.problems.checkpoints import CheckpointedRun, forecast, joined, state_of
 from cosserat.problems.damping import AnyDamping, Vibrations
 from cosserat.problems.outputs import of_instants, outputs
 from cosserat.problems.posed import PosedProblem
@@ -121,6 +121,11 @@ class RodMotion(PosedProblem):
         """The supported rod at rest, without pose, loads and damping."""
         rest = self.model_copy(update={"pose": None})
         return RodProblem.system(rest, rest.geometry, displacements=displacements).unloaded()
+
+    @property
+    def forecast(self) -> Forecast:
+        """Steps and frames."""
+        return forecast(self)
 
     def begin(self) -> State:
         """The state at time zero, in the DOFs of the system."""

@@ -212,8 +212,8 @@ def test_similar_files_of_other_programs_are_refused(capsys, tmp_path, solved):
     (tmp_path / "report.csv").write_text("id,verdict\na,OUTSIDE\n")
     for arguments, sentence in [
         (("show", tmp_path / "a.nc"), f"{tmp_path}/a.nc has no readable attribute 'solver'"),
-        (("show", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc has no attribute 'parameters'"),
-        (("plot", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc has no attribute 'parameters'"),
+        (("show", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc is no result of cosserat"),
+        (("plot", tmp_path / "foreign.nc"), f"{tmp_path}/foreign.nc is no result of cosserat"),
         (("show", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
         (("plot", tmp_path / "old.nc"), f"{tmp_path}/old.nc: the parameters are not those of a case"),
         (("show", tmp_path), "is a folder"),

@@ -27,6 +27,8 @@ CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 ROOMS = (
     "solution",
     "errors",
+    "signals",
+    "text",
     "units",
     "synonyms",
     "parameters",
@@ -35,6 +37,7 @@ ROOMS = (
     "kinds",
     "publications",
     "progress",
+    "limits",
     "exact",
     "solvers",
     "rods",
@@ -48,6 +51,7 @@ ROOMS = (
     "runner",
     "figures",
     "thesis",
+    "commands",
     "cli",
     "__main__",
 )

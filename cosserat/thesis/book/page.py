@@ -17,7 +17,7 @@ from typing import Any
 import xarray as xr
 from IPython.display import HTML, Markdown
 
-from cosserat.data.dataset import load
+from cosserat.data.netcdf import load
 from cosserat.describe import keys as listing
 from cosserat.describe.keys import Key
 from cosserat.describe.text import need, type_of

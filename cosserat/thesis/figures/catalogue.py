@@ -140,12 +140,12 @@ def draw_to(name: str, folder: Path, path: Path, table: Path = TABLE) -> None:
     ------
     InputError : no figure of that name, or a file is missing or unreadable.
     """
-    from cosserat.data.dataset import load
     from cosserat.data.files import check_destination
+    from cosserat.data.netcdf import load_case
     from cosserat.figures.style import write
 
     check_destination(path, ".svg")
-    data = {case: load(folder / f"{case}.nc") for case in entry(name).cases}
+    data = {case: load_case(folder, case) for case in entry(name).cases}
     write(draw(name, data, table), path)
 
 

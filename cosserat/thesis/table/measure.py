@@ -7,8 +7,8 @@ from pathlib import Path
 
 import xarray as xr
 
-from cosserat.data.dataset import load
-from cosserat.errors import InputError, OutOfToleranceError
+from cosserat.data.netcdf import load_case
+from cosserat.errors import OutOfToleranceError
 from cosserat.thesis.table.arithmetic import ARITHMETIC
 from cosserat.thesis.table.readouts import READOUTS
 from cosserat.thesis.table.tolerances import Judged, Row
@@ -19,15 +19,10 @@ def measure(rows: list[Row], folder: Path) -> list[Judged]:
 
     Raises
     ------
-    InputError : a file is missing, unreadable or of another case.
+    InputError : a file is missing, damaged, changed or of another case.
     """
     cases = sorted({row.case for row in rows if row.case and row.standing != "not attempted"})
-    datasets = {case: load(folder / f"{case}.nc") for case in cases}
-    for case, data in datasets.items():
-        if data.attrs.get("case") != case:
-            raise InputError(
-                f"{folder / case}.nc holds the case {data.attrs.get('case')!r}; run '{case}' again"
-            )
+    datasets = {case: load_case(folder, case) for case in cases}
     return [judge(row, datasets) for row in rows]
 
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosserat.data.dataset import case_of, load, save, without_derived
+from cosserat.data.dataset import case_of, without_derived
+from cosserat.data.netcdf import load, save
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
 

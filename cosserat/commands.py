@@ -1,0 +1,183 @@
+"""What the commands for cases and results of one's own do."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cosserat.errors import (
+    CosseratError,
+    CrossingError,
+    DivergedError,
+    InputError,
+    NotConvergedError,
+    OverLimitError,
+)
+from cosserat.signals import Stopped
+from cosserat.text import printable
+
+if TYPE_CHECKING:
+    import argparse
+
+    import xarray as xr
+
+    from cosserat.cases.catalogue import Case
+    from cosserat.limits import Limits
+
+
+def cases(options: argparse.Namespace) -> None:
+    """List cases with their titles."""
+    from cosserat.publications import titles
+
+    if options.file is None:
+        known = titles()
+    else:
+        from cosserat.cases.catalogue import load
+
+        known = {name: (case.title, case.source) for name, case in load(options.file).items()}
+    width = max(map(len, known), default=0)
+    for name, (title, source) in known.items():
+        print(printable(f"{name:<{width}}  {title}" + (f" ({source})" if source else "")))
+
+
+def run(options: argparse.Namespace) -> None:
+    """Solve cases and write their files."""
+    from cosserat.cases.catalogue import find, parse
+
+    if options.case != "-":
+        cases = [find(options.case, options.file)]
+    elif options.file is not None:
+        raise InputError("'-' reads the case from standard input, so '--file' has no use; leave it out")
+    else:
+        cases = [parse(line) for line in sys.stdin.read().strip().split("\n")]
+    from cosserat.limits import Limits
+
+    limits = Limits.read({"hours": options.hours, "gigabytes": options.gigabytes}, "limits")
+    folder = Path() if options.output is None else options.output
+    if len(cases) > 1 and not os.path.isdir(folder):
+        raise InputError(f"{folder} is not a folder; write several cases to an existing folder")
+    for case in cases:
+        path = folder / f"{case.name}.nc" if os.path.isdir(folder) else folder
+        _run_case(case, path, limits, keep_last=options.keep_last)
+
+
+def _run_case(case: Case, path: Path, limits: Limits, *, keep_last: bool) -> None:
+    """Solve one case, write its file and report the effort."""
+    from cosserat.data.checkpoints import Parts
+    from cosserat.data.dataset import effort, warnings_of
+    from cosserat.data.files import check_destination
+    from cosserat.data.locks import only_writer
+    from cosserat.data.netcdf import save
+
+    check_destination(path, ".nc")
+    from cosserat.runner import run as solve
+
+    with only_writer(path):
+        try:
+            dataset = solve(case, result=path, limits=limits)
+        except (NotConvergedError, CrossingError, DivergedError, OverLimitError) as stopped:
+            left = _what_is_left(stopped, path, keep_last=keep_last)
+            raise type(stopped)(f"{stopped}{left}") from None
+        except KeyboardInterrupt as stopped:
+            kept, number = Parts(path).folder, getattr(stopped, "number", signal.SIGINT)
+            if not kept.is_dir():
+                raise
+            raise Stopped(number, f"run the same command again to resume from {kept}") from None
+        save(dataset, path)
+        Parts(path).remove()
+    print(f"{case.name}: {effort(dataset)}; wrote {path}")
+    for warning in warnings_of(dataset):
+        print(f"warning: {warning}", file=sys.stderr)
+
+
+def _what_is_left(stopped: CosseratError, path: Path, *, keep_last: bool) -> str:
+    """The clause about what a run leaves that has stopped: the part reached, the parts of a motion, or nothing."""
+    from cosserat.data.checkpoints import Parts
+    from cosserat.data.dataset import statistics_of
+    from cosserat.data.netcdf import save
+
+    kept, reached = Parts(path).folder, getattr(stopped, "dataset", None)
+    if reached is not None and keep_last:
+        save(reached, path)
+        part = statistics_of(reached)["load_factor_reached"]
+        return f"; the part reached, {part:.4g} of the load, is in {path}"
+    if not kept.is_dir():
+        return ""
+    if isinstance(stopped, OverLimitError):
+        return f"; the computed part is in {kept}, and the run goes on from there"
+    return f"; the computed part is in {kept}; remove that folder before you change the case"
+
+
+def describe(options: argparse.Namespace) -> None:
+    """Describe kinds or keys."""
+    from cosserat.describe.text import description
+
+    print(description(options.kind))
+
+
+def schema(options: argparse.Namespace) -> None:
+    """Print the JSON Schema of case files."""
+    import json
+
+    from cosserat.describe.schema import as_written, merged
+
+    print(json.dumps(merged() if options.merged else as_written(), indent=1, ensure_ascii=False))
+
+
+def show(options: argparse.Namespace) -> None:
+    """Print what a result holds."""
+    from cosserat.data.dataset import by_name, case_of, statistics_of, warnings_of
+    from cosserat.data.netcdf import load
+
+    dataset = load(options.file)
+    case, statistics = case_of(dataset), statistics_of(dataset)
+    lines = [f"{case.name}: {case.title}", dataset.attrs.get("source", "")]
+    lines += [f"warning: {warning}" for warning in warnings_of(dataset)]
+    lines += ["", "parameters (SI units)"]
+    lines += [f"  {name} = {value}" for name, value in _flat(case.problem.model_dump())]
+    lines += ["", "solver", *(f"  {name} = {value}" for name, value in statistics.items())]
+    lines += ["", "variables: least, largest, unit"]
+    for variable, values in dataset.data_vars.items():
+        about = {"units": "", "long_name": "", **values.attrs}
+        for label, part in by_name(values):
+            lines.append(
+                f"  {f'{variable}{label}':<9} {_range(part)} {about['units']:<4} {about['long_name']}"
+            )
+    print("\n".join(map(printable, lines)))
+
+
+def _range(values: xr.DataArray) -> str:
+    """The least and the largest value, in two columns; blank where there are no numbers."""
+    if values.dtype.kind not in "iuf" or not values.size:
+        return " " * 29
+    return f"{values.min():>14.7g} {values.max():>14.7g}"
+
+
+def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]]:
+    rows: list[tuple[str, object]] = []
+    for key, value in table.items():
+        rows += _flat(value, f"{prefix}{key}.") if isinstance(value, dict) else [(prefix + key, value)]
+    return rows
+
+
+def plot(options: argparse.Namespace) -> None:
+    """Draw or animate a result."""
+    from cosserat.figures.doors import animate, plot
+
+    if options.animate is not None:
+        path = options.animate
+        animate(options.file, path, options.frames)
+    else:
+        path = options.output or options.file.with_suffix(".svg")
+        plot(options.file, path)
+    print(f"wrote {path}")
+
+
+def export(options: argparse.Namespace) -> None:
+    """Write a result for other programs."""
+    from cosserat.export.doors import export
+
+    print(f"wrote {export(options.file, options.to, options.output, options.place)}")

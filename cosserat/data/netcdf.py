@@ -1,0 +1,166 @@
+"""Datasets in netCDF files that are whole or absent, with a digest of their bytes."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import xarray as xr
+
+from cosserat.data.dataset import FORMAT, version_of
+from cosserat.data.digest import DamagedError, digest_of, seal
+from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
+from cosserat.errors import ChangedResultWarning, InputError, path_of
+from cosserat.text import printable
+
+_FRAME = "frame"
+"""Dimension of instants in a file, with `time` along it.  Tools of CF take a dimension named `time` for dates; here
+times are plain seconds from the start."""
+_PROBE_TIME = 10.0  # seconds for a file that another program wrote, and more by its size
+_PROBE_MEMORY = 2 << 30  # bytes, likewise
+
+
+def save(dataset: xr.Dataset, path: str | Path) -> None:
+    """Write a netCDF file under a temporary name and rename it, so that no half-written file is ever seen.
+
+    The same Dataset gives the same bytes, with their digest at the end.  Instants are along the dimension `frame` of
+    the file, with `time` as their coordinate in plain seconds.
+
+    Raises
+    ------
+    InputError : the destination cannot be written.
+    """
+    path = path_of(path)
+    check_destination(path, ".nc")
+    written = dataset.rename_dims(time=_FRAME) if "time" in dataset.dims else dataset
+    encoding = {
+        str(name): {"_FillValue": None}
+        for name, variable in dataset.variables.items()
+        if variable.dtype.kind == "f"
+    }
+    with whole_or_absent(path, dataset.nbytes) as temporary:
+        try:
+            with uninterrupted():
+                written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        except RuntimeError as error:  # of HDF5, which does not say why
+            raise OSError(str(error)) from None
+        seal(temporary)
+
+
+def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
+    """Read a result whole into memory, after its bytes were compared with the digest at their end.
+
+    A result that another program wrote or changed has no digest.  It is first read in a process that can be stopped,
+    since a damaged file can keep HDF5 for ever, and comes with a `ChangedResultWarning`.
+
+    own : refuse such a result.
+
+    Raises
+    ------
+    InputError : the file is missing, damaged, or no result of this version of cosserat.
+    """
+    path = path_of(path)
+    if path.is_dir():
+        raise InputError(f"{path} is a folder; give the name of a netCDF file")
+    if not path.is_file():
+        raise InputError(
+            f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"
+        )
+    intact = _has_digest(path)
+    if not intact and own:
+        raise InputError(
+            f"{path} has no digest, so cosserat did not write it or it was changed; run its case again"
+        )
+    if not intact:
+        _check_readable(path)
+    try:
+        with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
+            read = dataset.load()
+    except Exception as error:  # without a digest, xarray and HDF5 may say anything about what is in it
+        if intact:
+            raise
+        raise InputError(
+            f"cannot read {path} as a result ({printable(error)}); run its case again"
+        ) from None
+    _check_format(read, path)
+    if not intact:
+        warnings.warn(
+            f"{path} was written or changed by another program: nothing says that a solver computed its values",
+            ChangedResultWarning,
+            stacklevel=2,
+        )
+    return read.swap_dims({_FRAME: "time"}) if _FRAME in read.dims and "time" in read else read
+
+
+def load_case(folder: Path, case: str) -> xr.Dataset:
+    """The result of a case in a folder of results, as cosserat wrote it.
+
+    Raises
+    ------
+    InputError : as `load`, or it is the result of another case.
+    """
+    path = folder / f"{case}.nc"
+    dataset = load(path, own=True)
+    if dataset.attrs.get("case") != case:
+        raise InputError(
+            f"{path} holds the case {printable(dataset.attrs.get('case'))!r}; run '{case}' again"
+        )
+    return dataset
+
+
+def _has_digest(path: Path) -> bool:
+    """Whether a file ends with its digest; if not, another program wrote it."""
+    try:
+        return digest_of(path) is not None
+    except OSError as error:
+        raise InputError(
+            f"cannot read {path}: {error.strerror or error}; check its permissions and its disk"
+        ) from None
+    except DamagedError:
+        raise InputError(
+            f"{path} is damaged: its bytes are not those that cosserat wrote; delete it and run its case again"
+        ) from None
+
+
+def _check_readable(path: Path) -> None:
+    """Raise InputError if a file cannot be read by a process with limited time and memory."""
+    size = path.stat().st_size
+    memory, time = _PROBE_MEMORY + 20 * size, _PROBE_TIME + size / 1e7
+    command = [sys.executable, str(Path(__file__).with_name("probe.py")), str(path), str(memory)]
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=time, check=False)
+    except subprocess.TimeoutExpired:
+        raise InputError(
+            f"{path} is damaged: reading it did not end in {time:.0f} s; delete it and run its case again"
+        ) from None
+    if done.returncode:
+        raise InputError(
+            f"cannot read {path}: it is no netCDF file, or damaged; give a result of cosserat, or run its case again"
+        )
+
+
+def _check_format(dataset: xr.Dataset, path: Path) -> None:
+    """Raise InputError for what is no result, or a result of a later format."""
+    if "parameters" not in dataset.attrs:
+        raise InputError(
+            f"{path} is no result of cosserat: it has no attribute 'parameters'; use one that cosserat wrote"
+        )
+    found = re.search(r"cosserat-(\d{1,9})\b", str(dataset.attrs.get("Conventions", "")))
+    if found and int(found[1]) > FORMAT:
+        raise InputError(
+            f"{path} has format {found[1]}, written by {version_of(dataset)}, but this version reads formats up to "
+            f"{FORMAT}; install a newer cosserat"
+        )
+
+
+def opened(result: xr.Dataset | str | Path) -> xr.Dataset:
+    """A result, given by itself or by the name of its file.
+
+    Raises
+    ------
+    InputError : the file is missing or cannot be read as netCDF.
+    """
+    return result if isinstance(result, xr.Dataset) else load(result)
