@@ -16,6 +16,7 @@ from cosserat.progress import duration, size
 
 HOURS = 24.0
 GIGABYTES = 10.0
+_OFTEN = 0.1  # seconds between two reports of a solver
 _COPIES = 2  # of the values of a long run on disk: its parts, and the result that is made of them
 
 
@@ -54,20 +55,35 @@ class Limits(Parameters):
             )
 
 
-@dataclass(frozen=True)
+@dataclass
 class Watched:
-    """A progress report that stops a run after its time."""
+    """Progress of a run, which is stopped after its time: by its own reports and by the iterations of its solvers."""
 
     report: Progress
     limits: Limits
     name: str
-    began: float
     clock: Callable[[], float] = time.monotonic
+
+    def __post_init__(self) -> None:
+        self._began = self._told = self.clock()
+        self._last: tuple[float, str] | None = None
 
     def __call__(self, fraction: float, words: str) -> None:
         """Report, and raise OverLimitError after the time that the run may take."""
+        self._last = fraction, words
+        self._tell(fraction, words)
+
+    def hear(self, load: float, iterations: int) -> None:
+        """Report an iteration of a solver: where the run tells of no progress, what is done of the load."""
+        if self.clock() - self._told < _OFTEN:
+            return
+        words = f"{load:.4g} of the load, " * (load != 0) + f"{iterations} iterations"
+        self._tell(*self._last or (0.0, words))
+
+    def _tell(self, fraction: float, words: str) -> None:
+        self._told = self.clock()
         self.report(fraction, words)
-        if self.clock() - self.began > 3600 * self.limits.hours:
+        if self._told - self._began > 3600 * self.limits.hours:
             raise OverLimitError(
-                f"{self.name} stopped after {duration(3600 * self.limits.hours)} at {words}; raise the limit 'hours'"
+                f"{self.name} stopped after {duration(3600 * self.limits.hours)}, at {words}; raise the limit 'hours'"
             )

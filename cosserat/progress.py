@@ -66,21 +66,23 @@ class Lines:
         if passed < self.wait or os.environ.get("TQDM_DISABLE", "0") not in ("", "0"):
             return
         self.wait = max(_SLOWER * self.wait, passed)
-        left = f", about {duration(passed * (1 / fraction - 1))} left" if fraction > 0 else ""
-        print(f"{self.title}: {fraction:.0%}, {words}{left}", file=sys.stderr, flush=True)
+        if fraction > 0:
+            left = duration(passed * (1 / fraction - 1))
+            words = f"{fraction:.0%}, {words}, about {left} left"
+        print(f"{self.title}: {words}", file=sys.stderr, flush=True)
 
 
 def duration(seconds: float) -> str:
     """A time for a sentence, such as "40 s", "3 min" or "2.5 h"."""
     for unit, scale in (("years", 3.156e7), ("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
         if seconds >= 1.5 * scale:
-            return f"{seconds / scale:.2g} {unit}"
-    return f"{seconds:.2g} s"
+            return f"{seconds / scale:.3g} {unit}"
+    return f"{seconds:.3g} s"
 
 
 def size(count: float) -> str:
     """A number of bytes for a sentence, such as "4.8 MB"."""
-    for unit, scale in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+    for unit, scale in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
         if count >= scale:
             return f"{count / scale:.3g} {unit}"
     return f"{count:.0f} bytes"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import time
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,6 +21,7 @@ from cosserat.limits import Limits, Watched
 from cosserat.problem import Progress, Run
 from cosserat.progress import bar
 from cosserat.solution import Solution
+from cosserat.solvers.heartbeat import listening
 
 
 def run(
@@ -66,8 +66,9 @@ def run(
     ):
         try:
             with shown as report:
-                watched = Watched(report, allowed, name, time.monotonic())
-                solution = known.problem.solve(name, Run(watched, kept))
+                watched = Watched(report, allowed, name)
+                with listening(watched.hear):
+                    solution = known.problem.solve(name, Run(watched, kept))
         except (NotConvergedError, CrossingError) as error:
             if error.reached is not None:
                 error.dataset = to_dataset(known, error.reached)

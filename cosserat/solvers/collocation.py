@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import NotConvergedError
+from cosserat.solvers.heartbeat import beat
 
 Array = NDArray[np.float64]
 _MOST_NODES = 20_000
@@ -59,6 +60,7 @@ def collocate(
         return [y[a:b] for a, b in itertools.pairwise(cuts)]
 
     def rate(_: Array, y: Array) -> Array:
+        beat(0.0, 0)
         scaled = [s.rate(part) * span for s, part, span in zip(systems, parts(y), spans, strict=True)]
         return np.concatenate(scaled)
 

@@ -17,6 +17,7 @@ from numba import njit
 from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.solvers.banded import Mask, Vector, absolute_product, largest_product
+from cosserat.solvers.heartbeat import beat
 from cosserat.solvers.indefinite import lowest_eigenvector
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
@@ -149,6 +150,7 @@ class EquilibriumSolver:
                 return None
             q = q + min(1.0, system.space.max_step_fraction(q, step)) * step
             self.iterations += 1
+            beat(factor, self.iterations)
         return None
 
     def unbalanced(self) -> tuple[Vector, float, float]:

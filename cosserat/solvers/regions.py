@@ -18,6 +18,7 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.solvers.elements import Mesh, rule
+from cosserat.solvers.heartbeat import beat
 
 Array = NDArray[np.float64]
 
@@ -116,6 +117,7 @@ def solve(
             if fraction < _MIN_DAMPING:
                 raise _failure(name, "no shorter step reduces the residual", iteration, size, settings)
         u, source = trial, found
+        beat(0.0, iteration + 1)
         if fraction == 1.0 and min(left, size) <= settings.tolerance:
             return Solved(u, iteration + 1, min(left, size))
     raise _failure(name, "the iterations did not converge", settings.max_iterations, size, settings)

@@ -1,0 +1,161 @@
+"""Stored files: damage and changes are found before anything is read, and one writer has a result at a time."""
+
+import subprocess
+import sys
+import warnings
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray as xr
+from conftest import ROOT
+
+import cosserat
+from cosserat.data import netcdf
+from cosserat.data.checkpoints import Parts
+from cosserat.data.digest import DamagedError, digest_of, seal
+from cosserat.data.locks import only_writer
+from cosserat.data.netcdf import load_case
+from cosserat.errors import ChangedResultWarning, CosseratWarning, InputError
+
+KINDS_OF_DAMAGE = {
+    "one bit": lambda b, at: b[:at] + bytes([b[at] ^ 1]) + b[at + 1 :],
+    "a block": lambda b, at: b[:at] + bytes(255 - x for x in b[at : at + 512]) + b[at + 512 :],
+    "cut off": lambda b, at: b[:at],
+    "a byte more": lambda b, at: b[:at] + b"x" + b[at:],
+}
+
+
+@pytest.fixture
+def stored(tmp_path, solved):
+    path = tmp_path / "necking.nc"
+    cosserat.save(solved["necking"], path)
+    return path
+
+
+@pytest.mark.parametrize("damage", KINDS_OF_DAMAGE.values(), ids=KINDS_OF_DAMAGE)
+def test_damage_anywhere_is_refused_by_name(stored, solved, damage):
+    whole = stored.read_bytes()
+    for at in np.linspace(9, len(whole) - 2, 12).astype(int):
+        stored.write_bytes(damage(whole, at))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ChangedResultWarning)
+            with pytest.raises(InputError, match=r"necking\.nc.*(damaged|has no digest)"):
+                cosserat.load(stored, own=True)
+    stored.write_bytes(whole)
+    xr.testing.assert_identical(cosserat.load(stored), solved["necking"])
+
+
+def test_a_digest_that_is_half_there_is_damage_and_none_is_another_program(stored):
+    whole = stored.read_bytes()
+    for cut in (1, 20, 70):
+        stored.write_bytes(whole[:-cut])
+        with pytest.raises(DamagedError):
+            digest_of(stored)
+    stored.write_bytes(whole[: whole.rindex(b"\ncosserat")])
+    assert digest_of(stored) is None
+    seal(stored)
+    assert stored.read_bytes() == whole
+
+
+def test_a_result_that_another_program_changed_opens_with_a_warning(stored):
+    with netCDF4.Dataset(stored, "a") as file:
+        file["mu"][0] = 2.0
+    with pytest.warns(
+        ChangedResultWarning, match=r"necking\.nc was written or changed by another program"
+    ):
+        assert cosserat.load(stored).mu[0] == 2.0
+    with pytest.raises(InputError, match="has no digest"):
+        load_case(stored.parent, "necking")
+
+
+def test_a_result_of_another_case_is_refused(stored):
+    stored.rename(stored.with_name("elastica.nc"))
+    with pytest.raises(InputError, match=r"elastica\.nc holds the case 'necking'; run 'elastica' again"):
+        load_case(stored.parent, "elastica")
+
+
+def test_a_file_that_hangs_the_library_is_given_up(stored, monkeypatch):
+    stored.write_bytes(stored.read_bytes().rpartition(b"\ncosserat")[0])
+    monkeypatch.setattr(netcdf, "_PROBE_TIME", 0.0)
+    with pytest.raises(InputError, match=r"necking\.nc is damaged: reading it did not end in 0 s"):
+        cosserat.load(stored)
+
+
+def test_a_later_format_and_another_version_are_named(stored, solved):
+    later = solved["necking"].assign_attrs(
+        Conventions="CF-1.11 cosserat-2", source="cosserat 0.3.0, code sha256:0"
+    )
+    cosserat.save(later, stored)
+    with pytest.raises(
+        InputError, match=r"format 2, written by cosserat 0\.3\.0, .*up to 1; install a newer"
+    ):
+        cosserat.load(stored)
+    older = solved["necking"].assign_attrs(parameters="{}", source="cosserat 0.0.1, code sha256:0")
+    with pytest.raises(
+        InputError, match=r"written by cosserat 0\.0\.1 and read by cosserat 0\.1\.0,: the parameters"
+    ):
+        cosserat.case_of(older)
+
+
+def test_parts_that_are_swapped_changed_or_of_another_run_are_refused(tmp_path, solved):
+    parts, data = Parts(tmp_path / "x.nc"), solved["necking"]
+    for number in range(3):
+        parts.save(number, data.assign_attrs(number=number))
+    assert [parts.load(number).attrs["number"] for number in range(3)] == [0, 1, 2]
+    paths = [parts.folder / f"{number:05d}.nc" for number in range(3)]
+    second, third = paths[1].read_bytes(), paths[2].read_bytes()
+    paths[1].write_bytes(third)
+    with pytest.raises(
+        InputError, match=r"00001\.nc does not continue the part before it; remove .*00001\.nc"
+    ):
+        parts.load(1)
+    paths[1].write_bytes(second)
+    with netCDF4.Dataset(paths[2], "a") as file:
+        file["mu"][0] = 2.0
+    with pytest.raises(InputError, match=r"00002\.nc has no digest.*remove .*00002\.nc"):
+        parts.load(2)
+    paths[0].write_bytes(second[:1000])
+    with pytest.raises(InputError, match=r"00000\.nc"):
+        parts.load(0)
+
+
+def test_a_file_in_the_place_of_the_parts_is_named_before_anything_is_computed(tmp_path):
+    (tmp_path / "x.nc.parts").write_text("mine")
+    with pytest.raises(InputError, match=r"x\.nc\.parts is a file"):
+        cosserat.run("clamped_free", result=tmp_path / "x.nc")
+
+
+HOLD = "import sys, pathlib; from cosserat.data.locks import only_writer\n"
+HOLD += "with only_writer(pathlib.Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
+
+
+def test_one_writer_at_a_time_and_a_killed_one_holds_nobody(tmp_path):
+    path = tmp_path / "x.nc"
+    other = subprocess.Popen(
+        [sys.executable, "-c", HOLD, path],
+        cwd=ROOT,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert other.stdout.readline() == "held\n"
+    with pytest.raises(InputError, match=r"another run is writing .*x\.nc; wait"), only_writer(path):
+        pass
+    other.kill()
+    other.communicate()
+    with only_writer(path), only_writer(path):
+        assert (tmp_path / ".x.nc.lock").exists()
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_without_locks_says_so(tmp_path, monkeypatch):
+    def refuse(*_, **__):
+        raise OSError(95, "Operation not supported")
+
+    monkeypatch.setattr("filelock.FileLock.acquire", refuse)
+    with (
+        pytest.warns(CosseratWarning, match="takes no locks .*no other run writes x"),
+        only_writer(tmp_path / "x.nc"),
+    ):
+        pass
