@@ -19,6 +19,7 @@ from cosserat.limits import GIGABYTES, HOURS
 from cosserat.parameters import nearest
 from cosserat.publications import AddCommand, Command, publications
 from cosserat.signals import Stopped
+from cosserat.text import printable
 
 _OWN = "commands"
 _EXAMPLE = """\
@@ -68,7 +69,8 @@ def main(arguments: list[str] | None = None) -> int:
             command(options)
             sys.stdout.flush()
     except CosseratError as error:
-        print(f"cosserat: {error}", file=sys.stderr)
+        lines = map(printable, str(error).split("\n"))
+        print("cosserat: " + "\n".join(lines), file=sys.stderr)
         return 2 if isinstance(error, InputError) else 1
     except MemoryError:
         print(
@@ -92,7 +94,7 @@ def _warnings_as_lines() -> Iterator[None]:
     """Print warnings of cosserat as one line each, and none of other packages."""
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
-        print(f"warning: {message}", file=sys.stderr)
+        print(f"warning: {printable(message)}", file=sys.stderr)
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

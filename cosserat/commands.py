@@ -19,6 +19,8 @@ from cosserat.errors import (
 from cosserat.signals import Stopped
 from cosserat.text import printable
 
+_MOST_INPUT = 100_000_000  # characters of cases on standard input
+
 if TYPE_CHECKING:
     import argparse
 
@@ -52,7 +54,7 @@ def run(options: argparse.Namespace) -> None:
     elif options.file is not None:
         raise InputError("'-' reads the case from standard input, so '--file' has no use; leave it out")
     else:
-        cases = [parse(line) for line in sys.stdin.read().strip().split("\n")]
+        cases = [parse(line) for line in _standard_input().strip().split("\n")]
     from cosserat.limits import Limits
 
     limits = Limits.read({"hours": options.hours, "gigabytes": options.gigabytes}, "limits")
@@ -61,10 +63,28 @@ def run(options: argparse.Namespace) -> None:
         raise InputError(f"{folder} is not a folder; write several cases to an existing folder")
     for case in cases:
         path = folder / f"{case.name}.nc" if os.path.isdir(folder) else folder
-        _run_case(case, path, limits, keep_last=options.keep_last)
+        _run_case(case, path, limits, file=options.file, keep_last=options.keep_last)
 
 
-def _run_case(case: Case, path: Path, limits: Limits, *, keep_last: bool) -> None:
+def _standard_input() -> str:
+    """The text on standard input.
+
+    Raises
+    ------
+    InputError : it is no text, or a very long one.
+    """
+    try:
+        given = sys.stdin.read(_MOST_INPUT + 1)
+    except UnicodeDecodeError:
+        raise InputError("standard input is not in UTF-8; give cases as JSON text") from None
+    if len(given) > _MOST_INPUT:
+        raise InputError(
+            f"standard input is longer than {_MOST_INPUT:g} characters; give fewer cases at once"
+        )
+    return given
+
+
+def _run_case(case: Case, path: Path, limits: Limits, *, file: Path | None, keep_last: bool) -> None:
     """Solve one case, write its file and report the effort."""
     from cosserat.data.checkpoints import Parts
     from cosserat.data.dataset import effort, warnings_of
@@ -72,7 +92,7 @@ def _run_case(case: Case, path: Path, limits: Limits, *, keep_last: bool) -> Non
     from cosserat.data.locks import only_writer
     from cosserat.data.netcdf import save
 
-    check_destination(path, ".nc")
+    check_destination(path, ".nc", inputs=() if file is None else (file,))
     from cosserat.runner import run as solve
 
     with only_writer(path):
@@ -90,7 +110,7 @@ def _run_case(case: Case, path: Path, limits: Limits, *, keep_last: bool) -> Non
         Parts(path).remove()
     print(f"{case.name}: {effort(dataset)}; wrote {path}")
     for warning in warnings_of(dataset):
-        print(f"warning: {warning}", file=sys.stderr)
+        print(f"warning: {printable(warning)}", file=sys.stderr)
 
 
 def _what_is_left(stopped: CosseratError, path: Path, *, keep_last: bool) -> str:
@@ -129,7 +149,13 @@ def schema(options: argparse.Namespace) -> None:
 
 def show(options: argparse.Namespace) -> None:
     """Print what a result holds."""
-    from cosserat.data.dataset import by_name, case_of, statistics_of, warnings_of
+    from cosserat.data.dataset import (
+        by_name,
+        case_of,
+        holding_what_is_needed,
+        statistics_of,
+        warnings_of,
+    )
     from cosserat.data.netcdf import load
 
     dataset = load(options.file)
@@ -140,12 +166,13 @@ def show(options: argparse.Namespace) -> None:
     lines += [f"  {name} = {value}" for name, value in _flat(case.problem.model_dump())]
     lines += ["", "solver", *(f"  {name} = {value}" for name, value in statistics.items())]
     lines += ["", "variables: least, largest, unit"]
-    for variable, values in dataset.data_vars.items():
-        about = {"units": "", "long_name": "", **values.attrs}
-        for label, part in by_name(values):
-            lines.append(
-                f"  {f'{variable}{label}':<9} {_range(part)} {about['units']:<4} {about['long_name']}"
-            )
+    with holding_what_is_needed(dataset, "'show'"):
+        for variable, values in dataset.data_vars.items():
+            about = {"units": "", "long_name": "", **values.attrs}
+            for label, part in by_name(values):
+                lines.append(
+                    f"  {f'{variable}{label}':<9} {_range(part)} {about['units']:<4} {about['long_name']}"
+                )
     print("\n".join(map(printable, lines)))
 
 
@@ -165,13 +192,14 @@ def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]
 
 def plot(options: argparse.Namespace) -> None:
     """Draw or animate a result."""
+    from cosserat.data.files import check_destination
     from cosserat.figures.doors import animate, plot
 
+    path = options.animate or options.output or options.file.with_suffix(".svg")
+    check_destination(path, inputs=(options.file,))
     if options.animate is not None:
-        path = options.animate
         animate(options.file, path, options.frames)
     else:
-        path = options.output or options.file.with_suffix(".svg")
         plot(options.file, path)
     print(f"wrote {path}")
 

@@ -77,7 +77,9 @@ class Watched:
         """Report an iteration of a solver: where the run tells of no progress, what is done of the load."""
         if self.clock() - self._told < _OFTEN:
             return
-        words = f"{load:.4g} of the load, " * (load != 0) + f"{iterations} iterations"
+        words = f"{iterations} iterations"
+        if load:
+            words = f"{load:.4g} of the load, {words}"
         self._tell(*self._last or (0.0, words))
 
     def _tell(self, fraction: float, words: str) -> None:

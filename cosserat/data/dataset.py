@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import json
 from collections.abc import Iterator
@@ -14,12 +15,15 @@ import xarray as xr
 from cosserat.cases.catalogue import Case, parse
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
-from cosserat.errors import InputError
+from cosserat.errors import CosseratError, InputError
 from cosserat.publications import reference
 from cosserat.solution import Solution
 from cosserat.text import printable
 
 P = TypeVar("P")
+INTACT = "intact"
+"""Key of a Dataset's encoding: whether it was read from a file whose digest holds."""
+_SHORT = 150  # characters of a foreign error in a sentence
 FORMAT = 1
 """Number of the format of files, raised when an older version could misread a new one."""
 _ALONG = ("time", "point")
@@ -133,6 +137,27 @@ def case_of(dataset: xr.Dataset) -> Case:
 def name_of(dataset: xr.Dataset) -> str:
     """Name of a Dataset in a sentence: the file that it was read from, if any."""
     return str(dataset.encoding.get("source", "this Dataset"))
+
+
+@contextlib.contextmanager
+def holding_what_is_needed(dataset: xr.Dataset, purpose: str) -> Iterator[None]:
+    """Turn what goes wrong with a Dataset that a user or another program may have changed into one sentence.
+
+    Raises
+    ------
+    InputError : it lacks something, or holds it in another form.
+    """
+    try:
+        yield
+    except CosseratError:
+        raise
+    except Exception as error:
+        if dataset.encoding.get(INTACT):
+            raise  # then it is as it was computed, and the fault is ours
+        what = printable(f"{type(error).__name__}: {error}")[:_SHORT]
+        raise InputError(
+            f"{name_of(dataset)} does not hold what {purpose} needs ({what}); use it as cosserat made it"
+        ) from error
 
 
 def problem_of(dataset: xr.Dataset, asked: type[P]) -> P:

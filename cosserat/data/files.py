@@ -10,7 +10,7 @@ import platform
 import shutil
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FrameType
 
@@ -21,15 +21,19 @@ from cosserat.signals import SIGNALS
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-def check_destination(path: Path, *suffixes: str) -> None:
+def check_destination(path: Path, *suffixes: str, inputs: Sequence[Path] = ()) -> None:
     """Raise InputError for a file that cannot be written, before anything is computed.
+
+    inputs : files that are read, which it may not replace.
 
     Raises
     ------
-    InputError : the folder is missing or cannot be written to, or the path is a folder, a device or of another kind.
+    InputError : the folder is missing or cannot be written to, or the path is a folder, a device, of another kind or
+        an input.
     """
     remedy = "choose another with --output"
     try:
+        str(path).encode()
         path.exists()
     except (OSError, ValueError) as error:
         raise InputError(f"{path} cannot name a file ({error}); {remedy}") from None
@@ -41,6 +45,8 @@ def check_destination(path: Path, *suffixes: str) -> None:
         raise InputError(f"{path} is not a regular file; {remedy}")
     if not os.access(path.parent, os.W_OK):
         raise InputError(f"the folder {path.parent} cannot be written to; {remedy}")
+    if any(path.exists() and given.exists() and path.samefile(given) for given in inputs):
+        raise InputError(f"{path} is also read, and would be replaced; {remedy}")
     if suffixes and path.suffix not in suffixes:
         written = " or ".join(suffix[1:] for suffix in suffixes)
         ends = " or ".join(f"'{suffix}'" for suffix in suffixes)

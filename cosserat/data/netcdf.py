@@ -10,7 +10,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from cosserat.data.dataset import FORMAT, version_of
+from cosserat.data.dataset import FORMAT, INTACT, version_of
 from cosserat.data.digest import DamagedError, digest_of, seal
 from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
 from cosserat.errors import ChangedResultWarning, InputError, path_of
@@ -92,7 +92,10 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
             ChangedResultWarning,
             stacklevel=2,
         )
-    return read.swap_dims({_FRAME: "time"}) if _FRAME in read.dims and "time" in read else read
+    if _FRAME in read.dims and "time" in read:
+        read = read.swap_dims({_FRAME: "time"})
+    read.encoding |= {"source": str(path), INTACT: intact}
+    return read
 
 
 def load_case(folder: Path, case: str) -> xr.Dataset:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from cosserat.data.dataset import holding_what_is_needed
+from cosserat.data.files import check_destination
 from cosserat.data.netcdf import load
 from cosserat.errors import InputError
 from cosserat.export.table import write_csv
@@ -35,11 +37,12 @@ def export(file: Path, to: str | None, output: Path | None, place: str | None) -
     if place is not None and to != "csv":
         raise InputError(f"'--place {place}' chooses rows of a table; leave it out, or write csv")
     dataset = load(file)
-    if to == "csv":
-        path = named or folder / f"{file.stem}.csv"
-        write_csv(dataset, path, place)
-        return path
-    ending = "vtu" if instant_of(dataset) is None else "pvd"
+    ending = "csv" if to == "csv" else "vtu" if instant_of(dataset) is None else "pvd"
     path = named or folder / f"{file.stem}.{ending}"
-    write_vtk(dataset, path)
+    check_destination(path, f".{ending}", inputs=(file,))
+    with holding_what_is_needed(dataset, "its table" if to == "csv" else "its mesh"):
+        if to == "csv":
+            write_csv(dataset, path, place)
+        else:
+            write_vtk(dataset, path)
     return path

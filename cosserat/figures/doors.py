@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import xarray as xr
 from matplotlib.figure import Figure
 
-from cosserat.data.dataset import case_of, name_of, warnings_of
+from cosserat.data.dataset import case_of, holding_what_is_needed, name_of, warnings_of
 from cosserat.data.files import check_destination
 from cosserat.data.netcdf import opened
 from cosserat.errors import InputError, path_of
@@ -38,7 +38,7 @@ def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Fig
         raise InputError(
             f"{name_of(data)} is of kind '{kind}', which has no picture; see it with 'cosserat show'"
         )
-    with settings():
+    with settings(), holding_what_is_needed(data, "its picture"):
         figure: Figure = kinds()[kind].picture_function()(data)
         note(figure, warnings_of(data))
     if path is not None:
@@ -72,7 +72,7 @@ def animate(
         raise InputError(
             f"{name_of(data)} is of kind '{kind}', which has no animation; kinds with one are {moving}"
         )
-    with settings():
+    with settings(), holding_what_is_needed(data, "its animation"):
         animation: FuncAnimation = kinds()[kind].animation_function()(data, frames)
         if path is not None:
             write_animation(animation, path_of(path))

@@ -100,7 +100,7 @@ def _measure(options: argparse.Namespace) -> None:
     from cosserat.thesis.table.measure import measure, summary
     from cosserat.thesis.table.tolerances import read_report, read_table, write_report
 
-    check_destination(options.output)
+    check_destination(options.output, inputs=(options.table,))
     write_report(measure(read_table(options.table), options.cases), options.output)
     print(summary(read_report(options.output)))
     print(f"wrote {options.output}")

@@ -89,6 +89,11 @@ def test_a_static_solution_tells_of_its_iterations_and_can_be_stopped(monkeypatc
     assert list(iterations) == list(range(1, len(iterations) + 1))
     beat(1.0, 1)
     assert len(heard) == len(iterations)
+    told = []
+    watched = Watched(lambda *said: told.append(said), Limits(), "x", iter(range(10)).__next__)
+    watched.hear(np.float64(0.5), 3)
+    watched.hear(0.0, 4)
+    assert told == [(0.0, "0.5 of the load, 3 iterations"), (0.0, "4 iterations")]
     monkeypatch.setattr("cosserat.limits._OFTEN", 0.0)
     with pytest.raises(OverLimitError, match="of the load, .* iterations"):
         cosserat.run("elastica", limits=Limits(hours=1e-12))

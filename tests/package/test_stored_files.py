@@ -159,3 +159,48 @@ def test_a_folder_without_locks_says_so(tmp_path, monkeypatch):
         only_writer(tmp_path / "x.nc"),
     ):
         pass
+
+
+def test_a_changed_result_that_lacks_something_is_one_sentence_and_our_own_fault_is_not_hidden(
+    stored, solved, capsys, monkeypatch
+):
+    from cosserat.cli import main
+
+    data = solved["necking"]
+    for changed, word in (
+        (data.drop_vars("x_ref"), "x_ref"),
+        (data.isel(vertex=slice(1)), "index"),
+        (data.assign(note=((), "a text")), ""),
+    ):
+        changed.to_netcdf(stored)
+        for command in ("plot", "show", "export"):
+            code = main([command, str(stored), *(["--to", "csv"] if command == "export" else [])])
+            out, err = capsys.readouterr()
+            warning, *error = err.splitlines()
+            assert warning.startswith("warning: ")
+            assert (code, len(error)) in ((0, 0), (2, 1)), (command, word, err)
+            assert command != "plot" or not word or word in error[0], err
+    cosserat.save(data, stored)
+    monkeypatch.setattr("cosserat.figures.rod.picture", lambda _: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        cosserat.plot(stored)
+
+
+def test_an_output_that_is_an_input_is_refused(stored, tmp_path, capsys):
+    from cosserat.cli import main
+
+    picture = tmp_path / "a.svg"
+    stored.rename(picture)
+    (tmp_path / "b.svg").symlink_to(picture)
+    whole = picture.read_bytes()
+    for words in (["plot", picture], ["plot", picture, "-o", tmp_path / "b.svg"]):
+        assert main(list(map(str, words))) == 2
+        assert "is also read, and would be replaced" in capsys.readouterr().err
+    assert picture.read_bytes() == whole
+
+
+def test_a_link_as_output_is_followed(stored, solved, tmp_path):
+    (tmp_path / "link.nc").symlink_to(tmp_path / "target.nc")
+    cosserat.save(solved["necking"], tmp_path / "link.nc")
+    assert (tmp_path / "link.nc").is_symlink()
+    assert (tmp_path / "target.nc").read_bytes() == stored.read_bytes()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import io
+import json
 import os
 import shutil
 import tempfile
@@ -73,7 +74,10 @@ def execute(chapter: Path, output: Path) -> None:
             f"there is no chapter {chapter}; chapters are the .py files of the folder chapters"
         )
     check_destination(output, ".ipynb")
-    notebook = jupytext.read(chapter)
+    try:
+        notebook = jupytext.read(chapter)
+    except (OSError, ValueError) as error:  # of text that is no Python, or no text
+        raise InputError(f"cannot read the chapter {chapter} ({error}); give a .py file") from None
     client = NotebookClient(
         notebook,
         timeout=300,
@@ -103,6 +107,11 @@ def render(notebooks: list[Path], output: Path) -> Path:
         raise InputError(
             f"there is no notebook {', '.join(missing)}; execute the chapters first ('cosserat chapter')"
         )
+    for path in notebooks:
+        try:
+            json.loads(path.read_text(encoding="utf-8"))["cells"]
+        except (OSError, ValueError, LookupError, TypeError):
+            raise InputError(f"{path} is no notebook; execute its chapter again") from None
     _check_destination(output)
     output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".book.") as scratch:
