@@ -11,6 +11,9 @@ from pathlib import Path
 _PACKAGE = Path(__file__).parents[1]
 _COMPUTING = (
     "errors.py",
+    "text.py",
+    "reading.py",
+    "explain.py",
     "solution.py",
     "tables.py",
     "units.py",
