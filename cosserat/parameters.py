@@ -412,9 +412,10 @@ def nearest(word: str, known: list[str], cutoff: float = 0.8) -> str:
     close = [said] if said else difflib.get_close_matches(word[:100], known, n=1, cutoff=cutoff)
     if close:
         return f"; did you mean '{shortened(close[0])}'?"
-    named = [shortened(name) for name in known[:_NAMED]]
-    more = f" and {len(known) - _NAMED} more" if len(known) > _NAMED else ""
-    return f"; known are: {', '.join(named)}{more}"
+    names = [shortened(name) for name in known]
+    fitting = sum(length < _LISTED for length in itertools.accumulate(len(name) + 2 for name in names))
+    more = f" and {len(names) - fitting} more" if len(names) > fitting else ""
+    return f"; known are: {', '.join(names[:fitting])}{more}"
 
 
-_NAMED = 60  # most known words that a sentence lists
+_LISTED = 450  # most characters of the known words that a sentence lists

@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 import reprlib
 import unicodedata
+from typing import Annotated
+
+from pydantic import AfterValidator
+from pydantic_core import PydanticCustomError
 
 _STEERING = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """Categories of Unicode that can change a terminal or a line: controls, formats (such as an override of the direction
@@ -52,3 +56,42 @@ class _Brief(reprlib.Repr):
 _LONGEST_INT = 10_000  # bits; Python's own limit is 4300 digits
 _BRIEF = _Brief()
 _BRIEF.maxlevel, _BRIEF.maxstring, _BRIEF.maxother, _BRIEF.maxdict = 3, 60, 60, 4
+
+
+LONGEST_TITLE = 200
+"""Most characters of a title."""
+LONGEST_NAME = 100
+"""Most characters of a name."""
+
+
+def _check_title(text: str) -> str:
+    if len(text) > LONGEST_TITLE:
+        raise PydanticCustomError(
+            "title", f"is {shown(text)}, of {len(text)} characters; take up to {LONGEST_TITLE}"
+        )
+    if steering(text):
+        raise PydanticCustomError(
+            "title",
+            f"has {shown(steering(text))}, which breaks the line or changes how a terminal shows it; leave it out",
+        )
+    return text
+
+
+Title = Annotated[str, AfterValidator(_check_title)]
+"""A text for people, on one line."""
+
+
+def checked_name(name: str, pattern: str, remedy: str) -> str:
+    """A name, if it is like the pattern and not too long.
+
+    Raises
+    ------
+    PydanticCustomError : it is not.
+    """
+    if len(name) > LONGEST_NAME:
+        raise PydanticCustomError(
+            "name", f"is {shown(name)}, of {len(name)} characters; take up to {LONGEST_NAME}"
+        )
+    if not re.fullmatch(pattern, name):
+        raise PydanticCustomError("name", f"is {shown(name)}{remedy}")  # type: ignore[arg-type]
+    return name

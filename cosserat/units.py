@@ -151,19 +151,25 @@ def _read_text(text: str, unit: str) -> float:
         raise refused("type", "which is not a number with a unit")
     sign_or_number = found["number"] if found["number"].strip("+-") else f"{found['number']}1"
     number = float(sign_or_number) * (math.pi if found["pi"] else 1) / int(found["divisor"] or 1)
-    try:
-        written = _as_pint_writes(rest)
-        read = _units().Quantity(number, written)
-        root = _root(read.units)
-    except Exception:  # the unit parser raises errors of many kinds on text that is no unit
-        raise refused("type", "whose unit is not known", _meant(rest, unit)) from None
-    wanted = "" if unit == "1" else unit
+    root = _written_root(rest)
+    if root is None:
+        raise refused("type", "whose unit is not known", _meant(rest, unit))
+    said = f"in {shortened(rest, 40)}"
     if not _alike(root, unit):
-        why = f"in {rest}{_instead(root, unit)}" if rest else "in no unit at all"
-        raise refused("unit", why, _meant(written, unit))
-    if _units().Quantity(0.0, written).to(wanted).magnitude:
-        raise refused("unit", f"in {rest}, whose zero is not zero {unit}")
-    return float(read.to(wanted).magnitude)
+        why = f"{said}{_instead(root, unit)}" if rest else "in no unit at all"
+        raise refused("unit", why, _meant(_as_pint_writes(rest), unit))
+    zero, factor = _zero_and_one(rest, unit)
+    if zero:
+        raise refused("unit", f"{said}, whose zero is not zero {unit}")
+    return number * factor
+
+
+@functools.lru_cache(1000)
+def _zero_and_one(written: str, unit: str) -> tuple[float, float]:
+    """What 0 and 1 of a unit as written are in another unit."""
+    given, wanted = _as_pint_writes(written), "" if unit == "1" else unit
+    zero, one = (float(_units().Quantity(value, given).to(wanted).magnitude) for value in (0.0, 1.0))
+    return zero, one
 
 
 def is_read_as(written: str, unit: str) -> bool:
@@ -172,7 +178,7 @@ def is_read_as(written: str, unit: str) -> bool:
     return root is not None and _alike(root, unit)
 
 
-@functools.cache
+@functools.lru_cache(1000)
 def _written_root(written: str) -> object:
     """The root units of a unit as written; None if it is not known."""
     try:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
@@ -12,7 +11,7 @@ from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.parameters import Quantity, Reader, from_file
-from cosserat.text import shown
+from cosserat.text import checked_name, shown
 
 Array = NDArray[np.float64]
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
@@ -55,9 +54,7 @@ DofName = Literal["x3", "x2", "d3", "d2"]
 
 
 def _check_name(name: str) -> str:
-    if not re.fullmatch(r"[^\W\d][\w -]*", name):
-        raise PydanticCustomError("name", f"is {shown(name)}; begin it with a letter, such as 'tip'")
-    return name
+    return checked_name(name, r"[^\W\d][\w -]*", "; begin it with a letter, such as 'tip'")
 
 
 Name = Annotated[str, AfterValidator(_check_name)]

@@ -10,6 +10,7 @@ from pydantic import BaseModel, TypeAdapter
 from pydantic_core import PydanticUndefined
 
 from cosserat.cases import catalogue
+from cosserat.cases.tables import Tables, merged
 from cosserat.cli import main
 from cosserat.describe import keys as listing
 from cosserat.describe.keys import keys
@@ -203,7 +204,7 @@ STRAINS = {
 def base(kind):
     """The merged table of the case of a kind."""
     tables = published_tables() | tomllib.loads(LOADS) | {"it": tomllib.loads(BASES[kind])}
-    return catalogue._inherit("it", tables, ())
+    return Tables(tables).inherited("it")
 
 
 def put(table, path, value):
@@ -361,7 +362,7 @@ def test_ranges_accept_just_inside_and_refuse_just_outside(kind):
         if path == "gait.chambers":
             case = put(case, "gait", CHAMBERS)
         if path.startswith(("prestrains", "temperatures")):
-            case = catalogue._merge(case, STRAINS)
+            case = merged(case, STRAINS)
         there = chosen(case, key)
         for mark in marks(whole(field))[:1]:
             unit = "" if isinstance(mark, Count) or mark.unit == "1" else mark.unit
