@@ -7,6 +7,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cosserat.text import printable, shown
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -20,6 +22,9 @@ class CosseratError(Exception):
 class InputError(CosseratError):
     """A case, a file or an argument is invalid."""
 
+    def __init__(self, message: str) -> None:
+        super().__init__(printable(message))  # it quotes what was given
+
 
 def path_of(given: object) -> Path:
     """A path, given as a path or as a text.
@@ -30,7 +35,7 @@ def path_of(given: object) -> Path:
     """
     if isinstance(given, str | os.PathLike):
         return Path(given)
-    raise InputError(f"{given!r} names no file; give a path as a text or a pathlib.Path")
+    raise InputError(f"{shown(given)} names no file; give a path as a text or a pathlib.Path")
 
 
 class OverLimitError(InputError):

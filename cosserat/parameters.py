@@ -21,23 +21,31 @@ from pathlib import Path
 from typing import Any, Literal, Self, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError, model_validator
-from pydantic_core import ErrorDetails, PydanticCustomError, core_schema
+from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.errors import InputError
 from cosserat.synonyms import meant
-from cosserat.units import how_to_write, to_si
+from cosserat.text import brief, shortened, shown
+from cosserat.units import NOTHING, sizes_in, to_si
 
 FROM_FILE = {"units": "required"}
 """Validation context of values from a file: a number without its unit is an error."""
+
+
+MOST_ITEMS = 1000
+"""Most items of a list in a case, where nothing else is said."""
 
 
 @dataclass(frozen=True)
 class Quantity:
     r"""Annotation of a physical parameter: `length: Annotated[float, Quantity("m", r"\ell_0", above=0)]`.
 
+    This is the one place where values become numbers.  Their sizes are those that make sense for the unit, by
+    `cosserat.units.sizes_in`, if nothing narrower is given.
+
     unit : SI unit, "1" for a ratio.
     symbol, source : the letter of the thesis (LaTeX) and the equation or section it comes from.
-    above, below, at_least : the range of the value.
+    above, below, at_least, at_most : the range of the value.
     """
 
     unit: str
@@ -45,18 +53,66 @@ class Quantity:
     source: str = ""
     above: float = -math.inf
     below: float = math.inf
-    at_least: float = -math.inf
+    at_least: float | None = None
+    at_most: float | None = None
+
+    @functools.cached_property
+    def least(self) -> float:
+        """The least value; where the range is open, the bound itself."""
+        smallest, largest = sizes_in(self.unit)
+        if self.at_least is not None:
+            return self.at_least
+        return smallest if self.above == 0 else max(-largest, self.above)
+
+    @functools.cached_property
+    def most(self) -> float:
+        """The largest value; where the range is open, the bound itself."""
+        return min(sizes_in(self.unit)[1] if self.at_most is None else self.at_most, self.below)
+
+    @property
+    def range(self) -> str:
+        """The range in words, in the SI unit."""
+        bounds = [f"above {brief(self.above)}"] if math.isfinite(self.above) else []
+        bounds += [f"at least {brief(self.least)}"] if self.least > self.above else []
+        bounds += [
+            f"at most {brief(self.most)}" if self.most < self.below else f"below {brief(self.below)}"
+        ]
+        return ", ".join(bounds)
 
     def check(self, value: object, info: core_schema.ValidationInfo) -> float:
         """Read and range-check one value."""
-        number = to_si(value, self.unit, unit_required=from_file(info))
-        shown = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
+        return self.read(value, unit_required=from_file(info))
+
+    def read(self, value: object, *, unit_required: bool) -> float:
+        """Read and range-check one value; unit_required : whether a number needs its unit.
+
+        Raises
+        ------
+        PydanticCustomError : it is not a number with such a unit, or out of range.
+        """
+        return self.checked(to_si(value, self.unit, unit_required=unit_required))
+
+    def checked(self, number: float) -> float:
+        """A number in the SI unit, if it is in the range.
+
+        Raises
+        ------
+        PydanticCustomError : it is not.
+        """
+        fault = ""
         if number <= self.above:
-            raise PydanticCustomError("range", f"is {shown}; it must be above {self.above:g}")
-        if number >= self.below:
-            raise PydanticCustomError("range", f"is {shown}; it must be below {self.below:g}")
-        if number < self.at_least:
-            raise PydanticCustomError("range", f"is {shown}; it must be at least {self.at_least:g}")
+            fault = f"above {brief(self.above)}"
+        elif number >= self.below:
+            fault = f"below {brief(self.below)}"
+        elif self.at_least is not None and number < self.at_least:
+            fault = f"at least {brief(self.at_least)}"
+        elif not self.least <= number <= self.most:
+            fault = self.range
+        elif 0 < abs(number) < NOTHING and self.least <= 0:
+            fault = f"0, or at least {brief(NOTHING)} in size"
+        if fault:
+            shown_number = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
+            raise PydanticCustomError("range", f"is {shown_number}; it must be {fault}")  # type: ignore[arg-type]
         return number
 
     def __get_pydantic_core_schema__(
@@ -67,27 +123,62 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Count:
-    """Annotation of a whole-number parameter with its least value."""
+    """Annotation of a whole-number parameter with its least and its largest value."""
 
     symbol: str = ""
     source: str = ""
     at_least: int = 0
-    at_most: int = 20_000_000
+    at_most: int = 1_000_000
 
     def check(self, value: object) -> int:
         """Read and range-check one value."""
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-            raise PydanticCustomError("type", f"is {value!r}; it must be a whole number")
+            raise PydanticCustomError("type", f"is {shown(value)}; it must be a whole number")
         if value < self.at_least:
-            raise PydanticCustomError("range", f"is {value}; it must be at least {self.at_least}")
+            raise PydanticCustomError(
+                "range", f"is {shown(int(value))}; it must be at least {self.at_least}"
+            )
         if int(value) > self.at_most:
-            raise PydanticCustomError("range", f"is {value}; it must be at most {self.at_most}")
+            raise PydanticCustomError(
+                "range", f"is {shown(int(value))}; it must be at most {self.at_most}"
+            )
         return int(value)
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self.check)
+
+
+@dataclass(frozen=True)
+class Items:
+    """Annotation of a list: how many items it has; without this one, up to `MOST_ITEMS`."""
+
+    at_least: int = 0
+    at_most: int = MOST_ITEMS
+
+    @property
+    def range(self) -> str:
+        """The range in words."""
+        return f"from {self.at_least} to {self.at_most}"
+
+    def count(self, items: int) -> None:
+        """Raise PydanticCustomError if a list cannot have so many items."""
+        if not self.at_least <= items <= self.at_most:
+            raise PydanticCustomError(
+                "items", f"has {items} item{'s' * (items != 1)}; it must have {self.range}"
+            )
+
+    def check(self, value: object) -> object:
+        """Count the items of a list before they are read; what is no list is left to its own check."""
+        if isinstance(value, list | tuple):
+            self.count(len(value))
+        return value
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_before_validator_function(self.check, handler(source))
 
 
 class Reader:
@@ -133,7 +224,7 @@ class OneOf:
         """Read one word."""
         if not isinstance(value, str) or value not in self.registry:
             known = " or ".join(map(repr, self.registry))
-            raise PydanticCustomError("word", f"is {value!r}; it must be {known}")
+            raise PydanticCustomError("word", f"is {shown(value)}; it must be {known}")
         return value
 
     def __get_pydantic_core_schema__(
@@ -164,6 +255,16 @@ def _reads_none(annotation: Any) -> bool:
     return any(map(_reads_none, marks or get_args(annotation)))
 
 
+def _check_length(key: str, value: object, marks: Sequence[object]) -> None:
+    """Raise PydanticCustomError for a list that is too long, if it has no rule of its own."""
+    long = isinstance(value, list | tuple) and len(value) > MOST_ITEMS
+    if long and not any(isinstance(mark, Items | Reader) for mark in marks):
+        raise PydanticCustomError(
+            "items",
+            f"has {len(value)} items in '{key}'; it may have up to {MOST_ITEMS}",  # type: ignore[arg-type]
+        )
+
+
 class Parameters(BaseModel):
     """Base of every parameter object: frozen, and unknown keys are errors."""
 
@@ -173,7 +274,7 @@ class Parameters(BaseModel):
         try:
             super().__init__(**values)
         except ValidationError as error:
-            raise InputError(explain(error, type(self), type(self).__name__)) from None
+            raise InputError(_explained(error, type(self), type(self).__name__)) from None
 
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined] # values from files never come here
 
@@ -186,6 +287,8 @@ class Parameters(BaseModel):
         kept: dict[str, Any] = {}
         for key, value in values.items():
             field = cls.model_fields.get(key)
+            if field is not None:
+                _check_length(key, value, field.metadata)
             word = field is not None and (
                 (field.annotation is str and not field.metadata)
                 or any(map(_reads_none, field.metadata or [field.annotation]))
@@ -224,7 +327,7 @@ class Parameters(BaseModel):
             context = {**(FROM_FILE if units_required else {}), "folder": folder}
             return cls.model_validate(values, context=context)
         except ValidationError as error:
-            raise InputError(explain(error, cls, name)) from None
+            raise InputError(_explained(error, cls, name)) from None
 
     def replace(self, **changes: Any) -> Self:
         """A copy with the named fields changed, validated like the original.
@@ -234,6 +337,12 @@ class Parameters(BaseModel):
         InputError : a change is not valid.
         """
         return self.read({**dict(self), **changes}, type(self).__name__, units_required=False)
+
+
+def _explained(error: ValidationError, owner: type[BaseModel], name: str) -> str:
+    from cosserat.explain import explain  # it reads the classes of this module
+
+    return explain(error, owner, name)
 
 
 Choice = list[type[BaseModel]]
@@ -248,80 +357,6 @@ def chooser(choice: Sequence[type[BaseModel]]) -> str:
         if len(set(words)) == len(choice):
             return name
     return ""
-
-
-def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
-    """One sentence with every fault that validation found."""
-    return f"{name}: " + "; ".join(_clause(fault, owner) for fault in error.errors(include_url=False))
-
-
-def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
-    loc = fault["loc"]
-    path = ".".join(
-        str(part) for n, part in enumerate(loc) if not _chosen(part, _choice_at(owner, loc[:n]))
-    )
-    match fault["type"]:
-        case "missing":
-            return f"'{path}' is missing{_what_it_is(owner, loc)}"
-        case "extra_forbidden":
-            keys = list(_choice_at(owner, loc[:-1])[0].model_fields)
-            return f"'{path}' is not a key{nearest(str(loc[-1]), keys)}"
-        case "literal_error":
-            return f"'{path}' is {fault['input']!r}; it must be {fault['ctx']['expected']}"
-        case "union_tag_invalid":
-            key = chooser(_choice_at(owner, loc))
-            return (
-                f"'{path}.{key}' is {fault['ctx']['tag']!r}; it must be {fault['ctx']['expected_tags']}"
-            )
-        case "union_tag_not_found":
-            choice = _choice_at(owner, loc)
-            return f"'{path}.{chooser(choice)}' is missing: write {_words(choice, chooser(choice))}"
-        case "model_type" | "model_attributes_type" | "dict_type":
-            return f"'{path}' is {fault['input']!r}; it must be a table of keys"
-        case "string_type":
-            return f"'{path}' is {fault['input']!r}; it must be a text"
-        case "tuple_type":
-            return f"'{path}' is {fault['input']!r}; it must be a list"
-        case _:
-            return f"'{path}' {fault['msg']}" if path else fault["msg"]
-
-
-def _words(choice: Choice, key: str) -> str:
-    """The words of several classes for the key by which they differ."""
-    return " or ".join(repr(c.model_fields[key].default) for c in choice)
-
-
-def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
-    """The clause after a missing key: its meaning, its symbol and source, and how to write it."""
-    key = str(path[-1])
-    place = next((c for c in _choice_at(owner, path[:-1]) if key in c.model_fields), None)
-    if place is None:
-        return ""
-    field = place.model_fields[key]
-    own = docstrings(place).get(key)
-    meaning = [_first_sentence(own)]
-    remedy = "see the cases in cosserat/thesis/cases for examples"
-    tables = _classes_in(field.annotation)
-    for about in field.metadata:
-        if isinstance(about, Quantity | Count):
-            letter = re.sub(r"\\(?:mathbf|bar|tilde)|[\\{}]", "", about.symbol)
-            meaning.append(" of ".join(filter(None, (letter, cited(about.source)))))
-            least = f"write a whole number, {about.at_least} or more" if isinstance(about, Count) else ""
-            remedy = least or how_to_write(getattr(about, "unit", "1"))
-        elif isinstance(about, Reader) and about.said:
-            remedy = f"write {about.said}"
-    if tables:
-        needed = [name for name, inner in tables[0].model_fields.items() if inner.is_required()]
-        meaning += [] if own else [_first_sentence(tables[0].__doc__)]
-        tables_of = "list of tables" if get_origin(field.annotation) is tuple else "table"
-        if choosing := chooser(tables):
-            needed = [f"{choosing} = {_words(tables, choosing)}", "its keys"]
-        remedy = f"write a {tables_of} with {', '.join(needed) or 'its keys'}"
-    elif get_origin(field.annotation) is Literal:
-        remedy = f"write {' or '.join(map(repr, get_args(field.annotation)))}"
-    elif field.annotation is str and not any(isinstance(m, Quantity | Reader) for m in field.metadata):
-        remedy = "write a text"
-    return ", ".join(["", *filter(None, meaning)]) + f": {remedy}"
 
 
 def cited(source: str) -> str:
@@ -347,31 +382,11 @@ def docstrings(owner: type[BaseModel]) -> Mapping[str, str]:
     return found
 
 
-def _first_sentence(text: str | None) -> str:
-    first = re.split(r"[.:;](?:\s|$)", (text or "").strip())[0]
-    return first[:1].lower() + first[1:]
-
-
-def _classes_in(annotation: object) -> Choice:
+def classes_in(annotation: object) -> Choice:
     """Parameter classes in an annotation, at any depth."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
-    return [found for part in get_args(annotation) for found in _classes_in(part)]
-
-
-def _chosen(kind: int | str, choice: Choice) -> Choice:
-    """The classes of one kind among several; validation puts the kind into the path like a key."""
-    name = chooser(choice)
-    return [c for c in choice if c.model_fields[name].default == kind] if name else []
-
-
-def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
-    """The possible parameter classes at a path of nested tables, lists and kinds."""
-    choice = [owner]
-    for part in path:
-        fields = [c.model_fields[str(part)] for c in choice if str(part) in c.model_fields]
-        choice = _chosen(part, choice) or (_classes_in(fields[0].annotation) if fields else choice)
-    return choice or [owner]
+    return [found for part in get_args(annotation) for found in classes_in(part)]
 
 
 def tables_with_a_choice(
@@ -381,7 +396,7 @@ def tables_with_a_choice(
     for name, field in owner.model_fields.items():
         if get_origin(field.annotation) is tuple:
             continue  # a list is replaced as a whole
-        tables = _classes_in(field.annotation)
+        tables = classes_in(field.annotation)
         if key := chooser(tables):
             yield (*before, name), key
         for table in tables:
@@ -394,5 +409,13 @@ def nearest(word: str, known: list[str], cutoff: float = 0.8) -> str:
     cutoff : likeness, up to 1, from which a word counts as near.
     """
     said = meant(word, known)
-    close = [said] if said else difflib.get_close_matches(word, known, n=1, cutoff=cutoff)
-    return f"; did you mean '{close[0]}'?" if close else f"; known are: {', '.join(known)}"
+    close = [said] if said else difflib.get_close_matches(word[:100], known, n=1, cutoff=cutoff)
+    if close:
+        return f"; did you mean '{shortened(close[0])}'?"
+    names = [shortened(name) for name in known]
+    fitting = sum(length < _LISTED for length in itertools.accumulate(len(name) + 2 for name in names))
+    more = f" and {len(names) - fitting} more" if len(names) > fitting else ""
+    return f"; known are: {', '.join(names[:fitting])}{more}"
+
+
+_LISTED = 450  # most characters of the known words that a sentence lists

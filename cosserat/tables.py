@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import csv
+import errno
+import functools
+import math
+import os
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,11 +17,18 @@ import numpy as np
 from pydantic import BaseModel, GetCoreSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from cosserat.parameters import Quantity, Reader, from_file, nearest
+from cosserat.parameters import Items, Quantity, Reader, from_file, nearest
+from cosserat.reading import read_text
+from cosserat.text import shortened, shown
 from cosserat.units import to_si
 
 Rows = tuple[tuple[float, ...], ...]
 """The rows of a table, in SI units."""
+MOST_ROWS = 100_000
+"""Most rows of a table."""
+_MOST_BYTES = 20_000_000
+_MOST_COLUMNS = 1000
+_LONGEST_TITLE = 100
 _TITLE = re.compile(r"\s*(?P<name>[^\[(]*?)\s*(?:[\[(]\s*(?P<unit>[^\])]*?)\s*[\])])?\s*")
 
 
@@ -41,9 +52,13 @@ class Columns(Reader):
     @property
     def alternatives(self) -> Any:
         """Rows, or the name of a file."""
-        cells: Any = tuple(Annotated[float, Quantity(unit)] for _, unit in self.columns)
-        rows: Any = tuple[tuple[cells], ...]
+        cells: Any = tuple(Annotated[float, quantity] for _, quantity in self._quantities)
+        rows: Any = Annotated[tuple[tuple[cells], ...], Items(self.least_rows, MOST_ROWS)]
         return rows | str
+
+    @functools.cached_property
+    def _quantities(self) -> tuple[tuple[str, Quantity], ...]:
+        return tuple((name, Quantity(unit)) for name, unit in self.columns)
 
     @property
     def said(self) -> str:
@@ -56,39 +71,44 @@ class Columns(Reader):
         if isinstance(value, str):
             folder = (info.context or {}).get("folder") or Path()
             rows = self._read_file(Path(folder) / value, value)
-        elif isinstance(value, list | tuple) or hasattr(value, "__array__"):
+        elif _is_row(value):
             every: Any = value
+            self._check_count(len(every))
             rows = [self._row(number, row, info) for number, row in enumerate(every)]
         else:
-            raise PydanticCustomError("type", f"is {value!r}; it must be {self.said}")
+            raise PydanticCustomError("type", f"is {shown(value)}; it must be {self.said}")
         return self._checked(rows)
 
     def _row(self, number: int, row: Any, info: core_schema.ValidationInfo) -> tuple[float, ...]:
-        cells = list(row) if isinstance(row, list | tuple) or hasattr(row, "__array__") else [row]
+        cells = list(row) if _is_row(row) else [row]
         if len(cells) != len(self.columns):
             raise PydanticCustomError(
                 "row",
-                f"has the row {row!r} at {number}; each row must be [{', '.join(name for name, _ in self.columns)}]",
+                f"has the row {shown(row)} at {number}; each row must be "
+                f"[{', '.join(name for name, _ in self.columns)}]",
             )
         return tuple(
-            self._cell(cell, unit, f"row {number}, {name},", required=from_file(info))
-            for cell, (name, unit) in zip(cells, self.columns, strict=True)
+            self._cell(cell, quantity, f"row {number}, {name},", required=from_file(info))
+            for cell, (name, quantity) in zip(cells, self._quantities, strict=True)
         )
 
     @staticmethod
-    def _cell(cell: object, unit: str, place: str, *, required: bool) -> float:
+    def _cell(cell: object, quantity: Quantity, place: str, *, required: bool) -> float:
         try:
-            return to_si(cell, unit, unit_required=required)
+            return quantity.read(cell, unit_required=required)
         except PydanticCustomError as error:
             raise PydanticCustomError("cell", f"has a fault: {place} {error.message()}") from None
 
+    def _check_count(self, rows: int) -> None:
+        if rows < self.least_rows:
+            raise PydanticCustomError(
+                "rows", f"has {rows} row{'s' * (rows != 1)}; it needs {self.least_rows} or more"
+            )
+        if rows > MOST_ROWS:
+            raise PydanticCustomError("rows", f"has {rows} rows; it may have up to {MOST_ROWS}")
+
     def _checked(self, rows: list[tuple[float, ...]]) -> Rows:
         name = self.columns[0][0]
-        if len(rows) < self.least_rows:
-            raise PydanticCustomError(
-                "rows",
-                f"has {len(rows)} row{'s' * (len(rows) != 1)}; it needs {self.least_rows} or more",
-            )
         late = np.flatnonzero(np.diff([row[0] for row in rows]) <= 0) if self.increasing else np.empty(0)
         if late.size:
             number = int(late[0])
@@ -101,10 +121,10 @@ class Columns(Reader):
 
     def _read_file(self, file: Path, given: str) -> list[tuple[float, ...]]:
         def refused(why: str) -> PydanticCustomError:
-            return PydanticCustomError("csv", f"is the file '{given}', {why}")
+            return PydanticCustomError("csv", f"is the file '{shortened(given)}', {why}")
 
         try:
-            text = file.read_text(encoding="utf-8-sig")
+            text = read_text(file, _MOST_BYTES) if file.is_file() else _absent(file)
         except OSError as error:
             raise refused(
                 f"which cannot be read ({error.strerror}); give the name of a CSV file relative to the "
@@ -118,29 +138,55 @@ class Columns(Reader):
         if not lines:
             raise refused("which is empty; give it a header and rows")
         separator = max(",;\t", key=lines[0].count)
-        header, *rows = csv.reader(lines, delimiter=separator)
+        if lines[0].count(separator) >= _MOST_COLUMNS:
+            raise refused(f"whose header has more than {_MOST_COLUMNS} columns; leave some out")
+        try:
+            header, *rows = csv.reader(lines, delimiter=separator)
+        except csv.Error as error:
+            raise refused(f"which is no table ({error}); give it a header and rows") from None
         places = [self._column(name, unit, header, refused) for name, unit in self.columns]
+        self._check_count(len(rows))
+        return [
+            self._numbers(number, row, header, places, refused)
+            for number, row in enumerate(rows, start=1)
+        ]
+
+    def _numbers(
+        self,
+        number: int,
+        row: list[str],
+        header: list[str],
+        places: list[tuple[int, float]],
+        refused: Callable[[str], PydanticCustomError],
+    ) -> tuple[float, ...]:
+        """The numbers of one row of a file."""
+        if len(row) != len(header):
+            raise refused(
+                f"whose row {number} has {len(row)} cells, but the header has {len(header)}; "
+                "give every row as many cells"
+            )
         found = []
-        for number, row in enumerate(rows, start=1):
-            if len(row) != len(header):
-                raise refused(
-                    f"whose row {number} has {len(row)} cells, but the header has {len(header)}; "
-                    "give every row as many cells"
-                )
+        for (column, factor), (name, quantity) in zip(places, self._quantities, strict=True):
             try:
-                found.append(tuple(float(row[column]) * factor for column, factor in places))
+                cell = float(row[column]) * factor
             except ValueError:
                 raise refused(
-                    f"whose row {number} is {separator.join(row)!r}, with a cell that is no number; "
+                    f"whose row {number} is {shown(','.join(row))}, with a cell that is no number; "
                     "write plain numbers with decimal points"
                 ) from None
-        if not np.isfinite(found).all():
-            raise refused("with a cell that is not finite; leave such rows out")
-        return found
+            if not math.isfinite(cell):
+                raise refused(f"with a cell that is not finite in row {number}; leave such rows out")
+            try:
+                found.append(quantity.checked(cell))
+            except PydanticCustomError as error:
+                raise refused(f"whose row {number} has a fault: {name} {error.message()}") from None
+        return tuple(found)
 
-    def _column(self, name: str, unit: str, header: list[str], refused: Any) -> tuple[int, float]:
+    def _column(
+        self, name: str, unit: str, header: list[str], refused: Callable[[str], PydanticCustomError]
+    ) -> tuple[int, float]:
         """Index of a column, and the factor to its SI unit."""
-        titles = [_TITLE.fullmatch(title) for title in header]
+        titles = [_TITLE.fullmatch(title[:_LONGEST_TITLE]) for title in header]
         names = [found["name"].casefold() if found else "" for found in titles]
         if name.casefold() not in names:
             wanted = ", ".join(f"{own} [{unit}]" for own, unit in self.columns)
@@ -159,6 +205,17 @@ class Columns(Reader):
             return index, to_si(f"1 {written}", unit, unit_required=True)
         except PydanticCustomError as error:
             raise refused(f"whose column '{name}' {error.message()}") from None
+
+
+def _is_row(value: object) -> bool:
+    """Whether a value is a list, a tuple or an array."""
+    return isinstance(value, list | tuple) or getattr(value, "ndim", 0) > 0
+
+
+def _absent(file: Path) -> str:
+    """Raise OSError for what is no regular file: a folder, a device, nothing."""
+    reason = errno.EISDIR if file.is_dir() else errno.ENODEV if file.exists() else errno.ENOENT
+    raise OSError(reason, os.strerror(reason))
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import decimal
 import functools
 import math
 import numbers
@@ -10,45 +11,59 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic_core import PydanticCustomError
 
+from cosserat.text import shortened, shown
+
 if TYPE_CHECKING:
     import pint
 
 _KINDS = {
-    "1": "a ratio",
-    "%": "a percentage",
-    "m": "a length",
-    "m^2": "an area",
-    "m^3": "a volume",
-    "m^4": "a second moment of area",
-    "m^-1": "a curvature",
-    "kg": "a mass",
-    "kg*m^2": "a moment of inertia",
-    "kg/m": "a mass per length",
-    "kg/m^3": "a density",
-    "s": "a time",
-    "Hz": "a frequency",
-    "1/s": "a rate",
-    "m/s": "a speed",
-    "m/s^2": "an acceleration",
-    "N": "a force",
-    "N/m": "a force per length",
-    "N*m": "a moment",
-    "N*m^2": "a bending stiffness",
-    "N*m/rad": "a rotational stiffness",
-    "N*m/rad/m": "a rotational stiffness per length",
-    "Pa": "a pressure",
-    "K": "a temperature difference",
-    "K/m": "a temperature gradient",
-    "K^-1": "a thermal expansion",
-    "rad": "an angle",
-    "rad/s": "an angular speed",
+    "1": ("a ratio", 1e-12, 1e12),
+    "%": ("a percentage", 1e-12, 1e12),
+    "m": ("a length", 1e-12, 1e9),
+    "m^2": ("an area", 1e-24, 1e18),
+    "m^3": ("a volume", 1e-36, 1e27),
+    "m^4": ("a second moment of area", 1e-48, 1e36),
+    "m^-1": ("a curvature", 1e-12, 1e12),
+    "kg": ("a mass", 1e-30, 1e24),
+    "kg*m^2": ("a moment of inertia", 1e-48, 1e36),
+    "kg/m": ("a mass per length", 1e-24, 1e18),
+    "kg/m^3": ("a density", 1e-9, 1e12),
+    "s": ("a time", 1e-15, 1e12),
+    "Hz": ("a frequency", 1e-12, 1e15),
+    "1/s": ("a rate", 1e-12, 1e15),
+    "m/s": ("a speed", 1e-12, 1e9),
+    "m/s^2": ("an acceleration", 1e-12, 1e12),
+    "N": ("a force", 1e-24, 1e24),
+    "N/m": ("a force per length", 1e-24, 1e24),
+    "N*m": ("a moment", 1e-24, 1e24),
+    "N*m^2": ("a bending stiffness", 1e-36, 1e36),
+    "N*m/rad": ("a rotational stiffness", 1e-24, 1e24),
+    "N*m/rad/m": ("a rotational stiffness per length", 1e-24, 1e24),
+    "Pa": ("a pressure", 1e-6, 1e15),
+    "K": ("a temperature difference", 1e-12, 1e6),
+    "K/m": ("a temperature gradient", 1e-12, 1e12),
+    "K^-1": ("a thermal expansion", 1e-12, 1e3),
+    "rad": ("an angle", 1e-12, 1e6),
+    "rad/s": ("an angular speed", 1e-12, 1e12),
 }
-"""The quantity of a unit in words; units not listed are named by themselves."""
+"""The quantity of a unit in words, and the least size above zero and the largest size that make sense.
+
+The sizes are wide, from atoms to planets, but such that products and ratios of them are far from overflow and
+underflow.  Units not listed are named by themselves.
+"""
+_ANY = ("a quantity", 1e-24, 1e24)
+NOTHING = 1e-40
+"""Numbers nearer to zero than this are refused where zero is meant: their powers would underflow."""
 
 
 def what_is_in(unit: str) -> str:
     """The quantity of a unit in words, such as "a length"; "a quantity" for units not listed."""
-    return _KINDS.get(unit, "a quantity")
+    return _KINDS.get(unit, _ANY)[0]
+
+
+def sizes_in(unit: str) -> tuple[float, float]:
+    """The least size above zero and the largest size of a quantity that make sense in this unit."""
+    return _KINDS.get(unit, _ANY)[1:]
 
 
 _ALIKE = {"m^-1": "rad/m", "N*m/rad": "N*m", "N*m/rad/m": "N"}
@@ -65,6 +80,7 @@ _NUMBER = re.compile(
     r"(?:\s*\*?\s*(?P<pi>pi)\b)?(?:\s*/\s*(?P<divisor>\d{1,9}))?"
 )
 _BEGINS_A_UNIT = re.compile(r"[^\W\d]|[%°(/\"']|1\s*/|$")
+_LONGEST_TEXT = 100  # characters of a number with its unit
 _UNIT = re.compile(r"(?:1 */)?(?:[^\W\d]\w*|[%°()*/ ]|\^ *\(?[+-]?\d{1,2}\)?(?! *\^))*")
 
 
@@ -78,23 +94,33 @@ def _units() -> pint.UnitRegistry[float]:
 def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     """Read one value as a number in the SI unit `unit`: a number, or a text such as "2.5 mm", "1e3 kg/m" or "5/6".
 
+    `cosserat.parameters.Quantity` also checks its range.
+
     Raises
     ------
     PydanticCustomError : not a number, not finite, or of another dimension than `unit`.
     """
     if isinstance(value, str):
         number = _read_text(value, unit)
-    elif isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise PydanticCustomError(
-            "type", f"is {_shown(repr(value))}, not a number; {how_to_write(unit)}"
-        )
+    elif isinstance(value, bool) or not isinstance(value, numbers.Real | decimal.Decimal):
+        raise PydanticCustomError("type", f"is {shown(value)}, not a number; {how_to_write(unit)}")
     elif unit_required and unit != "1":
-        raise PydanticCustomError("unit", f"is {value!r}, without a unit; {how_to_write(unit)}")
+        raise PydanticCustomError("unit", f"is {shown(value)}, without a unit; {how_to_write(unit)}")
     else:
-        number = float(value)
+        number = _as_float(value)
     if not math.isfinite(number):
-        raise PydanticCustomError("finite", f"is {_shown(repr(value))}; it must be a finite number")
+        raise PydanticCustomError("finite", f"is {shown(value)}; it must be a finite number")
     return number
+
+
+def _as_float(number: numbers.Real | decimal.Decimal) -> float:
+    """A number as a float; infinite if it is larger than any."""
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf
+    except ValueError:  # a Decimal that signals that it is no number
+        return math.nan
 
 
 def how_to_write(unit: str) -> str:
@@ -106,8 +132,12 @@ def how_to_write(unit: str) -> str:
 
 def _read_text(text: str, unit: str) -> float:
     def refused(kind: str, why: str, remedy: str = "") -> PydanticCustomError:
-        return PydanticCustomError(kind, f'is "{_shown(text)}", {why}; {remedy or how_to_write(unit)}')
+        return PydanticCustomError(
+            kind, f'is "{shortened(text)}", {why}; {remedy or how_to_write(unit)}'
+        )
 
+    if len(text) > _LONGEST_TEXT:
+        raise refused("type", f"a text of {len(text)} characters")
     if "," in text:
         raise refused(
             "type", "with a decimal comma", "write a decimal point, and between thousands nothing"
@@ -121,19 +151,25 @@ def _read_text(text: str, unit: str) -> float:
         raise refused("type", "which is not a number with a unit")
     sign_or_number = found["number"] if found["number"].strip("+-") else f"{found['number']}1"
     number = float(sign_or_number) * (math.pi if found["pi"] else 1) / int(found["divisor"] or 1)
-    try:
-        written = _as_pint_writes(rest)
-        read = _units().Quantity(number, written)
-        root = _root(read.units)
-    except Exception:  # the unit parser raises errors of many kinds on text that is no unit
-        raise refused("type", "whose unit is not known", _meant(rest, unit)) from None
-    wanted = "" if unit == "1" else unit
+    root = _written_root(rest)
+    if root is None:
+        raise refused("type", "whose unit is not known", _meant(rest, unit))
+    said = f"in {shortened(rest, 40)}"
     if not _alike(root, unit):
-        why = f"in {rest}{_instead(root, unit)}" if rest else "in no unit at all"
-        raise refused("unit", why, _meant(written, unit))
-    if _units().Quantity(0.0, written).to(wanted).magnitude:
-        raise refused("unit", f"in {rest}, whose zero is not zero {unit}")
-    return float(read.to(wanted).magnitude)
+        why = f"{said}{_instead(root, unit)}" if rest else "in no unit at all"
+        raise refused("unit", why, _meant(_as_pint_writes(rest), unit))
+    zero, factor = _zero_and_one(rest, unit)
+    if zero:
+        raise refused("unit", f"{said}, whose zero is not zero {unit}")
+    return number * factor
+
+
+@functools.lru_cache(1000)
+def _zero_and_one(written: str, unit: str) -> tuple[float, float]:
+    """What 0 and 1 of a unit as written are in another unit."""
+    given, wanted = _as_pint_writes(written), "" if unit == "1" else unit
+    zero, one = (float(_units().Quantity(value, given).to(wanted).magnitude) for value in (0.0, 1.0))
+    return zero, one
 
 
 def is_read_as(written: str, unit: str) -> bool:
@@ -142,7 +178,7 @@ def is_read_as(written: str, unit: str) -> bool:
     return root is not None and _alike(root, unit)
 
 
-@functools.cache
+@functools.lru_cache(1000)
 def _written_root(written: str) -> object:
     """The root units of a unit as written; None if it is not known."""
     try:
@@ -191,16 +227,11 @@ def _root(unit: Any) -> object:
 
 def _instead(root: object, unit: str) -> str:
     """The given and the wanted quantity, if both have words."""
-    given = [words for known, words in _KINDS.items() if _root("" if known == "1" else known) == root]
-    return f", {given[0]} and not {_KINDS[unit]}" if given and unit in _KINDS else ""
+    given = [what_is_in(known) for known in _KINDS if _root("" if known == "1" else known) == root]
+    return f", {given[0]} and not {what_is_in(unit)}" if given and unit in _KINDS else ""
 
 
 def _meant(written: str, unit: str) -> str:
     """A question for a spelling that is wrong only in its capitals."""
     likely = [prefix + unit for prefix in _PREFIXES if (prefix + unit).casefold() == written.casefold()]
     return f"did you mean {' or '.join(map(repr, likely))}?" if likely else ""
-
-
-def _shown(text: str) -> str:
-    """A text, shortened for a sentence."""
-    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -5,29 +5,35 @@ from __future__ import annotations
 import functools
 import json
 import re
-import reprlib
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
 from pydantic import AfterValidator, SerializeAsAny
-from pydantic_core import PydanticCustomError
 
+from cosserat.cases.tables import Tables, merged
 from cosserat.errors import InputError, path_of
-from cosserat.parameters import Dropped, Parameters, nearest, tables_with_a_choice
+from cosserat.parameters import Dropped, Parameters, nearest
 from cosserat.problem import Problem
 from cosserat.publications import kinds, published_tables, titles
+from cosserat.reading import read_text
+from cosserat.text import Title, checked_name, shortened, shown
 
 P = TypeVar("P")
 
+_MOST_BYTES = 1_000_000  # of a case file
+_MOST_JSON = 20_000_000
+_MOST_CASES = 1000
+_MOST_DOTS = 30
+_PART = r"""(?:[\w-]+|"(?:[^"\\\n]|\\.){0,200}"|'[^'\n]{0,200}')[ \t]*\.[ \t]*"""
+_LONG_KEY = re.compile(rf"(?<![\w\-\"'\\])(?:{_PART}){{{_MOST_DOTS}}}")
+_NO_NEED = "no case needs it"
+
 
 def _check_name(name: str) -> str:
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
-        raise PydanticCustomError(
-            "name", f"is {name!r}, which cannot name a file; use letters, digits, '_' and '-'"
-        )
-    return name
+    remedy = ", which cannot name a file; use letters, digits, '_' and '-'"
+    return checked_name(name, r"[A-Za-z][A-Za-z0-9_-]*", remedy)
 
 
 class Case(Parameters):
@@ -35,9 +41,9 @@ class Case(Parameters):
 
     name: Annotated[str, AfterValidator(_check_name)]
     """Name of the case: of its table in a file, and of its result file."""
-    title: str
+    title: Title
     """Description in a few words; the name by default."""
-    source: str = ""
+    source: Title = ""
     """Its place in the thesis, or its origin."""
     problem: SerializeAsAny[Problem]
     """The problem to solve."""
@@ -58,8 +64,8 @@ class Case(Parameters):
         ------
         InputError : a key is unknown or a value is not valid.
         """
-        table = _merge(_given(self.problem.model_dump()), changes)
-        problem = type(self.problem).read(table, f"case '{name}'", units_required=False)
+        table = merged(_given(self.problem.model_dump()), changes)
+        problem = type(self.problem).read(table, f"case '{shortened(str(name))}'", units_required=False)
         return Case.read({"name": name, "title": name, "problem": problem}, "case")
 
     def problem_as(self, asked: type[P]) -> P:
@@ -86,7 +92,7 @@ def published() -> Mapping[str, Case]:
 
 @functools.cache
 def _published_case(name: str) -> Case:
-    return _build(name, published_tables())
+    return _build(name, Tables(published_tables()))
 
 
 def find(name: str, file: str | Path | None = None) -> Case:
@@ -98,19 +104,15 @@ def find(name: str, file: str | Path | None = None) -> Case:
     """
     if not isinstance(name, str):
         raise InputError(
-            f"a case is found by its name, a text such as 'clamped_free', not by {reprlib.repr(name)}"
+            f"a case is found by its name, a text such as 'clamped_free', not by {shown(name)}"
         )
     if file is None and name in titles():
         return _published_case(name)
-    if file is not None:
-        tables = _read(file)
-        if name in tables and not name.startswith("_"):
-            return _build(name, published_tables() | tables, path_of(file).parent)
-    known = published() if file is None else load(file)
-    if name not in known:
-        place = "" if file is None else f" in {file}"
-        raise InputError(f"there is no case '{name}'{place}{nearest(name, list(known))}")
-    return known[name]
+    tables = {} if file is None else _read(file)
+    if file is not None and name in _names(tables):
+        return _build(name, Tables(published_tables() | tables), path_of(file).parent)
+    place, known = ("", list(titles())) if file is None else (f" in {file}", _names(tables))
+    raise InputError(f"there is no case '{shortened(name)}'{place}{nearest(name, known)}")
 
 
 def load(file: str | Path) -> Mapping[str, Case]:
@@ -121,7 +123,13 @@ def load(file: str | Path) -> Mapping[str, Case]:
     InputError : the file cannot be read, is not TOML, or one of its cases is not valid.
     """
     tables = _read(file)
-    return _build_all(tables, published_tables() | tables, path_of(file).parent)
+    known = Tables(published_tables() | tables)
+    return {name: _build(name, known, path_of(file).parent) for name in _names(tables)}
+
+
+def _names(tables: Mapping[str, Any]) -> list[str]:
+    """The names of the cases of a file, without bases of cases."""
+    return [name for name in tables if not name.startswith("_")]
 
 
 def _read(file: str | Path) -> dict[str, Any]:
@@ -129,7 +137,11 @@ def _read(file: str | Path) -> dict[str, Any]:
     file = path_of(file)
     text = ""
     try:
-        text = file.read_text(encoding="utf-8-sig")
+        text = read_text(file, _MOST_BYTES)
+        if _LONG_KEY.search(text):
+            raise InputError(
+                f"{file} has a key of more than {_MOST_DOTS} parts; no key of a case has so many"
+            )
         tables = tomllib.loads(text)
     except OSError as error:
         raise InputError(
@@ -140,12 +152,21 @@ def _read(file: str | Path) -> dict[str, Any]:
             f"{file} is not TOML: it is not in UTF-8 (perhaps in UTF-16 or Latin-1); save it as UTF-8"
         ) from None
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{file} is not TOML: {error}; {_remedy(str(error), text)}") from None
+        said = shortened(str(error), 200)
+        raise InputError(f"{file} is not TOML: {said}; {_remedy(str(error), text)}") from None
+    except RecursionError:
+        raise InputError(
+            f"{file} has lists or tables inside each other, too deep to read; {_NO_NEED}"
+        ) from None
+    except ValueError:
+        raise InputError(f"{file} has a whole number of thousands of digits; {_NO_NEED}") from None
     stray = [key for key, value in tables.items() if not isinstance(value, dict)]
     if stray:
         raise InputError(
-            f"{file}: '{stray[0]}' is outside a case; put it below the case's name, such as [my_rod]"
+            f"{file}: '{shortened(stray[0])}' is outside a case; put it below the case's name, such as [my_rod]"
         )
+    if len(tables) > _MOST_CASES:
+        raise InputError(f"{file} has {len(tables)} cases; write up to {_MOST_CASES} into one file")
     if not tables:
         raise InputError(f"{file} holds no case; begin one with its name, such as [my_rod]")
     return tables
@@ -175,30 +196,43 @@ def parse(parameters: str) -> Case:
     InputError : the text is not such a case.
     """
     try:
-        table = json.loads(parameters)
-        if not isinstance(table, dict) or not isinstance(table.get("problem"), dict):
-            raise InputError("there is no table 'problem'")
+        table = _from_json(parameters)
         problem = _read_problem(dict(table["problem"]), "problem", units_required=False)
         return Case.read({**table, "problem": problem}, "case")
-    except (json.JSONDecodeError, InputError) as error:
+    except InputError as error:
         raise InputError(
             f"the parameters are not those of a case of this version of cosserat ({error}); run the case again by "
             "its name"
         ) from None
 
 
-def _build_all(asked: Mapping[str, Any], known: Mapping[str, Any], folder: Path) -> dict[str, Case]:
-    return {name: _build(name, known, folder) for name in asked if not name.startswith("_")}
+def _from_json(text: str) -> dict[str, Any]:
+    """The table of a case in JSON."""
+    if not isinstance(text, str):
+        raise InputError(f"{shown(text)} is no text")
+    if len(text) > _MOST_JSON:
+        raise InputError(f"they are longer than {_MOST_JSON / 1e6:g} million characters")
+    try:
+        table = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError(str(error)) from None
+    except RecursionError:
+        raise InputError("lists or tables are inside each other, too deep to read") from None
+    except ValueError:
+        raise InputError("a whole number has thousands of digits") from None
+    if not isinstance(table, dict) or not isinstance(table.get("problem"), dict):
+        raise InputError("there is no table 'problem'")
+    return table
 
 
-def _build(name: str, known: Mapping[str, Any], folder: Path | None = None) -> Case:
+def _build(name: str, known: Tables, folder: Path | None = None) -> Case:
     """A case of these tables; files that it names are in the folder."""
-    table = _inherit(name, known, ())
-    own = known[name]
+    table, own = known.inherited(name), known[name]
     title, source = (own.get(key, "") for key in ("title", "source"))  # a title is not inherited
-    problem = _read_problem(table, f"case '{name}'", units_required=True, folder=folder)
-    about = {"name": name, "title": title or name, "source": source, "problem": problem}
-    return Case.read(about, f"case '{name}'")
+    called = f"case '{shortened(name)}'"
+    problem = _read_problem(table, called, units_required=True, folder=folder)
+    about = {"name": name, "title": name if title == "" else title, "source": source, "problem": problem}
+    return Case.read(about, called)
 
 
 def _read_problem(
@@ -207,51 +241,10 @@ def _read_problem(
     """The problem of a table, read by the class of its kind."""
     kind = table.pop("kind", "")
     if not isinstance(kind, str) or kind not in kinds():
-        raise InputError(f"{name}: 'kind' is {kind!r}{nearest(str(kind), list(kinds()))}")
+        near = nearest(shortened(str(kind)), list(kinds()))
+        raise InputError(f"{name}: 'kind' is {shown(kind)}{near}")
     reader = kinds()[kind].problem_class().read
     return reader(table, name, units_required=units_required, folder=folder)
-
-
-def _inherit(name: str, known: Mapping[str, Any], seen: tuple[str, ...]) -> dict[str, Any]:
-    """The table of a case with everything inherited by `like`."""
-    if name in seen:
-        raise InputError(
-            f"case '{name}': its 'like' refers back to itself ({' -> '.join((*seen, name))}); remove the cycle"
-        )
-    if name not in known:
-        raise InputError(
-            f"case '{seen[-1]}': 'like' names no case: {name!r}{nearest(name, list(known))}"
-        )
-    table: dict[str, Any] = {}
-    own = {key: value for key, value in known[name].items() if key not in ("title", "source")}
-    bases = own.pop("like", [])
-    for base in bases if isinstance(bases, list) else [bases]:
-        table = _merge(table, _inherit(str(base), known, (*seen, name)))
-    for key, value in own.items():
-        if isinstance(value, dict) and "like" in value:  # a whole case as a part of this one
-            part = {inner: given for inner, given in value.items() if inner != "like"}
-            own[key] = _merge(_inherit(str(value["like"]), known, (*seen, name)), part)
-    return _merge(table, own)
-
-
-def _merge(
-    base: Mapping[str, Any], own: Mapping[str, Any], path: tuple[str, ...] = ()
-) -> dict[str, Any]:
-    """Both tables, key by key; a table of another shape or kind replaces the one of the base as a whole.
-
-    The word "none" marks a key of the base as dropped.
-    """
-    merged = dict(base)
-    for key, value in own.items():
-        old, inner = merged.get(key), (*path, key)
-        if isinstance(value, dict) and isinstance(old, dict):
-            kept = dict.fromkeys(old, Dropped()) if _is_another(old, value, inner) else old
-            merged[key] = _merge(kept, value, inner)
-        elif isinstance(value, str) and value == "none" and key in merged:
-            merged[key] = Dropped(value)
-        else:
-            merged[key] = value
-    return merged
 
 
 def _given(table: Mapping[str, Any]) -> dict[str, Any]:
@@ -259,22 +252,4 @@ def _given(table: Mapping[str, Any]) -> dict[str, Any]:
     return {
         key: _given(value) if isinstance(value, dict) else Dropped() if value is None else value
         for key, value in table.items()
-    }
-
-
-def _is_another(base: Mapping[str, Any], own: Mapping[str, Any], path: tuple[str, ...]) -> bool:
-    """Whether a table makes another choice than the one of the base, where there is a choice of classes."""
-    differing = [
-        key for key, value in own.items() if isinstance(value, str) and base.get(key, value) != value
-    ]
-    return bool(differing) and _choosers().get(path) in differing
-
-
-@functools.cache
-def _choosers() -> Mapping[tuple[str, ...], str]:
-    """Key that chooses the class of a table, by the path of the table in problems of any kind."""
-    return {
-        path: key
-        for kind in kinds().values()
-        for path, key in tables_with_a_choice(kind.problem_class())
     }

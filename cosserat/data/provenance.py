@@ -13,6 +13,8 @@ _COMPUTING = (
     "errors.py",
     "limits.py",
     "signals.py",
+    "reading.py",
+    "explain.py",
     "solution.py",
     "text.py",
     "units.py",

@@ -18,6 +18,7 @@ from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
 from cosserat.parameters import (
     Count,
+    Items,
     OneOf,
     Quantity,
     Reader,
@@ -36,7 +37,7 @@ Form = Literal["quantity", "count", "word", "name", "text", "truth", "table", "l
 class Value:
     """The type of a value.
 
-    about : unit and range of a quantity or a count.
+    about : unit and range of a quantity or a count; how many items a list has.
     words : the allowed words.
     tables : the possible classes of a table; several differ in one key, such as `kind`.
     items : types of the items of a list, of the places of a row, or of the alternatives of "either"; of a table,
@@ -45,7 +46,7 @@ class Value:
     """
 
     form: Form
-    about: Quantity | Count | None = None
+    about: Quantity | Count | Items | None = None
     words: tuple[str, ...] = ()
     tables: tuple[type[BaseModel], ...] = ()
     items: tuple[Value, ...] = ()
@@ -211,13 +212,20 @@ def _value(annotation: Any) -> Value | None:
     if origin is Literal:
         return Value("word", words=parts)
     if origin is tuple:
-        items = tuple(value for part in parts if part is not ... and (value := _value(part)) is not None)
-        return Value("list" if ... in parts else "row", items=items)
+        return _list_or_row(parts, about)
     if annotation is types.NoneType:
         return None
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return Value("table", tables=(annotation,))
     return Value({str: "text", bool: "truth"}[annotation])  # type: ignore[arg-type]
+
+
+def _list_or_row(parts: tuple[Any, ...], about: list[Any]) -> Value:
+    """The values of a tuple: a list of items that are alike, or a row of places."""
+    items = tuple(value for part in parts if part is not ... and (value := _value(part)) is not None)
+    if ... not in parts:
+        return Value("row", items=items)
+    return Value("list", next((mark for mark in about if isinstance(mark, Items)), Items()), items=items)
 
 
 def _written(default: Any, value: Value) -> str:

@@ -8,7 +8,6 @@ that 3.0 is no whole number.
 
 from __future__ import annotations
 
-import math
 import tomllib
 from collections.abc import Iterable
 from typing import Any
@@ -16,7 +15,7 @@ from typing import Any
 from cosserat.describe.keys import LIKE, Key, Value, common_keys, keys, title
 from cosserat.describe.spellings import accepted, refused
 from cosserat.describe.text import need, thesis, type_of
-from cosserat.parameters import Count, Quantity
+from cosserat.parameters import Count, Items, Quantity
 from cosserat.publications import kinds, titles
 from cosserat.units import what_is_in
 
@@ -154,7 +153,11 @@ def _node(key: Key, found: tuple[Key, ...], *, whole: bool, like: bool = False) 
         tables = [_table(found, inside, when, whole=whole, like=like) for when in choices]
         form = _any([*tables, *map(_form, value.items)])
     elif value.form == "list" and value.items[0].tables:  # an inherited list is replaced as a whole
-        form = {"type": "array", "items": _table(found, inside, key.when, whole=True)}
+        form = {
+            "type": "array",
+            "items": _table(found, inside, key.when, whole=True),
+            **_lengths(value),
+        }
     else:
         form = _form(value)
     droppable = not (whole or key.required or key.path in ("kind", LIKE.name) or "none" in value.words)
@@ -198,7 +201,11 @@ def _form(value: Value) -> Schema:
         },
         "text": {"type": "string"},
         "truth": {"type": "boolean"},
-        "list": {"type": "array", "items": _form(value.items[0]) if value.items else {}},
+        "list": {
+            "type": "array",
+            "items": _form(value.items[0]) if value.items else {},
+            **_lengths(value),
+        },
         "either": {"anyOf": [_form(item) for item in value.items]},
         "row": {
             "type": "array",
@@ -210,10 +217,14 @@ def _form(value: Value) -> Schema:
     return forms[value.form]
 
 
+def _lengths(value: Value) -> Schema:
+    """How many items a list has."""
+    if not isinstance(value.about, Items):
+        return {}
+    return {"minItems": value.about.at_least, "maxItems": value.about.at_most}
+
+
 def _limits(about: Quantity) -> Schema:
-    bounds = {
-        "exclusiveMinimum": about.above,
-        "exclusiveMaximum": about.below,
-        "minimum": about.at_least,
-    }
-    return {name: bound for name, bound in bounds.items() if math.isfinite(bound)}
+    lower = "exclusiveMinimum" if about.least == about.above else "minimum"
+    upper = "exclusiveMaximum" if about.most == about.below else "maximum"
+    return {lower: about.least, upper: about.most}

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections.abc import Iterator, Sequence
 
 from cosserat.describe.keys import Key, Value, common_keys, keys, title
 from cosserat.errors import InputError
-from cosserat.parameters import Count, Quantity, cited, nearest
+from cosserat.parameters import Count, Items, Quantity, cited, nearest
 from cosserat.publications import kinds
 from cosserat.units import what_is_in
 
@@ -111,16 +110,15 @@ def need(key: Key) -> str:
 def thesis(key: Key) -> str:
     """Symbol and place in the thesis, if they are given."""
     about = key.value.innermost.about
-    parts = [] if about is None else [about.symbol, cited(about.source)]
+    parts = [] if about is None or isinstance(about, Items) else [about.symbol, cited(about.source)]
     return f"Thesis: {', '.join(filter(None, parts))}" if any(parts) else ""
 
 
-def span(about: Quantity | Count) -> str:
-    """The range of a quantity in its SI unit, or of a count; empty if it has none."""
+def span(about: Quantity | Count | Items) -> str:
+    """The range of a quantity in its SI unit, of a count, or of the number of items of a list."""
     if isinstance(about, Count):
         return f"from {about.at_least} to {about.at_most}"
-    bounds = (("above", about.above), ("at least", about.at_least), ("below", about.below))
-    return ", ".join(f"{words} {bound:g}" for words, bound in bounds if math.isfinite(bound))
+    return about.range
 
 
 def _type(value: Value) -> str:
@@ -140,9 +138,10 @@ def _type(value: Value) -> str:
     if value.form == "word":
         return _either([f'"{word}"' for word in value.words])
     if value.form == "list":
-        return (
-            "a list of tables" if value.items[0].tables else f"a list, each item {_type(value.items[0])}"
-        )
+        assert isinstance(value.about, Items)
+        many = "" if value.about == Items() else f" of {span(value.about)}"
+        items = value.items[0]
+        return f"a list{many} of tables" if items.tables else f"a list{many}, each item {_type(items)}"
     if value.form == "either":
         return _either([_type(item) for item in value.items])
     if value.form == "row":

@@ -6,6 +6,7 @@ of the reference length: 0 the rear end, 1 the front end.
 
 from __future__ import annotations
 
+import bisect
 import functools
 import itertools
 import math
@@ -15,8 +16,7 @@ from typing import Annotated, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.errors import InputError
-from cosserat.parameters import Parameters, Quantity
+from cosserat.parameters import Items, Parameters, Quantity
 from cosserat.peristalsis import chambers as scheduled
 from cosserat.peristalsis.chambers import Chamber, RampForm, State
 from cosserat.peristalsis.measured import Measured
@@ -25,7 +25,13 @@ from cosserat.peristalsis.tracks import PHASE_TOLERANCE, Track, follow, place_of
 
 _BREAK_OFFSET = 1e-7  # distance from a break at which its two sides are compared, in phases
 _CHANGE_TOLERANCE = 1e-4  # fraction of the body that fronts pass between those sides, and the clearance
-_MAX_INSTANTS = 100_000
+_MOST_INSTANTS = 20_000
+_MOST_TRACKS = 100
+_MOST_POINTS = 5000  # of all tracks together
+_MOST_COMPARED = (
+    3_000_000  # pairs of tracks at the points of all, which are compared when a gait is read
+)
+_MOST_ROWS = 200  # of the schedules of all chambers together
 
 
 @dataclass(frozen=True)
@@ -50,17 +56,20 @@ class Gait(Parameters):
     track ends when another begins, the first one counts at that time.  Chambers may take the place of fronts.
     """
 
-    phases: tuple[Annotated[float, Quantity("s", "t_p, t_s", "section 2.8", above=0)], ...]
+    phases: Annotated[
+        tuple[Annotated[float, Quantity("s", "t_p, t_s", "section 2.8", above=0)], ...],
+        Items(at_most=_MOST_TRACKS),
+    ]
     """Durations of the phases of one stride; tracks count phases from 0."""
-    gamma: tuple[Track, ...] = ()
+    gamma: Annotated[tuple[Track, ...], Items(at_most=_MOST_TRACKS)] = ()
     """Tracks of the fronts gamma, each of points [phase, place]; a place is a fraction of the length from the rear."""
-    eta: tuple[Track, ...] = ()
+    eta: Annotated[tuple[Track, ...], Items(at_most=_MOST_TRACKS)] = ()
     """Tracks of the fronts eta, each a list of points [phase, place]."""
-    anchor: tuple[Track, ...] = ()
+    anchor: Annotated[tuple[Track, ...], Items(at_most=_MOST_TRACKS)] = ()
     """Tracks of the point anchored to the ground, likewise; they follow each other without gaps."""
-    measured: tuple[Measured, ...] = ()
+    measured: Annotated[tuple[Measured, ...], Items(at_most=_MOST_TRACKS)] = ()
     """Measured tracks, in addition to those above."""
-    chambers: tuple[Chamber, ...] = ()
+    chambers: Annotated[tuple[Chamber, ...], Items(at_most=_MOST_TRACKS)] = ()
     """Chambers from the rear to the front, in place of fronts."""
     at_rest: Muscle = "anchoring"
     """The load on the whole body while no front is on it, or where no row of a chamber says another."""
@@ -82,6 +91,7 @@ class Gait(Parameters):
             raise PydanticCustomError(
                 "gait", "'phases' is empty; give the duration of at least one phase"
             )
+        self._check_work()
         self._check_measured()
         self._check_chambers()
         for name in ("gamma", "eta", "anchor"):
@@ -95,6 +105,21 @@ class Gait(Parameters):
         for phase in self.breaks():
             self._refuse_sudden_change(phase)
         return self
+
+    def _check_work(self) -> None:
+        """Points and rows are few enough to be checked against each other at once."""
+        tracks = (*self.gamma, *self.eta, *self.anchor, *(m.table for m in self.measured))
+        points = sum(map(len, tracks))
+        if points > _MOST_POINTS or points * len(tracks) ** 2 > _MOST_COMPARED:
+            raise PydanticCustomError(
+                "gait",
+                f"has {len(tracks)} tracks of {points} points together, too many to compare; give fewer of either",
+            )
+        rows = sum(len(chamber.schedule) for chamber in self.chambers)
+        if rows > _MOST_ROWS:
+            raise PydanticCustomError(
+                "gait", f"has {rows} rows in 'chambers' together; give {_MOST_ROWS} or fewer"
+            )
 
     @property
     def duration(self) -> float:
@@ -135,17 +160,21 @@ class Gait(Parameters):
     def time(self, phase: float) -> float:
         """Seconds since the start of the stride."""
         whole = min(int(phase), len(self.phases) - 1)
-        return math.fsum(self.phases[:whole]) + (phase - whole) * self.phases[whole]
+        return self._starts[whole] + (phase - whole) * self.phases[whole]
 
     def phase(self, time: float) -> float:
         """The phase at a time [s] since the start of the stride; beyond its end, as if the last phase went on."""
-        starts = [math.fsum(self.phases[:n]) for n in range(len(self.phases))]
         whole = max(
             n
-            for n, start in enumerate(starts)
+            for n, start in enumerate(self._starts)
             if n == 0 or time >= start - PHASE_TOLERANCE * self.phases[n]
         )
-        return whole + max(0.0, (time - starts[whole]) / self.phases[whole])
+        return whole + max(0.0, (time - self._starts[whole]) / self.phases[whole])
+
+    @functools.cached_property
+    def _starts(self) -> tuple[float, ...]:
+        """When each phase starts [s]."""
+        return tuple(math.fsum(self.phases[:n]) for n in range(len(self.phases)))
 
     def rise(self, time: float) -> float:
         """The part of the loads that acts at a time [s] of the first stride; chambers have ramps of their own."""
@@ -213,24 +242,34 @@ class Gait(Parameters):
         raise AssertionError("the tracks of the anchor were checked to cover the stride")
 
     def instants(self, step: float) -> list[Instant]:
-        """The stride from its start to its end, in equal steps of at most `step` [s] within each phase.
+        """The instants of one stride: its breaks, and between them at most `step` [s] apart."""
+        return [Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in self._divided(step)]
 
-        Every break of a track is among the times; without them strides are wrong by millimetres.
+    def telling_phases(self, step: float) -> list[float]:
+        """Phases of its breaks and of one instant between each two: all that tell which loads ever act."""
+        phases, found = self._divided(step), self.breaks()
+        for begin, end in itertools.pairwise(tuple(found)):
+            next_one = phases[bisect.bisect_right(phases, begin + PHASE_TOLERANCE)]
+            if next_one < end - PHASE_TOLERANCE:
+                found.append(next_one)
+        return sorted(found)
 
-        Raises
-        ------
-        InputError : the step is too short.
-        """
-        if self.duration > _MAX_INSTANTS * step:
-            raise InputError(
-                f"'step' = {step:g} s divides a stride of {self.duration:g} s into more than {_MAX_INSTANTS} instants; "
-                "take a longer one"
+    def check_step(self, step: float) -> None:
+        """Raise PydanticCustomError if a step [s] makes too many instants."""
+        if self.duration > _MOST_INSTANTS * step:
+            raise PydanticCustomError(
+                "step",
+                f"'step' = {step:g} s divides a stride of {self.duration:g} s into more than {_MOST_INSTANTS} "
+                "instants; take a longer one",
             )
+
+    def _divided(self, step: float) -> list[float]:
+        """The phases of the instants, increasing."""
         phases = self.breaks()
         for number, duration in enumerate(self.phases):
-            count = math.ceil(duration / step - PHASE_TOLERANCE)
+            count = max(1, math.ceil(duration / step - PHASE_TOLERANCE))
             phases.extend(number + k / count for k in range(count + 1))
-        return [Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in _distinct(phases)]
+        return _distinct(phases)
 
     def _check_measured(self) -> None:
         for number, measured in enumerate(self.measured):

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import bisect
+from typing import Annotated
 
+from cosserat.parameters import Items
 from cosserat.peristalsis.chambers import NEAR, Phase, Place
 
 PHASE_TOLERANCE = NEAR
 """Phases closer than this are one."""
-Track = tuple[tuple[Phase, Place], ...]
+Track = Annotated[tuple[tuple[Phase, Place], ...], Items(at_most=10_000)]
 """A piecewise-linear path: points (phase, place)."""
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Count, Parameters, Quantity
+from cosserat.parameters import Count, Items, Parameters, Quantity
 from cosserat.peristalsis.body import piece_at, scales_at
 from cosserat.peristalsis.crawler import Crawler, Loads
 from cosserat.peristalsis.gait import Gait, Instant
@@ -169,7 +169,7 @@ class Posture(CrawlerProblem):
     """One instant: any sequence of regions, from the rear end to the front end."""
 
     kind: Literal["posture"] = "posture"
-    regions: tuple[Segment, ...]
+    regions: Annotated[tuple[Segment, ...], Items(1, 500)]
     """Ranges of the loads, from the rear end to the front end, without gaps."""
 
     @model_validator(mode="after")
@@ -240,15 +240,15 @@ class Crawl(CrawlerProblem):
 
     @model_validator(mode="after")
     def _is_possible(self) -> Self:
-        instants = self.gait.instants(self.step)
+        self.gait.check_step(self.step)
         pulls = self.loads.anchoring > 0 or any(chamber.force for chamber in self.gait.chambers)
         if not (pulls and holds_force(self.crawler, self.loads)):
             return self
-        for instant in instants:
-            if not any(region.load == "anchoring" for region in instant.regions):
+        for phase in self.gait.telling_phases(self.step):
+            if not any(region.load == "anchoring" for region in self.gait.regions(phase)):
                 raise PydanticCustomError(
                     "gait",
-                    f"at phase {instant.phase:g} no region anchors, and the force in the advancing ones would jump to "
+                    f"at phase {phase:g} no region anchors, and the force in the advancing ones would jump to "
                     "zero; keep an anchoring region, or set loads.advancing_force = 'none'",
                 )
         return self

@@ -104,7 +104,7 @@ class RayleighDamping(Damping):
     """Two fractions of critical damping."""
     frequencies: tuple[Annotated[float, Quantity("Hz", above=0)], ...] | None = None
     """The two frequencies at which they hold."""
-    modes: tuple[Annotated[int, Count(at_least=1)], ...] | None = None
+    modes: tuple[Annotated[int, Count(at_least=1, at_most=100_000)], ...] | None = None
     """The numbers of the two modes in which they hold, in place of frequencies; the lowest is 1."""
 
     @model_validator(mode="after")
@@ -196,7 +196,7 @@ class ModalDamping(Damping):
     """Fractions of critical damping of the lowest modes, in their order."""
     ratio: Ratio | None = None
     """One fraction for all of them."""
-    modes: Annotated[int, Count(at_least=1)] | None = None
+    modes: Annotated[int, Count(at_least=1, at_most=100_000)] | None = None
     """Number of damped modes, for one ratio."""
 
     @model_validator(mode="after")

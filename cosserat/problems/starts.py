@@ -32,7 +32,7 @@ class Start(Parameters):
     shape: Literal["reference", "first beam mode", "equilibrium"] = "reference"
     """Shape: "first beam mode" bends the rod by eq. (3.5.16) and rotates the directors with it; "equilibrium" is that
     of `start_from`, or else under the loads of the motion that do not depend on time."""
-    mode: Annotated[int, Count(at_least=1)] | None = None
+    mode: Annotated[int, Count(at_least=1, at_most=100_000)] | None = None
     """Number of a natural mode about that shape, which is added to it; the lowest that deforms the rod is 1."""
     amplitude: Annotated[float, Quantity("m")] = 0.0
     """Displacement of the tip in the first beam mode, twice A_1 of eq. (3.5.16); of a natural mode, the largest."""

@@ -189,7 +189,7 @@ class PrescribedRotation(Constraint):
     Static: applied with the load.  Dynamic: at once, or over time.
     """
 
-    by: Annotated[float, Quantity("rad")]
+    by: Annotated[float, Quantity("rad", at_least=-1e3, at_most=1e3)]
     """Angle from E3 towards E2."""
     time_function: AnyTimeFunction | None = None
     """Fraction of the angle over time, of a motion only; without one, the section rotates at the start."""

@@ -84,7 +84,7 @@ class Mode(Imperfection):
     """A natural mode of the supported rod without loads."""
 
     kind: Literal["mode"] = "mode"
-    mode: Annotated[int, Count(at_least=1)] = 1
+    mode: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
     """Number of the mode, from 1 for the lowest that deforms the rod."""
 
     def shape(self, problem: RodProblem, perfect: Geometry) -> Array:

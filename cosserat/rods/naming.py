@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
@@ -12,7 +11,7 @@ from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.parameters import Quantity, Reader, from_file
-from cosserat.units import to_si
+from cosserat.text import checked_name, shown
 
 Array = NDArray[np.float64]
 _DIRECTIONS = {"E3": (1.0, 0.0), "-E3": (-1.0, 0.0), "E2": (0.0, 1.0), "-E2": (0.0, -1.0)}
@@ -41,12 +40,12 @@ class DirectionName(Reader):
         required = from_file(info)
         try:
             if not isinstance(value, list | tuple):
-                return to_si(value, "rad", unit_required=required)
-            components = tuple(to_si(part, "1", unit_required=required) for part in value)
+                return Quantity("rad").read(value, unit_required=required)
+            components = tuple(Quantity("1").read(part, unit_required=required) for part in value[:3])
         except PydanticCustomError:
             components = ()
         if len(components) != 2 or not any(components):
-            raise PydanticCustomError("direction", f"is {value!r}; it must be {self.said}")
+            raise PydanticCustomError("direction", f"is {shown(value)}; it must be {self.said}")
         return components
 
 
@@ -55,9 +54,7 @@ DofName = Literal["x3", "x2", "d3", "d2"]
 
 
 def _check_name(name: str) -> str:
-    if not re.fullmatch(r"[^\W\d][\w -]*", name):
-        raise PydanticCustomError("name", f"is {name!r}; begin it with a letter, such as 'tip'")
-    return name
+    return checked_name(name, r"[^\W\d][\w -]*", "; begin it with a letter, such as 'tip'")
 
 
 Name = Annotated[str, AfterValidator(_check_name)]
@@ -69,7 +66,7 @@ def check_names(key: str, names: Sequence[str]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise PydanticCustomError(
-                "twice", f"'{key}' has two named {name!r}; give each a name of its own"
+                "twice", f"'{key}' has two named {shown(name)}; give each a name of its own"
             )
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError, core_schema
 
 from cosserat.parameters import Count, Quantity, Reader
-from cosserat.units import to_si
+from cosserat.text import shown
 
 Array = NDArray[np.float64]
 _NEAR = 1e-9  # distance to a vertex, as a fraction of the length, below which a place is that vertex
@@ -37,7 +37,7 @@ class PlaceName(Reader):
         if isinstance(value, str):
             return value if value in ("first", "last") else _in_metres_or_percent(value)
         if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 0:
-            raise PydanticCustomError("type", f"is {value!r}; it must be {self.said}")
+            raise PydanticCustomError("type", f"is {shown(value)}; it must be {self.said}")
         return int(value)
 
 
@@ -47,13 +47,15 @@ Place = Annotated[str | int, PlaceName()]
 def _in_metres_or_percent(text: str) -> str:
     part = text.strip().endswith("%")
     try:
-        number = to_si(text, "1" if part else "m", unit_required=True)
-    except PydanticCustomError:
-        raise PydanticCustomError("type", f"is {text!r}; it must be {PlaceName().said}") from None
+        number = Quantity("1" if part else "m").read(text, unit_required=True)
+    except PydanticCustomError as error:
+        if error.type == "range":
+            raise
+        raise PydanticCustomError("type", f"is {shown(text)}; it must be {PlaceName().said}") from None
     if number < 0:
-        raise PydanticCustomError("range", f"is {text!r}; it must not be before the first vertex")
-    shown = float(f"{100 * number if part else number:.15g}")
-    return f"{shown!r} {'%' if part else 'm'}"
+        raise PydanticCustomError("range", f"is {shown(text)}; it must not be before the first vertex")
+    rounded = float(f"{100 * number if part else number:.15g}")
+    return f"{rounded!r} {'%' if part else 'm'}"
 
 
 @dataclass(frozen=True)

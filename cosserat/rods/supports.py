@@ -17,6 +17,7 @@ from pydantic_core import PydanticCustomError, core_schema
 from cosserat.parameters import Reader
 from cosserat.rods.constraints import Constraint
 from cosserat.rods.naming import Direction, DofName, Name, unit_vector
+from cosserat.text import shown
 
 Array = NDArray[np.float64]
 _FREE = "clamped, free to stretch"
@@ -67,11 +68,11 @@ class FixedName(Reader):
         """Read one word or a list."""
         if isinstance(value, str) and value in SUPPORTS:
             return value
-        if not isinstance(value, list | tuple):
-            raise PydanticCustomError("type", f"is {value!r}; it must be {self.said}")
+        if not isinstance(value, list | tuple) or len(value) > len(_DOFS):
+            raise PydanticCustomError("type", f"is {shown(value)}; it must be {self.said}")
         for name in value:
             if name not in _DOFS:
-                raise PydanticCustomError("type", f"has {name!r}; it must be {self.said}")
+                raise PydanticCustomError("type", f"has {shown(name)}; it must be {self.said}")
         return tuple(value)
 
 

@@ -32,9 +32,9 @@ _DECISIVE_ROUND_OFF_RATIO = 5.0  # a force above this multiple of its round-off 
 class NewtonSettings(Parameters):
     """Tolerances and limits of Newton's method."""
 
-    tolerance: Annotated[float, Quantity("1", above=0, below=1)] = 1e-10
+    tolerance: Annotated[float, Quantity("1", at_least=1e-16, below=1)] = 1e-10
     """Largest unbalanced force allowed, as a fraction of the largest load or reaction."""
-    max_iterations: Annotated[int, Count(at_least=1)] = 50
+    max_iterations: Annotated[int, Count(at_least=1, at_most=100_000)] = 50
     """Most Newton iterations of an equilibrium."""
     load_increments: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
     """Number of equal load increments."""

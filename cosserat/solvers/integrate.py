@@ -32,7 +32,7 @@ class IntegratorSettings(Parameters):
     """"implicit" keeps energy; "rk45" is the thesis's adaptive explicit Runge-Kutta; "rk4" has a fixed step."""
     step: Annotated[float, Quantity("s", "h", above=0)]
     """Time step; of "rk45", the largest."""
-    tolerance: Annotated[float, Quantity("1", above=0, below=1)] = 1e-8
+    tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1)] = 1e-8
     """Relative tolerance of "rk45"."""
 
 

@@ -63,7 +63,7 @@ class RegionSettings(Parameters):
     """Degree of the polynomials in each element."""
     tolerance: Annotated[float, Quantity("1", at_least=1e-13, below=1e-3)] = 1e-11
     """Largest correction of a converged answer."""
-    max_iterations: Annotated[int, Count(at_least=1)] = 50
+    max_iterations: Annotated[int, Count(at_least=1, at_most=100_000)] = 50
     """Most Newton iterations of an instant."""
 
 

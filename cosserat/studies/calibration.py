@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.exact import beams
-from cosserat.parameters import Count
+from cosserat.parameters import Count, Items
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import RodProblem
@@ -52,7 +52,9 @@ class CalibrationProcedure(Problem):
     """The four problems of section 3.5, and the numbers of vertices at which to calibrate."""
 
     kind: Literal["calibration"] = "calibration"
-    meshes: tuple[Annotated[int, Count("N", "3.3.1", at_least=5)], ...]
+    meshes: Annotated[
+        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=100_001)], ...], Items(1, 100)
+    ]
     """Numbers of vertices at which to calibrate."""
     hanging_bar: RodStatics
     """The bar that hangs under its weight, Fig. 3.8(a)."""

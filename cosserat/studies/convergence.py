@@ -11,7 +11,7 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.exact import beams, elastica
-from cosserat.parameters import Count
+from cosserat.parameters import Count, Items
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.dead import PointForce
@@ -46,7 +46,9 @@ class Convergence(Problem):
     """Problems with exact answers, and the numbers of vertices at which to solve them."""
 
     kind: Literal["convergence"] = "convergence"
-    meshes: tuple[Annotated[int, Count("N", "3.3.1", at_least=5)], ...]
+    meshes: Annotated[
+        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=100_001)], ...], Items(1, 100)
+    ]
     """Numbers of vertices; odd, so that a vertex is at mid-span."""
     clamped_free: RodStatics
     """A beam clamped at its first vertex, under its weight."""

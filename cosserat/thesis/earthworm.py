@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Quantity
+from cosserat.parameters import Items, Quantity
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.crawl import Crawl
 from cosserat.solution import Field, Solution
@@ -97,7 +97,9 @@ class BodyMasses(Problem):
     kind: Literal["body masses"] = "body masses"
     worm: Crawl
     """The worm that is scaled."""
-    masses: tuple[Annotated[float, Quantity("kg", "m", "2.8.4", above=0)], ...]
+    masses: Annotated[
+        tuple[Annotated[float, Quantity("kg", "m", "2.8.4", above=0)], ...], Items(at_most=100)
+    ]
     """Body masses."""
     muscles: Muscles = "constant stress"
     """Scaling law of the force and the pressure of the muscles with the body mass."""

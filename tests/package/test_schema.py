@@ -12,6 +12,7 @@ from test_units import READ, REFUSED
 
 import cosserat
 from cosserat.cases import catalogue
+from cosserat.cases.tables import Tables
 from cosserat.cli import main
 from cosserat.describe.keys import common_keys, keys
 from cosserat.describe.schema import as_written, merged
@@ -70,7 +71,7 @@ def whole():
 
 def table_of(name):
     """The merged table of a published case."""
-    return without_dropped(catalogue._inherit(name, published_tables(), ()))
+    return without_dropped(Tables(published_tables()).inherited(name))
 
 
 def without_dropped(table):

@@ -108,8 +108,9 @@ REFUSED = [
     ("m", "", "which is not a number with a unit"),
     ("m", "1/0 m", "which is not a number with a unit"),
     ("m", "1/" + "9" * 5000 + " m", "..."),
-    ("m", "x" * 5000, 'xxx...", which is not a number'),
-    ("m", "9" * 5000 + " m", "it must be a finite number"),
+    ("m", "x" * 5000, 'xxx...", a text of 5000 characters'),
+    ("m", "9" * 5000 + " m", "a text of 5002 characters"),
+    ("m", "1e400 m", "it must be a finite number"),
 ]  # fmt: skip
 
 

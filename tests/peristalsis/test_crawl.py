@@ -180,7 +180,7 @@ def posture(regions):
             "'regions.1' from 0.4 to 0.4 is empty",
         ),
         ([REGIONS[0]], "'regions' end at 0.4; they must cover the body"),
-        ([], "'regions' end at 0; they must cover the body"),
+        ([], "'regions' has 0 items; it must have from 1 to 500"),
         (
             [{**REGIONS[0], "load": "pulling"}, REGIONS[1]],
             "it must be 'anchoring', 'advancing' or 'relaxed'",
@@ -237,18 +237,18 @@ def test_an_incompressible_body_without_an_anchoring_region_is_refused():
     ("changes", "sentence"),
     [
         (
-            {"step": "1e-320 s"},
-            "'step' = 9.99989e-321 s divides a stride of 4.9 s into more than 100000 instants",
+            {"step": "1 ns"},
+            "'step' = 1e-09 s divides a stride of 4.9 s into more than 20000 instants",
         ),
         ({"mesh": {"elements": 2}}, "'mesh.elements' is 2; it must be at least 3"),
         (
-            {"crawler": {"radius": "1e-100 m"}},
-            "has length / radius = 2.5e[+]99; it must be below 1e[+]06",
+            {"crawler": {"radius": "1 nm"}},
+            "has length / radius = 2.5e[+]08; it must be below 1e[+]06",
         ),
         ({"crawler": {"density": "1 kg/m^3"}}, "'crawler' has both a mass and a density; give one"),
         (
-            {"crawler": {"material": {"kind": "compressible", "young": "10 kPa", "bulk": "1e30 Pa"}}},
-            "Poisson's ratio nu = 0.5; it must be",
+            {"crawler": {"material": {"kind": "compressible", "young": "10 kPa", "bulk": "1e15 Pa"}}},
+            "Poisson's ratio nu = 0.499999999998; it must be",
         ),
         ({"crawler": {"material": {"kind": "rubber"}}}, "crawler.material"),
         (

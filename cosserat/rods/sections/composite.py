@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Parameters, Quantity
+from cosserat.parameters import Items, Parameters, Quantity
 from cosserat.rods.elasticity import Along, Elastic, LateralConstraint
 from cosserat.rods.material import Material
 from cosserat.rods.sections.section import Section, ShearFactor
@@ -103,7 +103,7 @@ class Layers(Composite):
     """Rectangular layers of several materials on each other, bonded."""
 
     shape: Literal["layers"] = "layers"
-    layers: tuple[Layer, ...]
+    layers: Annotated[tuple[Layer, ...], Items(at_most=100)]
     """Layers from the lower surface to the upper one."""
     shear_factor: Annotated[float | str, ShearFactor("jourawski")] = "jourawski"
     """Factor of the sum of G A of the layers, or "jourawski": of the shear stresses that balance those of bending.

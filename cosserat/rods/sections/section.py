@@ -15,7 +15,7 @@ from cosserat.parameters import Parameters, Quantity, Reader
 from cosserat.rods.elasticity import Along, LateralConstraint, of_one_material
 from cosserat.rods.material import Material
 from cosserat.rods.variation import Station
-from cosserat.units import to_si
+from cosserat.text import shown
 
 Array = NDArray[np.float64]
 
@@ -77,7 +77,11 @@ class ShearFactor(Reader):
     @property
     def alternatives(self) -> Any:
         """A number or the word."""
-        return Annotated[float, Quantity("1", "k", "3.4.13", above=0)] | Literal[self.word]
+        return Annotated[float, self._number] | Literal[self.word]
+
+    @property
+    def _number(self) -> Quantity:
+        return Quantity("1", "k", "3.4.13", above=0)
 
     @property
     def said(self) -> str:
@@ -86,15 +90,14 @@ class ShearFactor(Reader):
 
     def check(self, value: object, info: core_schema.ValidationInfo) -> float | str:
         """Read one factor."""
-        if value == self.word:
+        if isinstance(value, str) and value == self.word:
             return self.word
         try:
-            number = to_si(value, "1", unit_required=False)
-        except PydanticCustomError:
-            raise PydanticCustomError("type", f"is {value!r}; it must be {self.said}") from None
-        if number <= 0:
-            raise PydanticCustomError("range", f"is {number:g}; it must be above 0")
-        return number
+            return self._number.check(value, info)
+        except PydanticCustomError as error:
+            if error.type == "range":
+                raise
+            raise PydanticCustomError("type", f"is {shown(value)}; it must be {self.said}") from None
 
 
 class Homogeneous(Section):

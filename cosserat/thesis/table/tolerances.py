@@ -52,11 +52,11 @@ class Row(Parameters):
     kind: Kind
     case: str = ""
     readout: str = ""
-    tolerance: Annotated[float, Quantity("1", above=0)] | None = None
+    tolerance: Annotated[float, Quantity("1", above=0, at_least=1e-18)] | None = None
     tolerance_kind: Literal["abs", "rel"] | None = None
     claim: Literal["within", "outside"] | None = None
     found: Annotated[float, Quantity("1")] | None = None
-    found_tolerance: Annotated[float, Quantity("1", above=0)] | None = None
+    found_tolerance: Annotated[float, Quantity("1", above=0, at_least=1e-18)] | None = None
     why: str
     standing: Standing
     erratum: str = ""

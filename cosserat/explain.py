@@ -1,0 +1,143 @@
+"""Error sentences: what validation found, in the words of a case."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Literal, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+from pydantic_core.core_schema import ErrorType
+
+from cosserat.parameters import (
+    Choice,
+    Count,
+    Quantity,
+    Reader,
+    chooser,
+    cited,
+    classes_in,
+    docstrings,
+    nearest,
+)
+from cosserat.text import shortened, shown
+from cosserat.units import how_to_write
+
+_MOST_FAULTS = 8  # that a sentence names
+
+_EXPECTED = {
+    "model_type": "a table of keys",
+    "model_attributes_type": "a table of keys",
+    "dict_type": "a table of keys",
+    "union_tag_not_found": "a table of keys",
+    "string_type": "a text",
+    "string_sub_type": "a text",
+    "string_unicode": "a text",
+    "tuple_type": "a list",
+    "list_type": "a list",
+    "too_long": "a shorter list",
+    "too_short": "a longer list",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+}
+"""What must stand in the place of a value, by pydantic's name of the fault."""
+
+
+def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
+    """One sentence with the faults that validation found, up to a few."""
+    faults = error.errors(include_url=False)
+    clauses = [_clause(fault, owner) for fault in faults[:_MOST_FAULTS]]
+    if len(faults) > _MOST_FAULTS:
+        clauses.append(f"and {len(faults) - _MOST_FAULTS} more faults like these")
+    return f"{name}: " + "; ".join(clauses)
+
+
+def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
+    loc, kind, given = fault["loc"], fault["type"], fault["input"]
+    parts = [
+        shortened(str(part))
+        for n, part in enumerate(loc)
+        if not _chosen(part, _choice_at(owner, loc[:n]))
+    ]
+    path = shortened(".".join(parts), 200)
+    if kind == "missing":
+        return f"'{path}' is missing{_what_it_is(owner, loc)}"
+    if kind == "extra_forbidden":
+        keys = list(_choice_at(owner, loc[:-1])[0].model_fields)
+        return f"'{path}' is not a key{nearest(str(loc[-1]), keys)}"
+    if kind == "literal_error":
+        return f"'{path}' is {shown(given)}; it must be {fault['ctx']['expected']}"
+    if kind == "union_tag_invalid":
+        key = chooser(_choice_at(owner, loc))
+        tag = shown(fault["ctx"]["tag"])
+        return f"'{path}.{key}' is {tag}; it must be {fault['ctx']['expected_tags']}"
+    if kind == "union_tag_not_found" and isinstance(given, Mapping):
+        choice = _choice_at(owner, loc)
+        return f"'{path}.{chooser(choice)}' is missing: write {_words(choice, chooser(choice))}"
+    if kind in _EXPECTED or kind in _OF_PYDANTIC:
+        expected = _EXPECTED.get(kind, "as 'cosserat describe' says")
+        return f"'{path}' is {shown(given)}; it must be {expected}"
+    return f"'{path}' {fault['msg']}" if path else fault["msg"]
+
+
+_OF_PYDANTIC = frozenset(get_args(ErrorType))
+"""Faults whose words are pydantic's and not ours."""
+
+
+def _words(choice: Choice, key: str) -> str:
+    """The words of several classes for the key by which they differ."""
+    return " or ".join(repr(c.model_fields[key].default) for c in choice)
+
+
+def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
+    """The clause after a missing key: its meaning, its symbol and source, and how to write it."""
+    key = str(path[-1])
+    place = next((c for c in _choice_at(owner, path[:-1]) if key in c.model_fields), None)
+    if place is None:
+        return ""
+    field = place.model_fields[key]
+    own = docstrings(place).get(key)
+    meaning = [_first_sentence(own)]
+    remedy = "see the cases in cosserat/thesis/cases for examples"
+    tables = classes_in(field.annotation)
+    for about in field.metadata:
+        if isinstance(about, Quantity | Count):
+            letter = re.sub(r"\\(?:mathbf|bar|tilde)|[\\{}]", "", about.symbol)
+            meaning.append(" of ".join(filter(None, (letter, cited(about.source)))))
+            least = f"write a whole number, {about.at_least} or more" if isinstance(about, Count) else ""
+            remedy = least or how_to_write(getattr(about, "unit", "1"))
+        elif isinstance(about, Reader) and about.said:
+            remedy = f"write {about.said}"
+    if tables:
+        needed = [name for name, inner in tables[0].model_fields.items() if inner.is_required()]
+        meaning += [] if own else [_first_sentence(tables[0].__doc__)]
+        tables_of = "list of tables" if get_origin(field.annotation) is tuple else "table"
+        if choosing := chooser(tables):
+            needed = [f"{choosing} = {_words(tables, choosing)}", "its keys"]
+        remedy = f"write a {tables_of} with {', '.join(needed) or 'its keys'}"
+    elif get_origin(field.annotation) is Literal:
+        remedy = f"write {' or '.join(map(repr, get_args(field.annotation)))}"
+    elif field.annotation is str and not any(isinstance(m, Quantity | Reader) for m in field.metadata):
+        remedy = "write a text"
+    return ", ".join(["", *filter(None, meaning)]) + f": {remedy}"
+
+
+def _first_sentence(text: str | None) -> str:
+    first = re.split(r"[.:;](?:\s|$)", (text or "").strip())[0]
+    return first[:1].lower() + first[1:]
+
+
+def _chosen(kind: int | str, choice: Choice) -> Choice:
+    """The classes of one kind among several; validation puts the kind into the path like a key."""
+    name = chooser(choice)
+    return [c for c in choice if c.model_fields[name].default == kind] if name else []
+
+
+def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
+    """The possible parameter classes at a path of nested tables, lists and kinds."""
+    choice = [owner]
+    for part in path:
+        fields = [c.model_fields[str(part)] for c in choice if str(part) in c.model_fields]
+        choice = _chosen(part, choice) or (classes_in(fields[0].annotation) if fields else choice)
+    return choice or [owner]

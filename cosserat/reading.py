@@ -1,0 +1,23 @@
+"""Files that people give: read as text, up to a size."""
+
+from __future__ import annotations
+
+import errno
+from pathlib import Path
+
+
+def read_text(file: Path, most: int) -> str:
+    """The text of a file of at most so many bytes, without the mark that Windows puts before it.
+
+    Raises
+    ------
+    OSError : it cannot be read, or is larger.  UnicodeDecodeError : it is not in UTF-8.
+    """
+    try:
+        with file.open("rb") as opened:
+            found = opened.read(most + 1)
+    except ValueError:  # a zero byte, or half a character
+        raise OSError(errno.EINVAL, "no file has such a name") from None
+    if len(found) > most:
+        raise OSError(errno.EFBIG, f"it is larger than {most / 1e6:g} MB")
+    return found.decode("utf-8-sig")
