@@ -11,7 +11,7 @@ import sys
 import warnings
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from cosserat import commands
 from cosserat.errors import CosseratError, CosseratWarning, InputError
@@ -19,9 +19,10 @@ from cosserat.limits import GIGABYTES, HOURS
 from cosserat.parameters import nearest
 from cosserat.publications import AddCommand, Command, publications
 from cosserat.signals import Stopped
-from cosserat.text import printable
+from cosserat.text import printable, shown
 
 _OWN = "commands"
+_LONGEST_LINE = 2000  # characters of an error, whatever a file or a library put into it
 _EXAMPLE = """\
 example:
   cosserat run clamped_free        solves it and writes clamped_free.nc here
@@ -67,26 +68,33 @@ def main(arguments: list[str] | None = None) -> int:
             options = _read(sys.argv[1:] if arguments is None else arguments)
             command: Command = options.command
             command(options)
-            sys.stdout.flush()
+            if sys.stdout is not None:  # there is none if the shell closed it
+                sys.stdout.flush()
     except CosseratError as error:
-        lines = map(printable, str(error).split("\n"))
-        print("cosserat: " + "\n".join(lines), file=sys.stderr)
+        _complain(str(error))
         return 2 if isinstance(error, InputError) else 1
     except MemoryError:
-        print(
-            "cosserat: there is not enough memory; use fewer vertices, sections, elements or frames",
-            file=sys.stderr,
-        )
+        _complain("there is not enough memory; use fewer vertices, sections, elements or frames")
         return 2
     except KeyboardInterrupt as interrupt:
         stopped = interrupt if isinstance(interrupt, Stopped) else Stopped(signal.SIGINT)
-        with contextlib.suppress(OSError):  # a closed terminal takes no line
-            print(f"cosserat: {stopped}", file=sys.stderr)
+        _complain(str(stopped))
         return stopped.status
     except BrokenPipeError:
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - whoever read our output has gone
         return 0
+    except OSError as error:  # files have sentences of their own, so it is what the command prints
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - what is left unprinted cannot be printed
+        _complain(f"cannot write to standard output: {error.strerror or error}; send it elsewhere")
+        return 2
     return 0
+
+
+def _complain(message: str) -> None:
+    """Print a sentence about what went wrong; a closed terminal takes none."""
+    lines = (printable(line)[:_LONGEST_LINE] for line in message.split("\n"))
+    with contextlib.suppress(OSError):
+        print("cosserat: " + "\n".join(lines), file=sys.stderr)
 
 
 @contextlib.contextmanager
@@ -115,23 +123,22 @@ def _read(arguments: list[str]) -> argparse.Namespace:
     known: dict[str, argparse.ArgumentParser] = dict(actions[0].choices or {})
     word = arguments[0] if arguments else "--help"
     if not word.startswith("-") and word not in known:
-        raise InputError(f"there is no command '{word}'{nearest(word, list(known), 0.6)}")
+        raise InputError(f"there is no command {shown(word)}{nearest(word, list(known), 0.6)}")
     options, unknown = parser.parse_known_args(arguments or [word])
-    if unknown and unknown[0].startswith("-"):
-        named = [name for name in known[word]._option_string_actions if name.startswith("--")]
-        given = unknown[0].partition("=")[0]
-        raise InputError(f"'cosserat {word}' has no option '{given}'{nearest(given, named)}")
-    if unknown:
-        raise InputError(
-            f"'{unknown[0]}' is one word too many; 'cosserat {word} --help' tells what it takes"
-        )
-    return options
+    if not unknown:
+        return options
+    asked = known.get(word, parser)
+    given = unknown[0].partition("=")[0]
+    if given.startswith("-"):
+        named = [name for name in asked._option_string_actions if name.startswith("--")]
+        raise InputError(f"'{asked.prog}' has no option {shown(given)}{nearest(given, named)}")
+    raise InputError(f"{shown(given)} is one word too many; '{asked.prog} --help' tells what it takes")
 
 
 def parser_of_commands() -> argparse.ArgumentParser:
     """The reader of the command line, with the commands of the publications."""
     listed: dict[str, list[tuple[str, str]]] = {_OWN: []}
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="cosserat",
         usage="cosserat [-h] [--version] COMMAND ...",
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -268,6 +275,13 @@ def _add_listings(add: AddCommand) -> None:
 
     sub = add("cases", commands.cases, "list the cases: the published ones, or those of your file")
     sub.add_argument("--file", type=Path, help="TOML file of cases (default: the published ones)")
+
+
+class _Parser(argparse.ArgumentParser):
+    """Raises its complaints, which argparse would print with the usage in front."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"'{self.prog}': {message}; '{self.prog} --help' tells what it takes")
 
 
 class _Version(argparse.Action):

@@ -90,9 +90,10 @@ def _run_case(case: Case, path: Path, limits: Limits, *, file: Path | None, keep
     from cosserat.data.dataset import effort, warnings_of
     from cosserat.data.files import check_destination
     from cosserat.data.locks import only_writer
-    from cosserat.data.netcdf import save
+    from cosserat.data.netcdf import check_replaceable, save
 
     check_destination(path, ".nc", inputs=() if file is None else (file,))
+    check_replaceable(path)
     from cosserat.runner import run as solve
 
     with only_writer(path):
@@ -193,14 +194,16 @@ def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]
 def plot(options: argparse.Namespace) -> None:
     """Draw or animate a result."""
     from cosserat.data.files import check_destination
+    from cosserat.data.netcdf import existing
     from cosserat.figures.doors import animate, plot
 
-    path = options.animate or options.output or options.file.with_suffix(".svg")
-    check_destination(path, inputs=(options.file,))
+    file = existing(options.file)
+    path = options.animate or options.output or file.with_suffix(".svg")
+    check_destination(path, inputs=(file,))
     if options.animate is not None:
-        animate(options.file, path, options.frames)
+        animate(file, path, options.frames)
     else:
-        plot(options.file, path)
+        plot(file, path)
     print(f"wrote {path}")
 
 

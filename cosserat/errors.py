@@ -33,9 +33,16 @@ def path_of(given: object) -> Path:
     ------
     InputError : it is neither.
     """
-    if isinstance(given, str | os.PathLike):
-        return Path(given)
-    raise InputError(f"{shown(given)} names no file; give a path as a text or a pathlib.Path")
+    if not isinstance(given, str | os.PathLike):
+        raise InputError(f"{shown(given)} names no file; give a path as a text or a pathlib.Path")
+    path = Path(given)
+    try:
+        os.fsencode(path).decode()
+        path.exists()
+    except (OSError, ValueError) as error:  # too long, with a null character, or not in UTF-8
+        why = getattr(error, "strerror", None) or error
+        raise InputError(f"{shown(str(path))} cannot name a file ({why}); give another path") from None
+    return path
 
 
 class OverLimitError(InputError):

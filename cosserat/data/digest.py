@@ -11,6 +11,7 @@ import hashlib
 import os
 import re
 from pathlib import Path
+from typing import BinaryIO
 
 _MARK = b"\ncosserat sha256:"
 _HEX = 64
@@ -41,11 +42,10 @@ def digest_of(path: Path) -> str | None:
     """
     with path.open("rb") as file:
         size = os.fstat(file.fileno()).st_size
-        file.seek(max(0, size - 2 * _LENGTH))
-        end = file.read()
+        end = _end(file, size)
         stored = re.fullmatch(re.escape(_MARK) + rb"([0-9a-f]{%d})\n" % _HEX, end[-_LENGTH:])
         if stored is None:
-            if any(_MARK[k : k + _REMNANT] in end for k in range(len(_MARK) - _REMNANT + 1)):
+            if _is_marked(end):
                 raise DamagedError
             return None
         file.seek(0)
@@ -57,3 +57,23 @@ def digest_of(path: Path) -> str | None:
     if found.hexdigest().encode() != stored[1]:
         raise DamagedError
     return found.hexdigest()
+
+
+def is_marked(path: Path) -> bool:
+    """Whether a file ends with a digest, perhaps a damaged one, so that cosserat wrote it.
+
+    Raises
+    ------
+    OSError : the file cannot be read.
+    """
+    with path.open("rb") as file:
+        return _is_marked(_end(file, os.fstat(file.fileno()).st_size))
+
+
+def _end(file: BinaryIO, size: int) -> bytes:
+    file.seek(max(0, size - 2 * _LENGTH))
+    return file.read()
+
+
+def _is_marked(end: bytes) -> bool:
+    return any(_MARK[k : k + _REMNANT] in end for k in range(len(_MARK) - _REMNANT + 1))

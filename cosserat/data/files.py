@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FrameType
 
-from cosserat.errors import InputError
+from cosserat.errors import InputError, path_of
 from cosserat.progress import size
 from cosserat.signals import SIGNALS
 
@@ -32,11 +32,7 @@ def check_destination(path: Path, *suffixes: str, inputs: Sequence[Path] = ()) -
         an input.
     """
     remedy = "choose another with --output"
-    try:
-        str(path).encode()
-        path.exists()
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path} cannot name a file ({error}); {remedy}") from None
+    path_of(path)
     if not path.parent.is_dir():
         raise InputError(f"the folder {path.parent} does not exist; make it first or {remedy}")
     if path.is_dir():

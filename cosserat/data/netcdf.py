@@ -11,7 +11,7 @@ from pathlib import Path
 import xarray as xr
 
 from cosserat.data.dataset import FORMAT, INTACT, version_of
-from cosserat.data.digest import DamagedError, digest_of, seal
+from cosserat.data.digest import DamagedError, digest_of, is_marked, seal
 from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
 from cosserat.errors import ChangedResultWarning, InputError, path_of
 from cosserat.text import printable
@@ -19,6 +19,7 @@ from cosserat.text import printable
 _FRAME = "frame"
 """Dimension of instants in a file, with `time` along it.  Tools of CF take a dimension named `time` for dates; here
 times are plain seconds from the start."""
+_UNKNOWN = "the netCDF library failed, perhaps for want of memory"
 _PROBE_TIME = 10.0  # seconds for a file that another program wrote, and more by its size
 _PROBE_MEMORY = 2 << 30  # bytes, likewise
 
@@ -45,8 +46,8 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
         try:
             with uninterrupted():
                 written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
-        except RuntimeError as error:  # of HDF5, which does not say why
-            raise OSError(str(error)) from None
+        except RuntimeError:  # of HDF5, which does not say why
+            raise OSError(_UNKNOWN) from None
         seal(temporary)
 
 
@@ -62,13 +63,7 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
     ------
     InputError : the file is missing, damaged, or no result of this version of cosserat.
     """
-    path = path_of(path)
-    if path.is_dir():
-        raise InputError(f"{path} is a folder; give the name of a netCDF file")
-    if not path.is_file():
-        raise InputError(
-            f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"
-        )
+    path = existing(path)
     intact = _has_digest(path)
     if not intact and own:
         raise InputError(
@@ -96,6 +91,36 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
         read = read.swap_dims({_FRAME: "time"})
     read.encoding |= {"source": str(path), INTACT: intact}
     return read
+
+
+def check_replaceable(path: Path) -> None:
+    """Raise InputError if a run would replace a file that cosserat did not write as it is."""
+    try:
+        foreign = path.exists() and not is_marked(path)
+    except OSError:
+        return  # whoever writes the file says what is wrong with it
+    if foreign:
+        raise InputError(
+            f"{path} was written or changed by another program, and the run would replace it; move it away or choose "
+            "another with --output"
+        )
+
+
+def existing(path: str | Path) -> Path:
+    """The path of a file that is there.
+
+    Raises
+    ------
+    InputError : it is not, or it is a folder.
+    """
+    path = path_of(path)
+    if path.is_dir():
+        raise InputError(f"{path} is a folder; give the name of a netCDF file")
+    if not path.is_file():
+        raise InputError(
+            f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"
+        )
+    return path
 
 
 def load_case(folder: Path, case: str) -> xr.Dataset:

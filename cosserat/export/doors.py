@@ -6,8 +6,8 @@ from pathlib import Path
 
 from cosserat.data.dataset import holding_what_is_needed
 from cosserat.data.files import check_destination
-from cosserat.data.netcdf import load
-from cosserat.errors import InputError
+from cosserat.data.netcdf import existing, load
+from cosserat.errors import InputError, path_of
 from cosserat.export.table import write_csv
 from cosserat.export.vtk import instant_of, write_vtk
 
@@ -25,6 +25,8 @@ def export(file: Path, to: str | None, output: Path | None, place: str | None) -
     ------
     InputError : neither format nor ending says what to write, or a file cannot be read or written.
     """
+    file = existing(file)
+    output = None if output is None else path_of(output)
     named = None if output is None or output.is_dir() else output
     folder = file.parent if output is None else output
     if to is None and named is not None:

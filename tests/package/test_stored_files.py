@@ -175,7 +175,7 @@ def test_a_changed_result_that_lacks_something_is_one_sentence_and_our_own_fault
         changed.to_netcdf(stored)
         for command in ("plot", "show", "export"):
             code = main([command, str(stored), *(["--to", "csv"] if command == "export" else [])])
-            out, err = capsys.readouterr()
+            err = capsys.readouterr().err
             warning, *error = err.splitlines()
             assert warning.startswith("warning: ")
             assert (code, len(error)) in ((0, 0), (2, 1)), (command, word, err)
@@ -197,6 +197,18 @@ def test_an_output_that_is_an_input_is_refused(stored, tmp_path, capsys):
         assert main(list(map(str, words))) == 2
         assert "is also read, and would be replaced" in capsys.readouterr().err
     assert picture.read_bytes() == whole
+
+
+def test_a_run_replaces_a_result_but_no_file_of_others(stored, tmp_path, capsys):
+    from cosserat.cli import main
+
+    for content in (b"mine", b"", stored.read_bytes().rpartition(b"\ncosserat")[0]):
+        (tmp_path / "a.nc").write_bytes(content)
+        assert main(["run", "necking", "-o", str(tmp_path / "a.nc")]) == 2
+        assert "a.nc was written or changed by another program" in capsys.readouterr().err
+        assert (tmp_path / "a.nc").read_bytes() == content
+    (tmp_path / "a.nc").write_bytes(stored.read_bytes()[:-1])
+    assert main(["run", "necking", "-o", str(tmp_path / "a.nc")]) == 0
 
 
 def test_a_link_as_output_is_followed(stored, solved, tmp_path):
