@@ -41,7 +41,7 @@ def export(file: Path, to: str | None, output: Path | None, place: str | None) -
     dataset = load(file)
     ending = "csv" if to == "csv" else "vtu" if instant_of(dataset) is None else "pvd"
     path = named or folder / f"{file.stem}.{ending}"
-    check_destination(path, f".{ending}", inputs=(file,))
+    check_destination(path, inputs=(file,))
     with holding_what_is_needed(dataset, "its table" if to == "csv" else "its mesh"):
         if to == "csv":
             write_csv(dataset, path, place)
