@@ -20,6 +20,9 @@
 # ```{eval-rst}
 # .. autofunction:: cosserat.run
 #
+# .. autoclass:: cosserat.Limits
+#    :members:
+#
 # .. autofunction:: cosserat.modes
 #
 # .. autofunction:: cosserat.case
@@ -50,6 +53,10 @@
 # .. autoexception:: cosserat.CosseratError
 #
 # .. autoexception:: cosserat.InputError
+#
+# .. autoexception:: cosserat.errors.OverLimitError
+#
+# .. autoexception:: cosserat.errors.ChangedResultWarning
 #
 # .. autoexception:: cosserat.UnsupportedRodError
 #

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from cosserat.errors import CosseratError, InputError, NotConvergedError, UnsupportedRodError
     from cosserat.export.table import to_dataframe
     from cosserat.figures.doors import animate, plot
+    from cosserat.limits import Limits
     from cosserat.runner import modes, run
 
 _HOMES = {
@@ -47,6 +48,7 @@ _HOMES = {
         ("animate", "animate"),
         ("plot", "plot"),
     ),
+    "cosserat.limits": (("Limits", "Limits"),),
     "cosserat.runner": (
         ("modes", "modes"),
         ("run", "run"),
@@ -58,6 +60,7 @@ __all__ = [
     "Case",
     "CosseratError",
     "InputError",
+    "Limits",
     "NotConvergedError",
     "UnsupportedRodError",
     "animate",

@@ -38,12 +38,12 @@ class Limits(Parameters):
         if forecast.seconds > 3600 * self.hours:
             raise OverLimitError(
                 f"{name}: {forecast.work} would take about {duration(forecast.seconds)}, over the limit of "
-                f"{self.hours:g} h; {forecast.less_work}, or raise the limit 'hours'"
+                f"{self.hours:g} h; {forecast.less_work}, or raise the limit --hours"
             )
         if forecast.size > 1e9 * self.gigabytes:
             raise OverLimitError(
                 f"{name}: {forecast.stored} would take {size(forecast.size)}, over the limit of {self.gigabytes:g} GB; "
-                f"{forecast.less_stored}, or raise the limit 'gigabytes'"
+                f"{forecast.less_stored}, or raise the limit --gigabytes"
             )
         if result is None:
             return
@@ -87,5 +87,5 @@ class Watched:
         self.report(fraction, words)
         if self._told - self._began > 3600 * self.limits.hours:
             raise OverLimitError(
-                f"{self.name} stopped after {duration(3600 * self.limits.hours)}, at {words}; raise the limit 'hours'"
+                f"{self.name} stopped after {duration(3600 * self.limits.hours)}, at {words}; raise the limit --hours"
             )

@@ -31,12 +31,12 @@ def motion(**changes):
         (
             {"duration": "1e8 s"},
             r"8e\+11 steps of 0\.000125 s would take about 370 days, over the limit of 24 h; take a longer "
-            r"'integrator\.step' or a shorter 'duration', or raise the limit 'hours'",
+            r"'integrator\.step' or a shorter 'duration', or raise the limit --hours",
         ),
         (
             {"duration": "100 s", "every": "0.2 us"},
             r"5e\+08 frames of 20 vertices would take 1\.68 TB, over the limit of 10 GB; take a longer 'every', or "
-            r"raise the limit 'gigabytes'",
+            r"raise the limit --gigabytes",
         ),
     ],
 )
@@ -47,7 +47,7 @@ def test_a_run_without_end_is_refused_at_once(changes, sentence):
 
 def test_a_crawl_without_end_is_refused_and_the_limit_is_raised_by_name(capsys):
     crawl = cosserat.case("worm").vary("crawl", strides=5000)
-    with pytest.raises(OverLimitError, match=r"crawl': .* instants would take .*GB.*'gigabytes'"):
+    with pytest.raises(OverLimitError, match=r"crawl': .* instants would take .*GB.*--gigabytes"):
         cosserat.run(crawl, limits=Limits(gigabytes=0.1))
     assert main(["run", "worm", "--gigabytes", "0"]) == 2
     assert "'gigabytes' is 0; it must be above 0" in capsys.readouterr().err
@@ -74,7 +74,7 @@ def test_a_run_stops_after_its_time():
     )
     watched(0.5, "half")
     with pytest.raises(
-        OverLimitError, match="case 'x' stopped after 1 s, at half; raise the limit 'hours'"
+        OverLimitError, match="case 'x' stopped after 1 s, at half; raise the limit --hours"
     ):
         watched.hear(0.7, 12)
     assert told == [(0.5, "half"), (0.5, "half")]
