@@ -185,6 +185,9 @@ class Parameters(BaseModel):
             return values
         kept: dict[str, Any] = {}
         for key, value in values.items():
+            if not isinstance(value, Dropped) and not (isinstance(value, str) and value == "none"):
+                kept[key] = value
+                continue
             field = cls.model_fields.get(key)
             word = field is not None and (
                 (field.annotation is str and not field.metadata)
@@ -193,7 +196,7 @@ class Parameters(BaseModel):
             if isinstance(value, Dropped):
                 kept |= {key: str(value)} if value and word else {}
                 continue
-            if isinstance(value, str) and value == "none" and field is not None and not word:
+            if field is not None and not word:
                 raise PydanticCustomError(
                     "none",
                     f"gives '{key}' as 'none', which drops a key that 'like' brings in, and 'like' brings in none; "

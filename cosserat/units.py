@@ -123,17 +123,17 @@ def _read_text(text: str, unit: str) -> float:
     number = float(sign_or_number) * (math.pi if found["pi"] else 1) / int(found["divisor"] or 1)
     try:
         written = _as_pint_writes(rest)
-        read = _units().Quantity(number, written)
-        root = _root(read.units)
+        root = _root(written)
     except Exception:  # the unit parser raises errors of many kinds on text that is no unit
         raise refused("type", "whose unit is not known", _meant(rest, unit)) from None
     wanted = "" if unit == "1" else unit
     if not _alike(root, unit):
         why = f"in {rest}{_instead(root, unit)}" if rest else "in no unit at all"
         raise refused("unit", why, _meant(written, unit))
-    if _units().Quantity(0.0, written).to(wanted).magnitude:
+    zero, one = _line(written, wanted)
+    if zero:
         raise refused("unit", f"in {rest}, whose zero is not zero {unit}")
-    return float(read.to(wanted).magnitude)
+    return number * one
 
 
 def is_read_as(written: str, unit: str) -> bool:
@@ -187,6 +187,13 @@ def _as_pint_writes(unit: str) -> str:
 def _root(unit: Any) -> object:
     """A unit in pint's root units; the radian is one of them."""
     return _units().Quantity(1.0, unit).to_root_units().units
+
+
+@functools.cache
+def _line(written: str, wanted: str) -> tuple[float, float]:
+    """Zero and one of a unit in another one."""
+    zero, one = (_units().Quantity(number, written).to(wanted).magnitude for number in (0.0, 1.0))
+    return float(zero), float(one)
 
 
 def _instead(root: object, unit: str) -> str:
