@@ -185,7 +185,7 @@ class Parameters(BaseModel):
             return values
         kept: dict[str, Any] = {}
         for key, value in values.items():
-            if not isinstance(value, Dropped) and not (isinstance(value, str) and value == "none"):
+            if not isinstance(value, str) or not (isinstance(value, Dropped) or value == "none"):
                 kept[key] = value
                 continue
             field = cls.model_fields.get(key)
@@ -195,14 +195,14 @@ class Parameters(BaseModel):
             )
             if isinstance(value, Dropped):
                 kept |= {key: str(value)} if value and word else {}
-                continue
-            if field is not None and not word:
+            elif field is not None and not word:
                 raise PydanticCustomError(
                     "none",
                     f"gives '{key}' as 'none', which drops a key that 'like' brings in, and 'like' brings in none; "
                     "leave it out",
                 )
-            kept[key] = value
+            else:
+                kept[key] = value
         return kept
 
     @classmethod
