@@ -185,10 +185,8 @@ class Parameters(BaseModel):
             return values
         kept: dict[str, Any] = {}
         for key, value in values.items():
-            if not isinstance(value, str) or not (isinstance(value, Dropped) or value == "none"):
-                kept[key] = value
-                continue
-            field = cls.model_fields.get(key)
+            named = isinstance(value, str) and (isinstance(value, Dropped) or value == "none")
+            field = cls.model_fields.get(key) if named else None
             word = field is not None and (
                 (field.annotation is str and not field.metadata)
                 or any(map(_reads_none, field.metadata or [field.annotation]))
