@@ -17,8 +17,10 @@ endif
 all: environment
 	@$(BIN)/snakemake all
 
-# Two test processes, each with one thread for linear algebra.
+# Two test processes, each with one thread for linear algebra.  Python keeps what it compiles, also where the environment
+# says otherwise: some thirty tests start processes of their own, each of which would compile the package again.
 test test-workflow: export OMP_NUM_THREADS = 1
+test test-workflow: export PYTHONDONTWRITEBYTECODE =
 
 test: environment
 	$(BIN)/ruff check .

@@ -289,20 +289,22 @@ class Parameters(BaseModel):
             field = cls.model_fields.get(key)
             if field is not None:
                 _check_length(key, value, field.metadata)
+            named = isinstance(value, str) and (isinstance(value, Dropped) or value == "none")
+            field = field if named else None
             word = field is not None and (
                 (field.annotation is str and not field.metadata)
                 or any(map(_reads_none, field.metadata or [field.annotation]))
             )
             if isinstance(value, Dropped):
                 kept |= {key: str(value)} if value and word else {}
-                continue
-            if isinstance(value, str) and value == "none" and field is not None and not word:
+            elif field is not None and not word:
                 raise PydanticCustomError(
                     "none",
                     f"gives '{key}' as 'none', which drops a key that 'like' brings in, and 'like' brings in none; "
                     "leave it out",
                 )
-            kept[key] = value
+            else:
+                kept[key] = value
         return kept
 
     @classmethod

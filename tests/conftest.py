@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import gc
 import os
 import sys
 from collections.abc import Mapping
@@ -15,6 +16,9 @@ from hypothesis import settings
 from cosserat.problems.static import RodStatics
 from cosserat.rods.rod import Rod
 
+gc.set_threshold(
+    100_000
+)  # as the command line does: collecting and importing make millions of objects that stay
 settings.register_profile("project", deadline=None, derandomize=True, max_examples=40)
 settings.load_profile("project")
 

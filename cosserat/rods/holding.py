@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from cosserat.rods.constraints import Constraint
 from cosserat.rods.kinematics import Kinematics
 from cosserat.rods.places import vertex_at
-from cosserat.rods.reference import Geometry
 from cosserat.solvers.banded import Mask, Vector, band_product
 from cosserat.solvers.frames import Frame
 from cosserat.solvers.system import MechanicalSystem
@@ -22,14 +21,17 @@ _ROUND_OFF = 1e-12  # fraction of its terms below which a force of a rigid motio
 
 
 def held_components(
-    constraints: Iterable[Constraint], geometry: Geometry, kinematics: Kinematics
+    constraints: Iterable[Constraint], arc: Array, D: Array, kinematics: Kinematics
 ) -> tuple[Mask, Frame]:
-    """The constrained DOFs (n,), in frames that have an axis along the one direction in which a vector is held."""
-    mask = np.zeros(geometry.X.shape[0] * kinematics.per_vertex, dtype=np.bool_)
+    """The constrained DOFs (n,), in frames that have an axis along the one direction in which a vector is held.
+
+    arc : (N,) arc length of the vertices [m].  D : (N, 2) their directors [m].
+    """
+    mask = np.zeros(arc.size * kinematics.per_vertex, dtype=np.bool_)
     directions: dict[int, list[Array]] = {}
     for item in constraints:
-        vertex = vertex_at(item.at, geometry.arc_length)
-        for vector, direction in item.holds(geometry.D[vertex]):
+        vertex = vertex_at(item.at, arc)
+        for vector, direction in item.holds(D[vertex]):
             first = vertex * kinematics.per_vertex + 2 * kinematics.vectors.index(vector)
             directions.setdefault(first, []).append(direction)
     oblique: dict[int, Array] = {}

@@ -178,28 +178,32 @@ class RodProblem(Problem):
 
     @model_validator(mode="after")
     def _what_moves_is_constrained(self) -> Self:
-        perfect, met = self.rod.geometry(self.arc_length), dict[int, str]()
-        oblique = np.tile([0.6, 0.8], (perfect.X.shape[0], 1))  # directors may point anywhere in a pose
-        arc, (constrained, frame) = perfect.arc_length, self.held(Geometry(perfect.X, oblique))
-        constrained[frame.first] = constrained[frame.first + 1] = False
-        for key, item in self.constraints():
-            for dof in item.moves:
-                number = self.rod.dof(item.at, dof, arc)
-                if number in met:
-                    keys = " and ".join(f"'{name}'" for name in dict.fromkeys([met[number], key]))
-                    raise PydanticCustomError(
-                        "twice", f"{keys} move {dof} of vertex {item.at} twice; put both together"
-                    )
-                met[number] = key
-                if not constrained[number]:
-                    raise PydanticCustomError(
-                        "support",
-                        f"'{key}' {item.action} of vertex {item.at}, which no support fixes; "
-                        f"add {dof} to 'fixed' of a support there",
-                    )
+        arc, met = self.arc_length, dict[int, str]()
+        moved = [(key, item, dof) for key, item in self.constraints() for dof in item.moves]
+        constrained = self._held_in_any_pose(arc) if moved else np.empty(0, dtype=np.bool_)
+        for key, item, dof in moved:
+            number = self.rod.dof(item.at, dof, arc)
+            if number in met:
+                keys = " and ".join(f"'{name}'" for name in dict.fromkeys([met[number], key]))
+                raise PydanticCustomError(
+                    "twice", f"{keys} move {dof} of vertex {item.at} twice; put both together"
+                )
+            met[number] = key
+            if not constrained[number]:
+                raise PydanticCustomError(
+                    "support",
+                    f"'{key}' {item.action} of vertex {item.at}, which no support fixes; "
+                    f"add {dof} to 'fixed' of a support there",
+                )
         for _, item in self.constraints():
             item.check(large_rotations=self.rod.strain_energy.large_rotations and not self.in_time)
         return self
+
+    def _held_in_any_pose(self, arc: Array) -> Mask:
+        """Which DOFs are constrained wherever the directors point, (n,); arc : (N,) of the vertices [m]."""
+        mask, frame = self._held(arc, np.broadcast_to([0.6, 0.8], (arc.size, 2)))
+        mask[frame.first] = mask[frame.first + 1] = False
+        return mask
 
     @property
     def body(self) -> str:
@@ -276,7 +280,10 @@ class RodProblem(Problem):
 
     def held(self, geometry: Geometry) -> tuple[Mask, Frame]:
         """Which DOFs are constrained, (n,), in frames of the vectors that are held obliquely."""
-        return held_components((item for _, item in self.constraints()), geometry, self.rod.kinematics)
+        return self._held(geometry.arc_length, geometry.D)
+
+    def _held(self, arc: Array, D: Array) -> tuple[Mask, Frame]:
+        return held_components((item for _, item in self.constraints()), arc, D, self.rod.kinematics)
 
     def constrained(self) -> Mask:
         """Which DOFs are constrained, (n,); those of a vector that is held obliquely are in a frame of its own."""

@@ -119,6 +119,8 @@ class Rod(Parameters):
     def check_shape(self, key: str, shape: Shape) -> None:
         """Raise PydanticCustomError if it cannot have a shape; key : the name of the shape."""
         shape.check(key, self.length)
+        if shape.straight:
+            return
         turns = np.diff(shape.angles(np.linspace(0.0, self.length, self.vertices)))
         if np.abs(turns).max() >= 1:
             raise PydanticCustomError(

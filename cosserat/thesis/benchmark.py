@@ -17,6 +17,8 @@ T = TypeVar("T")
 _STEP = 2.5e-4  # s
 _RUNS = 3
 _STATICS_RUNS = 10
+_STEPS = {20: 800, 200: 200, 2000: 20}
+"""Steps of a motion by the number of vertices."""
 
 
 def _fastest(work: Callable[[], T], runs: int) -> tuple[float, T]:
@@ -60,7 +62,7 @@ def integrator() -> Iterator[str]:
             f"kernels compiled and one step done before, nothing written; the fastest of {_RUNS} runs:"
         )
         settings = IntegratorSettings(step=_STEP)
-        for vertices, steps in ((20, 800), (200, 200), (2000, 20)):
+        for vertices, steps in _STEPS.items():
             problem = find(name).vary("speed", rod={"vertices": vertices}).problem_as(RodMotion)
             system, state = problem.system(problem.geometry), problem.begin()
             integrate(system, state, settings.step, settings, "speed")

@@ -379,7 +379,7 @@ def test_every_case_has_a_summary(solved):
         assert effort(data)[0].isdigit() or effort(data).startswith("solve_bvp"), name
 
 
-def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
+def test_crawlers_and_paths_are_drawn(capsys, tmp_path, solved):
     for name in ("worm_at_rest", "soft_robot", "column_path", "vibration_consistent"):
         code, _, err = call(capsys, "run", name, "--output", tmp_path / f"{name}.nc")
         assert (code, err.split(":")[:2]) == (
@@ -389,7 +389,7 @@ def test_crawlers_and_paths_are_drawn(capsys, tmp_path):
         code, _, err = call(capsys, "plot", tmp_path / f"{name}.nc")
         assert (code, err) == (0, "")
         assert (tmp_path / f"{name}.svg").stat().st_size > 10_000
-    call(capsys, "run", "convergence", "--output", tmp_path / "c.nc")
+    cosserat.save(solved["convergence"], tmp_path / "c.nc")
     code, _, err = call(capsys, "plot", tmp_path / "c.nc")
     assert code == 2
     assert "is of kind 'convergence', which has no picture" in err
@@ -401,6 +401,11 @@ def test_speed_is_measured(capsys, monkeypatch):
 
     monkeypatch.setattr(benchmark, "_RUNS", 1)
     monkeypatch.setattr(benchmark, "_STATICS_RUNS", 1)
+    monkeypatch.setattr(benchmark, "_STEPS", {20: 80, 200: 20, 2000: 2})
+    coarse = cosserat.case("worm").vary("worm", step=0.5)
+    monkeypatch.setattr(
+        benchmark, "find", lambda name: coarse if name == "worm" else cosserat.case(name)
+    )
     code, out, _ = call(capsys, "speed")
     assert code == 0
     first = [line.split()[0] for line in out.splitlines()]

@@ -68,19 +68,28 @@ def test_python_of_the_readme_is_executed(text, tmp_path, monkeypatch, capsys):
     assert written == set(re.findall(r"(\w+\.(?:nc|svg))", text))
 
 
-def test_shell_lines_of_the_readme_are_executed_in_their_order(tmp_path):
+def test_shell_lines_of_the_readme_are_executed_in_their_order(tmp_path, monkeypatch, capsys):
     """The cases of the README are in my.toml, and each line writes the file that the README names."""
     assert set(ELSEWHERE) <= set(LINES), "an exemption of a line that the README does not have"
     (tmp_path / "my.toml").write_text("\n".join(blocks("toml")), encoding="utf-8")
     path = os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()])
     environment = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT)}
+    monkeypatch.chdir(tmp_path)
     here = [line for line in LINES if line and line not in ELSEWHERE]
     assert here
+    shown = set()
     for line in here:
+        command, *words = shlex.split(line)
+        if (
+            command == "cosserat" and command in shown
+        ):  # the first one shows that there is such a command
+            assert (main(words), capsys.readouterr().err) == (0, ""), line
+            continue
         done = subprocess.run(
             line, shell=True, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
         )
         assert (done.returncode, done.stderr) == (0, ""), line
+        shown.add(command)
     written = re.findall(r"\b(\w+\.(?:nc|svg))\b", "\n".join(blocks("sh")))
     assert written
     assert set(written) <= {file.name for file in tmp_path.iterdir()}

@@ -157,7 +157,7 @@ def test_both_integrators_agree_on_the_published_case_in_what_they_resolve():
     assert found.angular_frequency[stiff] == pytest.approx(46411, rel=1e-3)
     assert energy[stiff] / energy.sum() == pytest.approx(0.188, abs=2e-3)
     assert np.abs(found.shape[stiff]).argmax() == 4 + 1  # x2 of the vertex beside the clamp
-    explicit = {"method": "rk45", "step": 1.0, "tolerance": 1e-8}
+    explicit = {"method": "rk45", "step": 1.0, "tolerance": 1e-5}
     runs = [vibrating(duration=0.06, integrator=i) for i in ({}, explicit)]
     tips = [data.x.sel(axis="E2").isel(vertex=-1).to_numpy() for data in runs]
     assert np.abs(tips[0] - tips[1]).max() < 0.02 * 0.01
@@ -270,13 +270,13 @@ def test_E3_18_printed_period_is_that_of_the_kinetic_energy(solved):
     assert abs(beam - 0.031) < 0.0005 < abs(2 * beam - 0.031)
 
 
-def test_E3_19_open_parameters_hardly_move_the_period():
+def test_E3_19_open_parameters_hardly_move_the_period(solved):
     def lowest(**changes):
         return BEAM.vary("other", **changes).problem.modes(1).angular_frequency[0]
 
     assert abs(lowest(rod={"calibration": {"c4": 20.1}}) / lowest() - 1) < 1e-4
     small = vibrating(start={"amplitude": 0.005})
-    whole = vibrating()
+    whole = solved["vibration_c4_20"]
     periods = [readouts.READOUTS["displacement_period"](data).measured for data in (small, whole)]
     assert abs(periods[0] / periods[1] - 1) < 1e-3
 
@@ -559,10 +559,12 @@ def test_a_long_interval_between_frames_is_stored_in_parts(tmp_path, monkeypatch
 
 @pytest.mark.parametrize(
     ("method", "vertices", "step", "steps"),
-    [("implicit", 20, 1e-4, 25_000), ("implicit", 400, 1e-4, 1250), ("rk4", 20, 1e-5, 12_500)],
+    [("implicit", 20, 1e-4, 2500), ("implicit", 400, 1e-4, 125), ("rk4", 20, 1e-5, 1250)],
 )
-def test_parts_hold_equal_work_for_every_method(method, vertices, step, steps):
-    """Of a run of 20 s with a frame every 5 s, which is longer than a part may be: half a million vertices stepped."""
+def test_parts_hold_equal_work_for_every_method(method, vertices, step, steps, monkeypatch):
+    """Of a run of 20 s with a frame every 5 s, longer than a part may be: a tenth of half a million vertices stepped."""
+    assert checkpoints.WORK_PER_PART == 5e5
+    monkeypatch.setattr(checkpoints, "WORK_PER_PART", 5e4)
     integrator = {"method": method, "step": step}
     case = BEAM.vary("long", rod={"vertices": vertices}, duration=20, every=5, integrator=integrator)
     checkpointed = CheckpointedRun.of(case.problem, "long")

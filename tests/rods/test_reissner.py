@@ -573,7 +573,7 @@ def test_a_tiny_load_is_not_refused(increments):
 
 def test_hundreds_of_thousands_of_vertices():
     """In memory and in one step, as with few vertices: a hanging bar, whose answer is known."""
-    problem = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 400_000}).problem
+    problem = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 200_000}).problem
     solved = problem.solve("x")
     fields = solved
     assert solved.statistics["iterations"] == 1
@@ -754,16 +754,16 @@ def test_large_rotations_between_frames_are_counted(method):
         "motor",
         rod={"vertices": 3, "material": {"young": 1e7}},
         supports=[{"at": "first", "fixed": ["x3", "x2"]}],
-        start={"shape": "reference", "amplitude": 0.0, "spin": 100.0},
+        start={"shape": "reference", "amplitude": 0.0, "spin": 200.0},
         couples=[{"at": "first", "moment": 80.0}],
-        duration=0.1,
-        every=0.1,
+        duration=0.04,
+        every=0.04,
         integrator={"method": method, "step": 5e-6},
     )
     data = cosserat.run(motor)
     total = data.kinetic_energy + data.strain_energy + data.load_potential
     assert float(total[-1]) == pytest.approx(float(total[0]), rel=1e-6)
-    assert data.first_angle[-1] - data.first_angle[0] > 6
+    assert data.first_angle[-1] - data.first_angle[0] > 4  # more than half a turn
 
 
 def test_a_clamp_rotated_by_a_whole_turn_winds_up_the_rod():

@@ -10,11 +10,11 @@ from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import absolute_product, constrain, solve_positive, to_dense
 from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
 from cosserat.solvers.incremental import solve_full_load
-from cosserat.solvers.potential import GRADIENT, HESSIAN, Potential
+from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, Potential
 from cosserat.solvers.system import FixedDofs, FlatSpace, MechanicalSystem
 
 
-@njit
+@njit(KERNEL, cache=True)
 def springs(q, after, data, history, strains, task, gradient, band, skew, terms):
     """Sum of a q^4 / 4 + b q^2 / 2 - c q; DOFs uncoupled."""
     rows = data.view(np.float64).reshape(q.size, 3)
@@ -112,7 +112,7 @@ def test_too_few_iterations_raise_with_name_residual_and_remedy():
 def test_a_load_without_equilibrium_raises():
     """A spring with a largest force of one newton under a load of two."""
 
-    @njit
+    @njit(KERNEL, cache=True)
     def weak(q, after, data, history, strains, task, gradient, band, skew, terms):
         near = np.minimum(np.abs(q), 300)
         if task in (GRADIENT, HESSIAN):
