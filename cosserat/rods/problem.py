@@ -19,6 +19,7 @@ from cosserat.rods.attachments.springs import Spring
 from cosserat.rods.constraints import (
     Constraint,
     PrescribedDisplacement,
+    PrescribedPart,
     PrescribedRotation,
     RodConstraints,
 )
@@ -236,16 +237,20 @@ class RodProblem(Problem):
         origin = at_rest if displacements else None
         body = LoadedRod(self.rod, geometry, origin, still, self.masses)
         rounded = np.zeros_like(at_rest) if energy.origin is None else energy.origin
-        parts = [item.part(self.rod, geometry) for _, item in self.constraints()]
         system = MechanicalSystem(
             energy,
             tuple(self._potentials(body)),
-            RodConstraints(mask, tuple(part for part in parts if part is not None)),
+            RodConstraints(mask, self.moves(geometry)),
             RodSpace(self.rod.kinematics, at_rest, displacements, rounded),
             body.mass,
             attached=(attached_energy(attached, body),) if attached else (),
         )
         return framed(system, frame)
+
+    def moves(self, geometry: Geometry) -> tuple[PrescribedPart, ...]:
+        """The prescribed motions of its constraints."""
+        parts = [item.part(self.rod, geometry) for _, item in self.constraints()]
+        return tuple(part for part in parts if part is not None)
 
     def _potentials(self, body: LoadedRod) -> Iterator[Potential]:
         """The potential of each kind of loads, and of each of its functions of time."""

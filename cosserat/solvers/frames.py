@@ -161,4 +161,5 @@ def framed(system: MechanicalSystem, frame: Frame) -> MechanicalSystem:
         mass=None if system.mass is None else frame.band(system.mass),
         frame=frame,
         plain=system,
+        began=None if system.began is None else frame.into(system.began),
     )
