@@ -72,10 +72,9 @@ class RodCriticalLoads(GrownProblem):
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The critical loads of the rod of another problem; those of a motion have no time function."""
-        own = (*PosedProblem.model_fields, "newton")
-        return cls(
-            **{name: getattr(problem, name) for name in own if hasattr(problem, name)}, count=count
-        )
+        own = GrownProblem if isinstance(problem, GrownProblem) else PosedProblem
+        names = [name for name in (*own.model_fields, "newton") if hasattr(problem, name)]
+        return cls(**{name: getattr(problem, name) for name in names}, count=count)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Both criteria; `name` : name of the case in errors.

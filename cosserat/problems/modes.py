@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
+from cosserat.errors import InputError
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Run
+from cosserat.problems.grown import GrownProblem
 from cosserat.problems.posed import PosedProblem
 from cosserat.problems.special import leading
 from cosserat.problems.static import check_supports, equilibrium_solution
@@ -63,6 +65,11 @@ class RodModes(PosedProblem):
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The modes of the rod of another problem: about its equilibrium; of a motion, without its loads."""
+        if isinstance(problem, GrownProblem) and problem.start_from is not None:
+            raise InputError(
+                "the case has 'start_from', whose loads stay while its own grow, and natural modes are about one "
+                "equilibrium; give all loads to one case of kind 'modes'"
+            )
         left = {*LOADS, *_MOVED} if problem.in_time else set()
         own = {*PosedProblem.model_fields, "newton"} - left
         given = {name: getattr(problem, name) for name in own if hasattr(problem, name)}

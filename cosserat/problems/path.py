@@ -25,6 +25,7 @@ from cosserat.solution import Field, Solution
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.incremental import unloaded
+from cosserat.solvers.loading import coupled_energy
 from cosserat.solvers.special import SpecialPoint, special_points
 from cosserat.solvers.system import MechanicalSystem
 
@@ -47,7 +48,7 @@ class ArcSettings(Parameters):
 
 
 class RodPath(GrownProblem):
-    """Equilibria along a path, as all loads grow together from zero.
+    """Equilibria along a path, as the loads grow together from zero.
 
     The path ends when they reach their full size, or after the last arc.  Limit points, bifurcations and the first
     instability are located between its points to round-off.
@@ -153,9 +154,8 @@ def _placed(rod: Rod, geometry: Geometry, point: Equilibrium) -> tuple[Array, Ar
 
 def _energy(system: MechanicalSystem, point: Equilibrium) -> float:
     """Strain energy, that of springs and, at the load factor, that of the loads that are not dead [J]."""
-    loads = system.nonlinear_load_energy(point.q, point.history)
     attached = system.attached_energy(point.q, point.history)
-    return system.internal.energy(point.q) + attached + point.factor * loads
+    return system.internal.energy(point.q) + attached + coupled_energy(system, point)
 
 
 def _solution(

@@ -121,6 +121,11 @@ class RodProblem(Problem):
         given = getattr(self, key, None)
         return given if isinstance(given, tuple) else () if given is None else (given,)
 
+    @property
+    def turned_before(self) -> tuple[PrescribedRotation, ...]:
+        """Rotations of fixed sections where the loads begin to grow."""
+        return ()
+
     def attachments(self) -> list[Attachment]:
         """Every spring and foundation."""
         return [item for key in ATTACHMENTS for item in getattr(self, key, ())]

@@ -102,6 +102,7 @@ class MechanicalSystem:
     attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
     frame : frames of some pairs of DOFs.  plain : the same body without them, if there are some.
     began : (n,) the equilibrium from which its loads grow; None for the reference.
+    held : loads of that equilibrium, which no load factor multiplies.
     """
 
     internal: Potential
@@ -116,6 +117,7 @@ class MechanicalSystem:
     damping_time: float = 0.0
     damped_modes: DampedModes = NO_MODES
     began: Vector | None = None
+    held: tuple[Potential, ...] = ()
 
     @property
     def start(self) -> Vector:
@@ -130,11 +132,11 @@ class MechanicalSystem:
     @property
     def own(self) -> tuple[Potential, ...]:
         """The energies that no load factor multiplies."""
-        return (self.internal, *self.attached)
+        return (self.internal, *self.attached, *self.held)
 
     @property
     def potentials(self) -> tuple[Potential, ...]:
-        """The energy of the body, of what it is attached to, and of its loads."""
+        """The energy of the body, of what it is attached to, of loads that are held, and of its loads."""
         return (*self.own, *self.external)
 
     @property
@@ -251,8 +253,8 @@ class MechanicalSystem:
         """
         tangent.clear()
         energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
-        for number, potential in enumerate(self.attached, start=1):
-            energy += potential.add(q, history[number], tangent.gradient, tangent.band, tangent.skew)
+        for potential, known in zip(self.own[1:], history[1:], strict=False):
+            energy += potential.add(q, known, tangent.gradient, tangent.band, tangent.skew)
         np.negative(self.dead_load, out=tangent.load_gradient)
         for load, own in self._loads(history):
             if not load.linear and load.level is None:
