@@ -46,6 +46,12 @@ class PosedProblem(RodProblem):
                 "energy",
                 "'pose' needs rod.energy = 'consistent' without 'rod.barrier'; take that, or leave 'pose' out",
             )
+        if self.imperfection is not None and self.imperfection.kind == "buckling mode":
+            raise PydanticCustomError(
+                "imperfection",
+                "has a 'pose' and an 'imperfection' of kind 'buckling mode', which is that of a rod loaded from its "
+                "shape at rest; take kind = 'mode' or 'bow', or leave 'pose' out",
+            )
         self.rod.check_shape("pose", self.pose)
         return self
 

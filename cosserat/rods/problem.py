@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import replace
 from typing import ClassVar, Self
 
@@ -287,6 +287,13 @@ class RodProblem(Problem):
     def unloaded_rod(self, geometry: Geometry) -> MechanicalSystem:
         """The supported rod without loads and damping, in displacements."""
         return RodProblem.system(self, geometry).unloaded()
+
+    def loaded_rod(self, geometry: Geometry, keys: Container[str]) -> MechanicalSystem:
+        """The supported rod without pose and damping, under its loads and moved supports of some keys alone."""
+        every = (*LOADS, "prescribed_displacements", "prescribed_rotations")
+        known = type(self).model_fields
+        left = {key: known[key].default for key in every if key in known and key not in keys}
+        return RodProblem.system(self.model_copy(update=left), geometry)
 
     def held(self, geometry: Geometry) -> tuple[Mask, Frame]:
         """Which DOFs are constrained, (n,), in frames of the vectors that are held obliquely."""
