@@ -72,8 +72,8 @@ class RodCriticalLoads(GrownProblem):
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The critical loads of the rod of another problem; those of a motion have no time function."""
-        own = GrownProblem if isinstance(problem, GrownProblem) else PosedProblem
-        names = [name for name in (*own.model_fields, "newton") if hasattr(problem, name)]
+        own = (PosedProblem if problem.in_time else GrownProblem).model_fields
+        names = [name for name in dict.fromkeys((*own, "newton")) if hasattr(problem, name)]
         return cls(**{name: getattr(problem, name) for name in names}, count=count)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:

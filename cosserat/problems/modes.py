@@ -14,7 +14,6 @@ from pydantic_core import PydanticCustomError
 from cosserat.errors import InputError
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Run
-from cosserat.problems.grown import GrownProblem
 from cosserat.problems.posed import PosedProblem
 from cosserat.problems.special import leading
 from cosserat.problems.static import check_supports, equilibrium_solution
@@ -65,7 +64,7 @@ class RodModes(PosedProblem):
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The modes of the rod of another problem: about its equilibrium; of a motion, without its loads."""
-        if isinstance(problem, GrownProblem) and problem.start_from is not None:
+        if not problem.in_time and getattr(problem, "start_from", None) is not None:
             raise InputError(
                 "the case has 'start_from', whose loads stay while its own grow, and natural modes are about one "
                 "equilibrium; give all loads to one case of kind 'modes'"
