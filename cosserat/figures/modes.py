@@ -53,7 +53,9 @@ def critical_picture(data: xr.Dataset) -> Figure:
         draw_outline(ax, X, D, problem, **_ghost())
         draw_outline(ax, moved_x, moved_d, problem, facecolor=BODY, edgecolor=COMPUTED)
         draw_supports(ax, problem, moved_x, D)
-        draw_loads(ax, problem, moved_x, moved_d)
+        for loaded in (problem, getattr(problem, "start_from", None)):
+            if loaded is not None:
+                draw_loads(ax, loaded, moved_x, moved_d)
         label(ax, title)
     figure.suptitle(data.attrs["title"], fontsize=9)
     return figure

@@ -12,20 +12,21 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
-from cosserat.problems.posed import check_unposed
+from cosserat.problems.grown import GrownProblem
+from cosserat.problems.posed import PosedProblem
 from cosserat.problems.special import scaled, special_fields
-from cosserat.problems.static import check_supports
 from cosserat.rods.problem import LOADS, RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
+from cosserat.solvers.banded import Vector
 from cosserat.solvers.continuation import ArcLengthSettings
 from cosserat.solvers.critical import (
     LinearCriterion,
     first_special_point,
     linear_criterion,
 )
-from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
+from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.special import SpecialPoint
 
 
@@ -43,16 +44,15 @@ class SearchSettings(Parameters):
     none."""
 
 
-class RodCriticalLoads(RodProblem):
+class RodCriticalLoads(GrownProblem):
     """Critical loads as multiples of the given loads, which grow together from zero.
 
-    The linear criterion (linear buckling) adds to the stiffness of the unloaded rod its first derivative by the load,
+    The linear criterion (linear buckling) adds to the stiffness where they begin its first derivative by the load,
     the geometric stiffness.  The true criterion follows the equilibria themselves to the first that is singular, a
     bifurcation or a limit point.  The largest displacement of a mode is one.
     """
 
     kind: Literal["critical loads"] = "critical loads"
-    newton: NewtonSettings = NewtonSettings()
     count: Annotated[int, Count(at_least=1, at_most=100_000)] = 4
     """Most critical loads of the linear criterion, from the lowest; only loads of the given sign count."""
     search: SearchSettings = SearchSettings()
@@ -72,9 +72,9 @@ class RodCriticalLoads(RodProblem):
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The critical loads of the rod of another problem; those of a motion have no time function."""
-        check_unposed(problem)
-        given = {name: getattr(problem, name) for name in RodProblem.model_fields}
-        return cls(**given, newton=getattr(problem, "newton", NewtonSettings()), count=count)
+        own = (PosedProblem if problem.in_time else GrownProblem).model_fields
+        names = [name for name in dict.fromkeys((*own, "newton")) if hasattr(problem, name)]
+        return cls(**{name: getattr(problem, name) for name in names}, count=count)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Both criteria; `name` : name of the case in errors.
@@ -82,12 +82,11 @@ class RodCriticalLoads(RodProblem):
         Raises
         ------
         UnsupportedRodError : a rigid motion is left free.
-        UnstableError : the unloaded rod is unstable.
+        UnstableError : the rod is unstable where the loads begin.
         NotConvergedError : the path cannot be followed to its first special point.
         """
         geometry = self.geometry
-        system = self.system(geometry)
-        check_supports(system, name)
+        system, warnings = self.grown(geometry, name)
         solver = EquilibriumSolver(system, self.newton, name)
         solver.remedy = "take a smaller 'search.first' and 'search.longest', or check supports and loads"
         solver.limit_remedy = "check supports and loads"
@@ -108,11 +107,11 @@ class RodCriticalLoads(RodProblem):
         if linear.factor.size:
             statistics["linear_load_factor"] = lowest
         statistics |= {"load_factor_reached": float(reached), "iterations": solver.iterations}
-        fields = {**_reference(geometry), **_linear(self.rod, linear), **special}
+        start = system.frame.out(system.start)
+        fields = {**_start(self.rod, geometry, start), **_linear(self.rod, linear), **special}
         words = {"axis": self.rod.kinematics.axes, "special": labels}
-        return Solution(
-            fields, statistics, words, self._warnings(linear, true, reached, system.symmetric)
-        )
+        warnings += self._warnings(linear, true, reached, system.symmetric)
+        return Solution(fields, statistics, words, warnings)
 
     def _warnings(
         self, linear: LinearCriterion, true: SpecialPoint | None, reached: float, symmetric: bool
@@ -151,12 +150,15 @@ class RodCriticalLoads(RodProblem):
         return "; ".join(said)
 
 
-def _reference(geometry: Geometry) -> dict[str, Field]:
-    vector = ("vertex", "axis")
+def _start(rod: Rod, geometry: Geometry, u: Vector) -> dict[str, Field]:
+    """The reference, and displaced from it by u the place where the loads begin."""
+    vector, vectors = ("vertex", "axis"), rod.vectors(geometry, u)
     return {
         "xi": (("vertex",), geometry.arc_length),
         "x_ref": (vector, geometry.X),
         "d_ref": (vector, geometry.D),
+        "x": (vector, vectors[:, 0]),
+        "d": (vector, vectors[:, 1]),
     }
 
 

@@ -8,10 +8,13 @@ from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
 
+from cosserat.errors import InputError
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Run
-from cosserat.problems.posed import check_unposed
+from cosserat.problems.posed import PosedProblem
 from cosserat.problems.special import leading
 from cosserat.problems.static import check_supports, equilibrium_solution
 from cosserat.rods.holding import free_motions
@@ -21,7 +24,7 @@ from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import Vector, band_product
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
-from cosserat.solvers.incremental import solve_full_load, without_load
+from cosserat.solvers.incremental import without_load
 from cosserat.solvers.modes import SmallMotions, small_motions
 from cosserat.solvers.system import MechanicalSystem
 
@@ -30,7 +33,7 @@ _MOVED = ("prescribed_displacements", "prescribed_rotations")  # keys of constra
 _GROWS = 1e-7  # growth per radian of oscillation below which it is round-off
 
 
-class RodModes(RodProblem):
+class RodModes(PosedProblem):
     """Natural modes of a rod: small undamped motions about its equilibrium.
 
     Shapes have a modal mass of one, v . M v = 1, and their largest displacement is positive.  The effective mass of a
@@ -48,16 +51,29 @@ class RodModes(RodProblem):
     branch: Literal["leave", "stay"] = "leave"
     """At a bifurcation of the growing load, whether to leave to a stable equilibrium or to stay on the path."""
 
+    @model_validator(mode="after")
+    def _is_about_an_equilibrium(self) -> Self:
+        if self.pose is not None and self.about == "reference":
+            raise PydanticCustomError(
+                "pose",
+                "has 'pose' and about = 'reference', but a rod that is bent into a pose is not at rest there; "
+                "leave one of them out",
+            )
+        return self
+
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
-        """The modes of the rod of another problem: about its equilibrium, or about the reference if it is a motion."""
-        check_unposed(problem)
+        """The modes of the rod of another problem: about its equilibrium; of a motion, without its loads."""
+        if not problem.in_time and getattr(problem, "start_from", None) is not None:
+            raise InputError(
+                "the case has 'start_from', whose loads stay while its own grow, and natural modes are about one "
+                "equilibrium; give all loads to one case of kind 'modes'"
+            )
         left = {*LOADS, *_MOVED} if problem.in_time else set()
-        given = {name: getattr(problem, name) for name in RodProblem.model_fields if name not in left}
-        newton = getattr(problem, "newton", NewtonSettings())
-        return cls(
-            **given, newton=newton, count=count, about="reference" if problem.in_time else "equilibrium"
-        )
+        own = {*PosedProblem.model_fields, "newton"} - left
+        given = {name: getattr(problem, name) for name in own if hasattr(problem, name)}
+        about = "reference" if problem.in_time and given.get("pose") is None else "equilibrium"
+        return cls(**given, count=count, about=about)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """The lowest modes; `name` : name of the case in errors.
@@ -113,10 +129,11 @@ class RodModes(RodProblem):
         """What the rod moves about, in displacements, with its solver."""
         system = self.system(geometry)
         loaded = any(self.loads_of(key) for key in LOADS) or system.constraints.moving
-        if self.about == "equilibrium" and (loaded or not free_motions(system).any()):
+        bent = loaded or self.pose is not None
+        if self.about == "equilibrium" and (bent or not free_motions(system).any()):
             check_supports(system, name)
             solver = EquilibriumSolver(system, self.newton, name)
-            return solve_full_load(solver, stay=self.branch == "stay"), solver
+            return self.settled(geometry, solver, stay=self.branch == "stay")
         bare = system.unloaded()
         return without_load(bare), EquilibriumSolver(bare, self.newton, name)
 

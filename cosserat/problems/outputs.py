@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from cosserat.rods.energies.reissner import STRESSES
 from cosserat.rods.kinematics import rotated
 from cosserat.rods.places import vertex_at
 from cosserat.rods.probes import at_probes
@@ -25,8 +26,9 @@ from cosserat.rods.stresses import SURFACES, beam_stresses, edge_sections
 from cosserat.solution import Field, Solution
 from cosserat.solvers.equilibrium import Equilibrium
 from cosserat.solvers.integrate import State
+from cosserat.solvers.loading import coupled_energy, load_energy, load_gradient
 from cosserat.solvers.potential import Potential
-from cosserat.solvers.reactions import load_gradient, reactions
+from cosserat.solvers.reactions import reactions
 from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
@@ -224,7 +226,7 @@ def of_equilibria(
 ) -> States:
     """States of equilibria; the system is one of displacements."""
     factors = np.array([point.factor for point in points])
-    coupled = [system.nonlinear_load_energy(point.q, point.history) for point in points]
+    held = [(load, np.ones_like(factors)) for load in system.held if load.terms == STRESSES]
     return States(
         problem,
         geometry,
@@ -232,8 +234,8 @@ def of_equilibria(
         along,
         np.array([point.q for point in points]),
         np.array([point.reaction for point in points]),
-        factors * np.array(coupled),
-        [(stress, factors) for stress in problem.stresses(geometry)],
+        np.array([coupled_energy(system, point) for point in points]),
+        [(stress, factors) for stress in problem.stresses(geometry)] + held,
         _held_section(problem, geometry, factors),
         attached_forces(system, points),
     )
@@ -247,8 +249,11 @@ def _held_section(problem: RodProblem, geometry: Geometry, factors: Array) -> tu
         return None
     vertex = int(np.argmax(held))
     arc = geometry.arc_length
-    turns = [turn.by for turn in problem.prescribed_rotations if vertex_at(turn.at, arc) == vertex]
-    return vertex, factors * sum(turns)
+    grown, before = (
+        sum(turn.by for turn in turns if vertex_at(turn.at, arc) == vertex)
+        for turns in (problem.prescribed_rotations, problem.turned_before)
+    )
+    return vertex, factors * grown + before
 
 
 def of_instants(
@@ -293,10 +298,8 @@ def energies(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[st
 
 
 def _energies(system: MechanicalSystem, point: Equilibrium) -> tuple[float, float, float]:
-    coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
-    dead = float((point.factor * system.dead_load) @ (point.q - system.space.reference))
     attached = system.attached_energy(point.q, point.history)
-    return system.internal.energy(point.q), attached, coupled - dead
+    return system.internal.energy(point.q), attached, load_energy(system, point)
 
 
 def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:
@@ -305,7 +308,7 @@ def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[
     By the trapezoidal rule from point to point: of second order in their distance.
     """
     q = np.array([point.q for point in points])
-    loads = np.array([-point.factor * load_gradient(system, point.q, point.history) for point in points])
+    loads = np.array([-load_gradient(system, point) for point in points])
     held = np.array([point.reaction for point in points])
     moved = np.diff(q, axis=0)
     steps = [((forces[1:] + forces[:-1]) / 2 * moved).sum(axis=1) for forces in (loads, held)]

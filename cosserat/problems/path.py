@@ -14,17 +14,18 @@ from pydantic_core import PydanticCustomError
 from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
+from cosserat.problems.grown import GrownProblem
 from cosserat.problems.outputs import energies, of_equilibria, outputs, work_along
 from cosserat.problems.special import special_fields
-from cosserat.problems.static import check_supports
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
-from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.incremental import unloaded
+from cosserat.solvers.loading import coupled_energy
 from cosserat.solvers.special import SpecialPoint, special_points
 from cosserat.solvers.system import MechanicalSystem
 
@@ -46,8 +47,8 @@ class ArcSettings(Parameters):
     """At a bifurcation, whether to leave along the softest motion or to stay on the path."""
 
 
-class RodPath(RodProblem):
-    """Equilibria along a path, as all loads grow together from zero.
+class RodPath(GrownProblem):
+    """Equilibria along a path, as the loads grow together from zero.
 
     The path ends when they reach their full size, or after the last arc.  Limit points, bifurcations and the first
     instability are located between its points to round-off.
@@ -55,7 +56,6 @@ class RodPath(RodProblem):
 
     kind: Literal["rod path"] = "rod path"
     thinned: ClassVar[Mapping[str, int]] = {"special": 0}
-    newton: NewtonSettings = NewtonSettings()
     arc: ArcSettings = ArcSettings()
 
     @model_validator(mode="after")
@@ -75,8 +75,7 @@ class RodPath(RodProblem):
         NotConvergedError : the path could not be followed; the error has the load reached and the last state.
         """
         geometry = self.geometry
-        system = self.system(geometry)
-        check_supports(system, name)
+        system, warnings = self.grown(geometry, name)
         solver = EquilibriumSolver(system, self.newton, name)
         solver.limit_remedy = "raise 'arc.limit'"
         solver.remedy = "take a smaller 'arc.first' and 'arc.longest', or check supports and loads"
@@ -101,9 +100,9 @@ class RodPath(RodProblem):
             if points:
                 error.reached = _solution(self, geometry, points, solver)
             raise
-        return _with_special_points(
-            _solution(self, geometry, points, solver), self.rod, geometry, points, solver
-        )
+        found = _solution(self, geometry, points, solver)
+        found = replace(found, warnings=(*warnings, *found.warnings))
+        return _with_special_points(found, self.rod, geometry, points, solver)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -155,9 +154,8 @@ def _placed(rod: Rod, geometry: Geometry, point: Equilibrium) -> tuple[Array, Ar
 
 def _energy(system: MechanicalSystem, point: Equilibrium) -> float:
     """Strain energy, that of springs and, at the load factor, that of the loads that are not dead [J]."""
-    loads = system.nonlinear_load_energy(point.q, point.history)
     attached = system.attached_energy(point.q, point.history)
-    return system.internal.energy(point.q) + attached + point.factor * loads
+    return system.internal.energy(point.q) + attached + coupled_energy(system, point)
 
 
 def _solution(

@@ -16,7 +16,7 @@ import numpy as np
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.errors import InputError, NotConvergedError
+from cosserat.errors import NotConvergedError
 from cosserat.rods.energies.reissner import measured_from, stressed
 from cosserat.rods.loads.strains import is_quadratic
 from cosserat.rods.problem import RodProblem
@@ -45,6 +45,12 @@ class PosedProblem(RodProblem):
             raise PydanticCustomError(
                 "energy",
                 "'pose' needs rod.energy = 'consistent' without 'rod.barrier'; take that, or leave 'pose' out",
+            )
+        if self.imperfection is not None and self.imperfection.kind == "buckling mode":
+            raise PydanticCustomError(
+                "imperfection",
+                "has a 'pose' and an 'imperfection' of kind 'buckling mode', which is that of a rod loaded from its "
+                "shape at rest; take kind = 'mode' or 'bow', or leave 'pose' out",
             )
         self.rod.check_shape("pose", self.pose)
         return self
@@ -76,16 +82,18 @@ class PosedProblem(RodProblem):
         return self.rod.strain_energy.potential(self.rod, super().geometry)
 
     def settled(
-        self, geometry: Geometry, solver: EquilibriumSolver
+        self, geometry: Geometry, solver: EquilibriumSolver, *, stay: bool = False
     ) -> tuple[Equilibrium, EquilibriumSolver]:
         """The equilibrium at the full load from the pose, and the solver that found it.
+
+        stay : on its path where symmetry would let it, also beyond its loss of stability.
 
         Raises
         ------
         NotConvergedError : no path leads there; the last point is its `state`.
         """
         if self.pose is None:
-            return solve_full_load(solver), solver
+            return solve_full_load(solver, stay=stay), solver
         system, own = solver.system, super().system(geometry).internal
         rest = self._at_rest().constants
         edge = own.constants["edge"][:-1]
@@ -95,7 +103,7 @@ class PosedProblem(RodProblem):
         load = replace(stressed(own, axial, turn, np.zeros(edge.size + 1), slide), frame=own.frame)
         way = replace(system, internal=own, external=(*system.external, load))
         walk = EquilibriumSolver(way, solver.settings, solver.name)
-        bent = solve_full_load(walk)
+        bent = solve_full_load(walk, stay=stay)
         for name in (
             "iterations",
             "cutbacks",
@@ -113,12 +121,3 @@ class PosedProblem(RodProblem):
                 tolerance=solver.tolerance,
             )
         return point, solver
-
-
-def check_unposed(problem: RodProblem) -> None:
-    """Raise InputError for a problem with a pose, where only its shape at rest counts."""
-    if getattr(problem, "pose", None) is not None:
-        raise InputError(
-            "the rod has a 'pose', and modes and critical loads are those of a rod that is loaded from its shape at "
-            "rest; leave 'pose' out"
-        )

@@ -19,6 +19,7 @@ from cosserat.rods.reference import Geometry, strains
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.solution import Field, Solution
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
+from cosserat.solvers.loading import coupled_energy
 from cosserat.solvers.modes import Modes, modes
 from cosserat.solvers.system import MechanicalSystem
 
@@ -110,7 +111,7 @@ def equilibrium_solution(
     x, d = vectors[:, 0], vectors[:, 1]
     measured = strains(geometry, x, d)
     arc = geometry.arc_length
-    coupled = point.factor * system.nonlinear_load_energy(point.q, point.history)
+    coupled = coupled_energy(system, point)
     more, own = rod.strain_energy.fields(rod, geometry, system.internal, point.q, coupled)
     labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs} | more
     vector, force = ("vertex", "axis"), ("vertex", "dof")

@@ -120,6 +120,18 @@ class RodConstraints:
         return place, slope
 
 
+@dataclass(frozen=True)
+class MovedOn(RodConstraints):
+    """Constraints that move the DOFs from where they are, (n,), as a load grows."""
+
+    begin: Array
+
+    def at_load(self, factor: float) -> tuple[Array, Array]:
+        """Displacement at a load factor, and its derivative by the factor, each (n,)."""
+        place, slope = super().at_load(factor)
+        return place + np.where(self.mask, self.begin, 0.0), slope
+
+
 class Constraint(Parameters):
     """A constraint at one vertex of a case."""
 

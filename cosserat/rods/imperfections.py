@@ -1,4 +1,4 @@
-"""Imperfections: a bow or a natural mode times an amplitude, added to the shape of the rod at rest, without stress.
+"""Imperfections: a bow or a mode times an amplitude, added to the shape of the rod at rest, without stress.
 
 derived: where a displacement U is added to the perfect centreline, an edge E rotates by the angle whose sine is
 E x (difference of U) / |E|^2.  Edges keep their lengths, so a bow w along the normal of a curved rod has a displacement
@@ -8,7 +8,7 @@ u along its tangent too, with u' = K w.  The stiffnesses are those of the perfec
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,18 +19,36 @@ from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.rods.holding import free_motions
 from cosserat.rods.kinematics import rotated
 from cosserat.rods.reference import Geometry, normals, signed_angle, vertex_tangents
+from cosserat.solvers.critical import linear_criterion
+from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
 from cosserat.solvers.modes import modes
 
 if TYPE_CHECKING:
     from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
+_EQUAL = 1e-6  # relative difference of two displacements below which they are equal
 _BOWS = {
     "half sine": lambda t: np.sin(np.pi * t),
     "full cosine": lambda t: (1 - np.cos(2 * np.pi * t)) / 2,
     "quarter cosine": lambda t: 1 - np.cos(np.pi * t / 2),
 }
 """Shapes of bows by the fraction of the length; each has the largest value one."""
+LoadKey = Literal[
+    "gravity",
+    "line_loads",
+    "forces",
+    "couples",
+    "line_couples",
+    "follower_forces",
+    "follower_line_loads",
+    "pressures",
+    "prestrains",
+    "temperatures",
+    "prescribed_displacements",
+    "prescribed_rotations",
+]
+"""Keys of what may make a rod buckle."""
 
 
 class Imperfection(Parameters):
@@ -99,15 +117,56 @@ class Mode(Imperfection):
             )
         found = modes(body, np.zeros_like(at_rest), count, "'imperfection'", supported=not free)
         moved = kinematics.split(body.frame.out(found.shape[-1]))[:, 0]
-        along = (moved * normals(perfect.X)).sum(axis=1)
-        if np.abs(along).max() < 1e-6 * np.abs(moved).max():
+        return _scaled(moved, perfect, self.mode)
+
+
+class BucklingMode(Imperfection):
+    """A buckling mode of the supported rod by the linear criterion, under its own loads that do not depend on time."""
+
+    kind: Literal["buckling mode"] = "buckling mode"
+    mode: Annotated[int, Count(at_least=1)] = 1
+    """Number of the mode, from 1 for that of the lowest critical load."""
+    loads: tuple[LoadKey, ...] = ()
+    """Keys of the loads and moved supports that grow until the rod buckles, such as "forces"; by default all of them.
+
+    Those of a static answer in which the loads begin to grow are not among them."""
+
+    def shape(self, problem: RodProblem, perfect: Geometry) -> Array:
+        """The displacement of the mode; its largest value along the normal is one."""
+        kinematics, keys = problem.rod.kinematics, self.loads or get_args(LoadKey)
+        body = problem.loaded_rod(perfect, keys)
+        given = [key for key in keys if getattr(problem, key)]
+        if not given:
             raise InputError(
-                f"'imperfection' has 'mode' = {self.mode}, which does not move the rod along its normal; "
-                "take a bending mode"
+                "'imperfection' is a buckling mode, but the case has none of the loads that should make it buckle; "
+                "give some, or take kind = 'mode'"
             )
-        shape: Array = moved / along[np.abs(along).argmax()]
-        return shape
+        if free_motions(body).any():
+            raise InputError(
+                "'imperfection' is a buckling mode, but the supports leave the rod free to move; add one, or take "
+                "kind = 'mode'"
+            )
+        solver = EquilibriumSolver(body, NewtonSettings(), "'imperfection'")
+        found = linear_criterion(solver, self.mode).mode
+        if found.shape[0] < self.mode:
+            raise InputError(
+                f"'imperfection' has 'mode' = {self.mode}, but under {' and '.join(map(repr, given))} the rod has "
+                f"{found.shape[0] or 'no'} buckling modes; take a lower one, or other loads"
+            )
+        return _scaled(kinematics.split(body.frame.out(found[-1]))[:, 0], perfect, self.mode)
 
 
-AnyImperfection = Annotated[Bow | Mode, Field(discriminator="kind")]
+def _scaled(moved: Array, perfect: Geometry, number: int) -> Array:
+    """Displacements (N, 2) of a mode over the largest along the normal; of equal ones, over the first."""
+    along = (moved * normals(perfect.X)).sum(axis=1)
+    largest = np.abs(along).max()
+    if largest < 1e-6 * np.abs(moved).max():
+        raise InputError(
+            f"'imperfection' has 'mode' = {number}, which does not move the rod along its normal; take a bending mode"
+        )
+    shape: Array = moved / along[np.flatnonzero(np.abs(along) > (1 - _EQUAL) * largest)[0]]
+    return shape
+
+
+AnyImperfection = Annotated[Bow | Mode | BucklingMode, Field(discriminator="kind")]
 """An imperfection of any kind."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import replace
 from typing import ClassVar, Self
 
@@ -19,6 +19,7 @@ from cosserat.rods.attachments.springs import Spring
 from cosserat.rods.constraints import (
     Constraint,
     PrescribedDisplacement,
+    PrescribedPart,
     PrescribedRotation,
     RodConstraints,
 )
@@ -119,6 +120,11 @@ class RodProblem(Problem):
         """The loads of one kind."""
         given = getattr(self, key, None)
         return given if isinstance(given, tuple) else () if given is None else (given,)
+
+    @property
+    def turned_before(self) -> tuple[PrescribedRotation, ...]:
+        """Rotations of fixed sections where the loads begin to grow."""
+        return ()
 
     def attachments(self) -> list[Attachment]:
         """Every spring and foundation."""
@@ -236,16 +242,20 @@ class RodProblem(Problem):
         origin = at_rest if displacements else None
         body = LoadedRod(self.rod, geometry, origin, still, self.masses)
         rounded = np.zeros_like(at_rest) if energy.origin is None else energy.origin
-        parts = [item.part(self.rod, geometry) for _, item in self.constraints()]
         system = MechanicalSystem(
             energy,
             tuple(self._potentials(body)),
-            RodConstraints(mask, tuple(part for part in parts if part is not None)),
+            RodConstraints(mask, self.moves(geometry)),
             RodSpace(self.rod.kinematics, at_rest, displacements, rounded),
             body.mass,
             attached=(attached_energy(attached, body),) if attached else (),
         )
         return framed(system, frame)
+
+    def moves(self, geometry: Geometry) -> tuple[PrescribedPart, ...]:
+        """The prescribed motions of its constraints."""
+        parts = [item.part(self.rod, geometry) for _, item in self.constraints()]
+        return tuple(part for part in parts if part is not None)
 
     def _potentials(self, body: LoadedRod) -> Iterator[Potential]:
         """The potential of each kind of loads, and of each of its functions of time."""
@@ -277,6 +287,13 @@ class RodProblem(Problem):
     def unloaded_rod(self, geometry: Geometry) -> MechanicalSystem:
         """The supported rod without loads and damping, in displacements."""
         return RodProblem.system(self, geometry).unloaded()
+
+    def loaded_rod(self, geometry: Geometry, keys: Container[str]) -> MechanicalSystem:
+        """The supported rod without pose and damping, under its loads and moved supports of some keys alone."""
+        every = (*LOADS, "prescribed_displacements", "prescribed_rotations")
+        known = type(self).model_fields
+        left = {key: known[key].default for key in every if key in known and key not in keys}
+        return RodProblem.system(self.model_copy(update=left), geometry)
 
     def held(self, geometry: Geometry) -> tuple[Mask, Frame]:
         """Which DOFs are constrained, (n,), in frames of the vectors that are held obliquely."""

@@ -1,4 +1,4 @@
-"""Critical loads: by the linear criterion at the unloaded state, and by the true one along the path of equilibria.
+"""Critical loads: by the linear criterion where the loads begin, and by the true one along the path of equilibria.
 
 Linear: with K(f) the Hessian on the path of equilibria and f the load factor, K(0) + f K'(0) is singular at f.  K'(0),
 the geometric stiffness, is the derivative of K along the first-order answer to the load, that of the loads included.
@@ -47,20 +47,21 @@ class LinearCriterion:
 def linear_criterion(solver: EquilibriumSolver, count: int) -> LinearCriterion:
     """The lowest positive factors at which K(0) + f K'(0) is singular, at most `count`.
 
-    derived: K(f) on the path is K at the unloaded q plus f times its rate, up to second order in f.  The differences
+    derived: K(f) on the path is K at the q without load plus f times its rate, up to second order in f.  Differences
     of K at f and -f along that straight line have errors in even powers of f, which the extrapolation removes.
     Without a potential K is not symmetric; real factors are those of divergence, and flutter has none.
 
     Raises
     ------
-    NotConvergedError : there is no unloaded equilibrium.
-    UnstableError : the unloaded body is unstable.
+    NotConvergedError : there is no equilibrium from which the loads could grow.
+    UnstableError : the body is unstable there.
     """
     system, start = solver.system, unloaded(solver)
     rate = rate_with_load(solver, start)
     if rate is None or not start.stable:
         raise UnstableError(
-            f"{solver.name}: the unloaded body is unstable, so no load makes it so; fix more DOFs in 'supports'"
+            f"{solver.name}: the body is unstable before its loads grow, so they do not make it so; fix more DOFs in "
+            "'supports'"
         )
     stiffness = _hessian(system, start.q, start.history, 0.0)
     geometric = _slope(system, start, rate)

@@ -157,8 +157,10 @@ def framed(system: MechanicalSystem, frame: Frame) -> MechanicalSystem:
         internal=replace(system.internal, frame=frame),
         external=tuple(replace(load, frame=frame) for load in system.external),
         attached=tuple(replace(potential, frame=frame) for potential in system.attached),
+        held=tuple(replace(load, frame=frame) for load in system.held),
         space=FramedSpace(system.space, frame),
         mass=None if system.mass is None else frame.band(system.mass),
         frame=frame,
         plain=system,
+        began=None if system.began is None else frame.into(system.began),
     )

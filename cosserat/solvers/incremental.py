@@ -58,8 +58,8 @@ def solve_full_load(solver: EquilibriumSolver, *, stay: bool = False) -> Equilib
 
 
 def unloaded(solver: EquilibriumSolver) -> Equilibrium:
-    """The equilibrium without any load."""
-    point = solver.correct(solver.system.space.reference, 0.0, solver.system.history)
+    """The equilibrium from which the loads grow."""
+    point = solver.correct(solver.system.start, 0.0, solver.system.history)
     if point is None:
         raise solver.failure(0.0, 0.0, None)
     return point

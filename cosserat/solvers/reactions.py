@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.solvers.banded import Vector, band_product, constrain, solve_positive
+from cosserat.solvers.banded import band_product, constrain, solve_positive
 from cosserat.solvers.damping import momentum_damping, strain_damping
 from cosserat.solvers.integrate import State
-from cosserat.solvers.system import History, MechanicalSystem
+from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
 
@@ -46,12 +46,3 @@ def reactions(system: MechanicalSystem, states: Sequence[State]) -> Fields:
     inertial = np.array([band_product(system.inertia, row) for row in accelerations])
     held: Fields = np.where(fixed, inertial + forces, 0.0)
     return held
-
-
-def load_gradient(system: MechanicalSystem, q: Vector, history: History) -> Vector:
-    """The gradient of the loads of an equilibrium at the load factor one, (n,) [N]: minus their force."""
-    gradient = -system.dead_load
-    for load, own in zip(system.external, history[len(system.own) :], strict=True):
-        if not load.linear and load.level is None:
-            load.add_gradient(q, own, gradient)
-    return gradient

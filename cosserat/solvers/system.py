@@ -93,63 +93,6 @@ class ConfigurationSpace(Protocol):
 
 
 @dataclass(frozen=True)
-class FixedDofs:
-    """Constrained DOFs that keep their reference value."""
-
-    mask: Mask
-    moving: bool = False
-    max_increment: float = np.inf
-
-    def at_load(self, factor: float) -> tuple[Vector, Vector]:
-        """Zero."""
-        return np.zeros(self.mask.size), np.zeros(self.mask.size)
-
-    def at_time(self, time: float) -> tuple[Vector, Vector, Vector]:
-        """Zero."""
-        return np.zeros(self.mask.size), np.zeros(self.mask.size), np.zeros(self.mask.size)
-
-
-@dataclass(frozen=True)
-class FlatSpace:
-    """DOFs without rotations: each has a size (n,), its largest change in one step."""
-
-    scale: Vector
-    dimension: int = 1
-
-    @property
-    def reference(self) -> Vector:
-        """Zero."""
-        return np.zeros_like(self.scale)
-
-    def rigid_motions(self, q: Vector) -> Fields:
-        """None is known."""
-        return np.empty((0, q.size))
-
-    def max_step_fraction(self, q: Vector, step: Vector) -> float:
-        """Largest fraction of a step that changes no DOF by more than its size."""
-        fastest = float((np.abs(step) / self.scale).max())
-        return 1.0 / fastest if fastest > 0 else np.inf
-
-    def rotation_weights(self, q: Vector) -> Vector:
-        """Nothing rotates."""
-        return np.zeros_like(q)
-
-    def rates(self, q: Vector, change: Vector) -> Fields:
-        """The change by the sizes, (n, 1)."""
-        return (change / self.scale)[:, None]
-
-    def predicted(
-        self, q: Vector, moved: Fields, prescribe: Callable[[Vector], Vector], constrained: Mask
-    ) -> Vector:
-        """A straight line."""
-        return prescribe(q + moved[:, 0] * self.scale)
-
-    def carried(self, change: Vector, constrained: Mask) -> Vector:
-        """Nothing."""
-        return np.zeros_like(change)
-
-
-@dataclass(frozen=True)
 class MechanicalSystem:
     """A body, its loads, its constraints and its mass.
 
@@ -158,6 +101,8 @@ class MechanicalSystem:
     damped_modes : modes that are damped on their own.  mass : symmetric band (n, w + 1); None for statics.
     attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
     frame : frames of some pairs of DOFs.  plain : the same body without them, if there are some.
+    began : (n,) the equilibrium from which its loads grow; None for the reference.
+    held : loads of that equilibrium, which no load factor multiplies.
     """
 
     internal: Potential
@@ -171,6 +116,13 @@ class MechanicalSystem:
     plain: MechanicalSystem | None = None
     damping_time: float = 0.0
     damped_modes: DampedModes = NO_MODES
+    began: Vector | None = None
+    held: tuple[Potential, ...] = ()
+
+    @property
+    def start(self) -> Vector:
+        """The DOFs (n,) from which its loads grow."""
+        return self.space.reference if self.began is None else self.began
 
     @property
     def unframed(self) -> MechanicalSystem:
@@ -180,11 +132,11 @@ class MechanicalSystem:
     @property
     def own(self) -> tuple[Potential, ...]:
         """The energies that no load factor multiplies."""
-        return (self.internal, *self.attached)
+        return (self.internal, *self.attached, *self.held)
 
     @property
     def potentials(self) -> tuple[Potential, ...]:
-        """The energy of the body, of what it is attached to, and of its loads."""
+        """The energy of the body, of what it is attached to, of loads that are held, and of its loads."""
         return (*self.own, *self.external)
 
     @property
@@ -301,8 +253,8 @@ class MechanicalSystem:
         """
         tangent.clear()
         energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
-        for number, potential in enumerate(self.attached, start=1):
-            energy += potential.add(q, history[number], tangent.gradient, tangent.band, tangent.skew)
+        for potential, known in zip(self.own[1:], history[1:], strict=False):
+            energy += potential.add(q, known, tangent.gradient, tangent.band, tangent.skew)
         np.negative(self.dead_load, out=tangent.load_gradient)
         for load, own in self._loads(history):
             if not load.linear and load.level is None:

@@ -255,6 +255,7 @@ CHOICES = {
     "points": {},
     "bow": {"kind": "bow", "amplitude": "1 mm"},
     "mode": {"kind": "mode", "amplitude": "1 mm"},
+    "buckling mode": {"kind": "buckling mode", "amplitude": "1 mm"},
     "rectangle": SIDES,
     "square": {"side": "0.2 m", "shear_factor": 1},
     "hollow rectangle": SIDES | {"wall": "2 cm"},

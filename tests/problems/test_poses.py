@@ -7,11 +7,15 @@ import numpy as np
 import pytest
 from outside import reissner
 from outside.reissner import CLAMP, FREE, Load
+from scipy.linalg import expm
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk, j0
 
 import cosserat
 from cosserat.errors import InputError
+from cosserat.problems.critical import RodCriticalLoads
+from cosserat.problems.modes import RodModes
+from cosserat.problems.path import RodPath
 
 RIBBON = {
     "section": {"height": 5e-3, "width": 5e-3},
@@ -199,7 +203,139 @@ def test_a_pose_and_a_beam_mode_and_the_published_energy_are_refused():
         cosserat.case("vibration_consistent").vary("x", pose=STRAIGHT)
     with pytest.raises(InputError, match="'pose' needs rod.energy = 'consistent'"):
         cosserat.case("clamped_free").vary("x", pose=STRAIGHT)
-    with pytest.raises(InputError, match="the rod has a 'pose', and modes and critical loads are those"):
-        cosserat.modes(posed(CURL))
-    with pytest.raises(InputError, match="'pose' is not a key"):
-        cosserat.case("column_path").vary("x", pose=STRAIGHT)
+    with pytest.raises(InputError, match="has 'pose' and about = 'reference', but a rod that is bent"):
+        RodModes.of(posed(CURL).problem, 2).replace(about="reference")
+
+
+# ---------------------------------------------------------------- modes, critical loads and paths
+
+
+def modes(case, count=4):
+    return cosserat.modes(case, count).natural_frequency.to_numpy()
+
+
+def of_a_clamped_ring(count):
+    """Circular frequencies of a thin ring of unit length, clamped at one section, over sqrt(EI / m).
+
+    derived: without extension, the tangential displacement v goes by the angle as v6 + 2 v4 + v2 = l (v2 - v), l = m
+    R^4 w^2 / EI, each number a derivative; v, v1 and v2 are zero at both ends.
+    """
+
+    def determinant(root):
+        step = np.eye(6, k=1)
+        step[5] = [-(root**2), 0, root**2 - 1, 0, -2, 0]
+        return np.linalg.det(expm(2 * np.pi * step)[:3, 3:])
+
+    grid = np.linspace(0.2, 12, 120)
+    signs = np.sign([determinant(root) for root in grid])
+    roots = [brentq(determinant, grid[k], grid[k + 1]) for k in np.flatnonzero(signs[1:] != signs[:-1])]
+    return np.array(roots[:count]) * (2 * np.pi) ** 2
+
+
+def closed(vertices):
+    """The arc whose chords close."""
+    return {"kind": "arc", "curvature": 2 * np.sin(np.pi / (vertices - 1)) * (vertices - 1)}
+
+
+THIN = {"section": {"height": 1e-3, "width": 5e-3}}
+UNIT = np.sqrt(1e9 * 5e-3 * 1e-3**3 / 12 / 0.04195) / (2 * np.pi)
+"""Frequency of the thin ribbon, sqrt(EI / m) / (2 pi)."""
+
+
+def test_a_ring_closed_from_a_strip_vibrates_as_one_that_is_round_at_rest():
+    """Its ends do not turn, so the moment of closing does no work; against the equation of an inextensible ring."""
+    right, errors = of_a_clamped_ring(3) * UNIT, []
+    for n in (21, 41, 81):
+        found = modes(posed(closed(n), n, supports=BOTH, rod=THIN), 3)
+        np.testing.assert_allclose(
+            found, modes(posed(None, n, closed(n), supports=BOTH, rod=THIN), 3), rtol=1e-5
+        )
+        errors.append(found / right - 1)
+    np.testing.assert_allclose(orders(np.abs(errors)), 2, atol=0.15)
+    assert np.abs(errors[-1]).max() < 6e-3
+
+
+def test_a_curl_unrolled_between_clamps_vibrates_as_a_straight_beam():
+    roots = [brentq(lambda x: np.cosh(x) * np.cos(x) - 1, b - 0.3, b + 0.3) for b in (4.7, 7.9, 11)]
+    found = modes(posed(STRAIGHT, 81, CURL, supports=BOTH, rod=THIN), 3)
+    np.testing.assert_allclose(found, np.square(roots) * UNIT, rtol=3e-3)
+
+
+def test_modes_are_about_the_equilibrium_to_which_a_pose_leads():
+    """The same hanging rod, unrolled or not; that of a motion is without its loads."""
+    hanging = [modes(posed(pose, 41, CURL, gravity=WEIGHT)) for pose in (STRAIGHT, None)]
+    np.testing.assert_allclose(*hanging, rtol=2e-2)
+    moving = posed(
+        closed(21),
+        21,
+        like="vibration_consistent",
+        start={"shape": "reference", "amplitude": 0.0},
+        damping="none",
+        supports=BOTH,
+        gravity=WEIGHT,
+        rod={"length": 1.0},
+    )
+    np.testing.assert_allclose(modes(moving), modes(posed(closed(21), 21, supports=BOTH)), rtol=1e-9)
+
+
+def test_a_curl_unrolled_and_compressed_buckles_at_the_load_of_a_straight_column():
+    """Between a clamp and a guide its moment does no work; the closed form of the discrete column."""
+    rod = {"section": {"height": 0.1, "width": 0.1}}
+    guided = [BOTH[0], {"at": "last", "fixed": ["x2", "d3", "d2"]}]
+    push = [{"at": "last", "along": "-E3", "force": 1.0}]
+    case = posed(STRAIGHT, 11, {"kind": "arc", "curvature": 1.0}, supports=guided, forces=push, rod=rod)
+    found = RodCriticalLoads.of(case.problem, 1).solve("it")
+    EA, EI = 1e9 * 0.1**2, 1e9 * 0.1**4 / 12
+    GA, bent = 5 / 12 * EA, EI * (20 * np.tan(np.pi / 10)) ** 2
+    right = brentq(lambda P: P * (1 - P / EA + P / GA) - bent, 0, 2 * bent)
+    assert found["special_load_factor"] == pytest.approx([right], rel=1e-9)
+    assert found["linear_load_factor"] == pytest.approx([right], rel=0.1)
+    np.testing.assert_allclose(found["x"], found["x_ref"], atol=1e-12)
+
+
+def path_of(case):
+    table = case.problem.model_dump() | {"kind": "rod path"}
+    return RodPath.read(table, "x", units_required=False).solve("the path")
+
+
+def test_the_path_of_a_ring_that_is_pinched_begins_in_its_pose():
+    """Its height falls by (pi / 4 - 2 / pi) F R^3 / EI; at the end it is the static answer."""
+    radius, bending, found = 1 / (2 * np.pi), 1e9 * 5e-3 * 1e-3**3 / 12, []
+    force = 1e-4 * bending / radius**2
+    for n in (21, 41, 81):
+        push = [{"at": (n - 1) // 2, "along": "-E2", "force": force}]
+        case = posed(closed(n), n, supports=BOTH, forces=push, rod=THIN)
+        path = path_of(case)
+        height = path["x"][:, (n - 1) // 2, 1]
+        found.append((height[0] - height[-1]) / (force * radius**3 / bending))
+        assert path["load_factor"][0] == 0
+    errors = np.array(found) - (np.pi / 4 - 2 / np.pi)
+    assert orders(np.abs(errors)) == pytest.approx([2, 2], abs=0.15)
+    assert abs(errors[-1]) < 1e-3
+    still = cosserat.run(case)
+    np.testing.assert_allclose(path["x"][-1], still.x, atol=1e-9)
+    np.testing.assert_allclose(path.derive().fields["bending_moment"][1][-1], still.bending_moment)
+
+
+def test_supports_move_along_a_path_from_where_the_pose_holds_them():
+    moved = {
+        "prescribed_displacements": [{"at": "last", "dof": "x2", "by": 0.1}],
+        "prescribed_rotations": [{"at": "last", "by": 0.5}],
+    }
+    case = posed(closed(21), 21, supports=BOTH, **moved)
+    path, still = path_of(case), cosserat.run(case)
+    np.testing.assert_allclose(path["x"][0, -1], path["x_ref"][-1], atol=1e-12)
+    for name in ("x", "d"):
+        np.testing.assert_allclose(path[name][-1], still[name], atol=1e-9)
+    assert path["d"][-1, -1] == pytest.approx(2.5e-3 * np.array([-np.sin(0.5), np.cos(0.5)]), abs=1e-8)
+
+
+def test_the_path_of_a_curl_that_is_unrolled_and_let_go_begins_with_its_circle():
+    case = posed(STRAIGHT, 41, CURL, gravity=WEIGHT)
+    path, still = path_of(case), cosserat.run(case)
+    np.testing.assert_allclose(path["x"][0, -1], 0, atol=1e-2)
+    assert path["x"][0, 20] == pytest.approx([0, 1 / np.pi], abs=1e-2)
+    np.testing.assert_allclose(path["x"][-1], still.x, atol=1e-9)
+    critical = RodCriticalLoads.of(case.problem, 1)
+    begun = critical.replace(search={"count": 1}).solve("it")["x"]
+    np.testing.assert_allclose(begun, path["x"][0], atol=1e-9)

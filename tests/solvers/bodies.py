@@ -14,8 +14,9 @@ from numba import njit
 
 from cosserat.rods.kinematics import Kinematics
 from cosserat.solvers.banded import to_dense
+from cosserat.solvers.flat import FixedDofs, FlatSpace
 from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, KERNEL, Potential
-from cosserat.solvers.system import FixedDofs, FlatSpace, MechanicalSystem, Tangent
+from cosserat.solvers.system import MechanicalSystem, Tangent
 
 WELL = np.dtype([("quartic", "f8"), ("quadratic", "f8"), ("middle", "f8")])
 SPRING = np.dtype([("one", "i8"), ("other", "i8"), ("stiffness", "f8"), ("length", "f8")])

@@ -19,8 +19,9 @@ from numba import njit
 
 from cosserat.rods.kinematics import SPATIAL
 from cosserat.rods.space import RodSpace
+from cosserat.solvers.flat import FixedDofs
 from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, STRAINS
-from cosserat.solvers.system import FixedDofs, MechanicalSystem
+from cosserat.solvers.system import MechanicalSystem
 
 FORM = np.dtype(
     [("first", "i8"), ("vectors", "i8"), ("weight", "f8"), ("reference", "f8"), ("B", "f8", (6, 6))]

@@ -9,9 +9,10 @@ import cosserat
 from cosserat.errors import InputError, NotConvergedError
 from cosserat.solvers.banded import absolute_product, constrain, solve_positive, to_dense
 from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
+from cosserat.solvers.flat import FixedDofs, FlatSpace
 from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, Potential
-from cosserat.solvers.system import FixedDofs, FlatSpace, MechanicalSystem
+from cosserat.solvers.system import MechanicalSystem
 
 
 @njit(KERNEL, cache=True)

@@ -5,8 +5,9 @@ import pytest
 from numba import njit
 
 from cosserat.solvers import integrate
+from cosserat.solvers.flat import FixedDofs, FlatSpace
 from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL, STRAINS, Potential
-from cosserat.solvers.system import FixedDofs, FlatSpace, MechanicalSystem
+from cosserat.solvers.system import MechanicalSystem
 
 
 @njit(KERNEL, cache=True)
