@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
@@ -47,10 +47,19 @@ _EXPECTED = {
 def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
     """One sentence with the faults that validation found, up to a few."""
     faults = error.errors(include_url=False)
-    clauses = [_clause(fault, owner) for fault in faults[:_MOST_FAULTS]]
+    clauses = list(_once(_clause(fault, owner) for fault in faults[:_MOST_FAULTS]))
     if len(faults) > _MOST_FAULTS:
         clauses.append(f"and {len(faults) - _MOST_FAULTS} more faults like these")
     return f"{name}: " + "; ".join(clauses)
+
+
+def _once(clauses: Iterable[str]) -> Iterator[str]:
+    """The clauses, each list of known words only where it is first."""
+    told: set[str] = set()
+    for clause in clauses:
+        fault, _, known = clause.partition("; known are: ")
+        yield fault if known in told else clause
+        told |= {known} - {""}
 
 
 def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:

@@ -18,7 +18,7 @@ import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, Self, get_args, get_origin
+from typing import Any, Literal, Self, TypeGuard, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError, model_validator
 from pydantic_core import PydanticCustomError, core_schema
@@ -112,7 +112,7 @@ class Quantity:
             fault = f"0, or at least {brief(NOTHING)} in size"
         if fault:
             shown_number = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
-            raise PydanticCustomError("range", f"is {shown_number}; it must be {fault}")  # type: ignore[arg-type]
+            raise PydanticCustomError("range", f"is {shown_number}; it must be {fault}")
         return number
 
     def __get_pydantic_core_schema__(
@@ -171,7 +171,7 @@ class Items:
 
     def check(self, value: object) -> object:
         """Count the items of a list before they are read; what is no list is left to its own check."""
-        if isinstance(value, list | tuple):
+        if is_list(value):
             self.count(len(value))
         return value
 
@@ -179,6 +179,11 @@ class Items:
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> core_schema.CoreSchema:
         return core_schema.no_info_before_validator_function(self.check, handler(source))
+
+
+def is_list(value: object) -> TypeGuard[Sequence[Any]]:
+    """Whether a value is a list, a tuple or an array."""
+    return isinstance(value, list | tuple) or getattr(value, "ndim", 0) > 0
 
 
 class Reader:
@@ -257,11 +262,10 @@ def _reads_none(annotation: Any) -> bool:
 
 def _check_length(key: str, value: object, marks: Sequence[object]) -> None:
     """Raise PydanticCustomError for a list that is too long, if it has no rule of its own."""
-    long = isinstance(value, list | tuple) and len(value) > MOST_ITEMS
-    if long and not any(isinstance(mark, Items | Reader) for mark in marks):
+    items = len(value) if is_list(value) else 0
+    if items > MOST_ITEMS and not any(isinstance(mark, Items | Reader) for mark in marks):
         raise PydanticCustomError(
-            "items",
-            f"has {len(value)} items in '{key}'; it may have up to {MOST_ITEMS}",  # type: ignore[arg-type]
+            "items", f"has {items} items in '{key}'; it may have up to {MOST_ITEMS}"
         )
 
 

@@ -100,5 +100,5 @@ def checked_name(name: str, pattern: str, remedy: str) -> str:
             "name", f"is {shown(name)}, of {len(name)} characters; take up to {LONGEST_NAME}"
         )
     if not re.fullmatch(pattern, name):
-        raise PydanticCustomError("name", f"is {shown(name)}{remedy}")  # type: ignore[arg-type]
+        raise PydanticCustomError("name", f"is {shown(name)}{remedy}")
     return name

@@ -6,9 +6,10 @@ import numpy as np
 from pydantic_core import PydanticCustomError
 
 from cosserat.problems.static import RodStatics
+from cosserat.rods.attachments import ATTACHMENTS
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.places import arc_of
-from cosserat.rods.problem import ATTACHMENTS, LOADS
+from cosserat.rods.problem import LOADS
 from cosserat.rods.sections.section import Homogeneous
 
 _NEAR = 1e-9
@@ -84,5 +85,5 @@ def _end(problem: RodStatics, at: str | int) -> int | None:
 def _refused(key: str, fault: str, remedy: str) -> PydanticCustomError:
     return PydanticCustomError(
         "study",
-        f"has '{key}', which {fault}, but is compared with a closed form; {remedy}",  # type: ignore[arg-type]
+        f"has '{key}', which {fault}, but is compared with a closed form; {remedy}",
     )
