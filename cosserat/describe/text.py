@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 
 from cosserat.describe.keys import Key, Value, common_keys, keys, title
 from cosserat.errors import InputError
-from cosserat.parameters import Count, Items, Quantity, cited, nearest
+from cosserat.explain import cited
+from cosserat.parameters import Count, Items, Quantity, nearest
 from cosserat.publications import kinds
 from cosserat.units import what_is_in
 

@@ -22,7 +22,8 @@ from cosserat.describe import keys as listing
 from cosserat.describe.keys import Key
 from cosserat.describe.text import need, type_of
 from cosserat.errors import InputError, OutOfToleranceError
-from cosserat.parameters import Count, Quantity, cited
+from cosserat.explain import cited
+from cosserat.parameters import Count, Quantity
 from cosserat.thesis.figures.catalogue import entry
 from cosserat.thesis.table.errata import Erratum, read_errata
 from cosserat.thesis.table.left_out import LeftOutList, read_left_out
