@@ -147,7 +147,7 @@ class Items:
     @property
     def range(self) -> str:
         """The range in words."""
-        return f"from {self.at_least} to {self.at_most}"
+        return f"{self.at_least} to {self.at_most}" if self.at_least else f"up to {self.at_most}"
 
     def count(self, items: int) -> None:
         """Raise PydanticCustomError if a list cannot have so many items."""

@@ -142,7 +142,9 @@ def _type(value: Value) -> str:
         assert isinstance(value.about, Items)
         many = "" if value.about == Items() else f" of {span(value.about)}"
         items = value.items[0]
-        return f"a list{many} of tables" if items.tables else f"a list{many}, each item {_type(items)}"
+        if items.tables:
+            return f"a list{many or ' of'} tables"
+        return f"a list{many}, each item {_type(items)}"
     if value.form == "either":
         return _either([_type(item) for item in value.items])
     if value.form == "row":

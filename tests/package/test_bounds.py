@@ -139,8 +139,8 @@ def test_a_range_is_said_with_all_of_its_ends(quantity, written):
         (WORM + 'step = "1e9 s"\ngait.phases = []', "'gait' 'phases' is empty"),
         (WORM + 'step = "1 µs"', "into more than 20000 instants; take a longer one"),
         (WORM + f"gait.gamma = {[[[0, 0], [1, 1]]] * 101}", "'gait.gamma' has 101 items"),
-        ('[a]\nlike = "calibration"\nmeshes = []', "'meshes' has 0 items; it must have from 1 to 100"),
-        ('[a]\nlike = "convergence"\nmeshes = []', "'meshes' has 0 items; it must have from 1 to 100"),
+        ('[a]\nlike = "calibration"\nmeshes = []', "'meshes' has 0 items; it must have 1 to 100"),
+        ('[a]\nlike = "convergence"\nmeshes = []', "'meshes' has 0 items; it must have 1 to 100"),
     ],
     ids=itertools.count(),
 )
@@ -337,4 +337,4 @@ def test_lists_have_a_length():
     assert len(Listed(few=(1,) * 1000).few) == 1000
     with pytest.raises(InputError, match="has 1001 items in 'few'; it may have up to 1000"):
         Listed(few=(1,) * 1001)
-    assert Items(2, 3).range == "from 2 to 3"
+    assert [Items(2, 3).range, Items(0, 3).range] == ["2 to 3", "up to 3"]
