@@ -2,27 +2,45 @@
 
 from __future__ import annotations
 
+import ast
+import difflib
+import functools
+import inspect
+import itertools
 import re
-from collections.abc import Mapping
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 from pydantic_core.core_schema import ErrorType
 
-from cosserat.parameters import (
-    Choice,
-    Count,
-    Quantity,
-    Reader,
-    chooser,
-    cited,
-    classes_in,
-    docstrings,
-    nearest,
-)
+from cosserat.quantities import Count, Quantity, Reader
+from cosserat.synonyms import meant
 from cosserat.text import shortened, shown
 from cosserat.units import how_to_write
+
+Choice = list[type[BaseModel]]
+"""Parameter classes for one place: one, or several that differ in one key, such as `kind` or `shape`."""
+
+
+def chooser(choice: Sequence[type[BaseModel]]) -> str:
+    """The key by which several classes for one place differ: each has its own word for it; empty if there is none."""
+    for name in choice[0].model_fields if len(choice) > 1 else ():
+        fields = [c.model_fields.get(name) for c in choice]
+        words = [f.default for f in fields if f is not None and get_origin(f.annotation) is Literal]
+        if len(set(words)) == len(choice):
+            return name
+    return ""
+
+
+def classes_in(annotation: object) -> Choice:
+    """Parameter classes in an annotation, at any depth."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [found for part in get_args(annotation) for found in classes_in(part)]
+
 
 _MOST_FAULTS = 8  # that a sentence names
 
@@ -47,10 +65,19 @@ _EXPECTED = {
 def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
     """One sentence with the faults that validation found, up to a few."""
     faults = error.errors(include_url=False)
-    clauses = [_clause(fault, owner) for fault in faults[:_MOST_FAULTS]]
+    clauses = list(_once(_clause(fault, owner) for fault in faults[:_MOST_FAULTS]))
     if len(faults) > _MOST_FAULTS:
         clauses.append(f"and {len(faults) - _MOST_FAULTS} more faults like these")
     return f"{name}: " + "; ".join(clauses)
+
+
+def _once(clauses: Iterable[str]) -> Iterator[str]:
+    """The clauses, each list of known words only where it is first."""
+    told: set[str] = set()
+    for clause in clauses:
+        fault, _, known = clause.partition("; known are: ")
+        yield fault if known in told else clause
+        told |= {known} - {""}
 
 
 def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
@@ -123,6 +150,29 @@ def _what_it_is(owner: type[BaseModel], path: tuple[int | str, ...]) -> str:
     return ", ".join(["", *filter(None, meaning)]) + f": {remedy}"
 
 
+def cited(source: str) -> str:
+    """A place in the thesis for a sentence: an equation by its number, anything else as given."""
+    return f"eq. ({source})" if re.fullmatch(r"\d+(\.\d+){2}", source) else source
+
+
+@functools.cache
+def docstrings(owner: type[BaseModel]) -> Mapping[str, str]:
+    """The docstrings of the fields of a class, with those of its bases."""
+    found: dict[str, str] = {}
+    for place in reversed(owner.__mro__):
+        if not (issubclass(place, BaseModel) and inspect.get_annotations(place)) or place is BaseModel:
+            continue
+        body = ast.parse(textwrap.dedent(inspect.getsource(place))).body[0]
+        assert isinstance(body, ast.ClassDef)
+        for field, below in itertools.pairwise(body.body):
+            if not isinstance(field, ast.AnnAssign):
+                continue
+            found.pop(key := ast.unparse(field.target), "")
+            if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
+                found[key] = inspect.cleandoc(str(below.value.value))
+    return found
+
+
 def _first_sentence(text: str | None) -> str:
     first = re.split(r"[.:;](?:\s|$)", (text or "").strip())[0]
     return first[:1].lower() + first[1:]
@@ -141,3 +191,21 @@ def _choice_at(owner: type[BaseModel], path: tuple[int | str, ...]) -> Choice:
         fields = [c.model_fields[str(part)] for c in choice if str(part) in c.model_fields]
         choice = _chosen(part, choice) or (classes_in(fields[0].annotation) if fields else choice)
     return choice or [owner]
+
+
+def nearest(word: str, known: list[str], cutoff: float = 0.8) -> str:
+    """The clause after an unknown word: the known one that is meant, or the nearest one, or all of them.
+
+    cutoff : likeness, up to 1, from which a word counts as near.
+    """
+    said = meant(word, known)
+    close = [said] if said else difflib.get_close_matches(word[:100], known, n=1, cutoff=cutoff)
+    if close:
+        return f"; did you mean '{shortened(close[0])}'?"
+    names = [shortened(name) for name in known]
+    fitting = sum(length < _LISTED for length in itertools.accumulate(len(name) + 2 for name in names))
+    more = f" and {len(names) - fitting} more" if len(names) > fitting else ""
+    return f"; known are: {', '.join(names[:fitting])}{more}"
+
+
+_LISTED = 450  # most characters of the known words that a sentence lists

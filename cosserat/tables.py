@@ -17,7 +17,7 @@ import numpy as np
 from pydantic import BaseModel, GetCoreSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from cosserat.parameters import Items, Quantity, Reader, from_file, nearest
+from cosserat.parameters import Items, Quantity, Reader, from_file, is_list, nearest
 from cosserat.reading import read_text
 from cosserat.text import shortened, shown
 from cosserat.units import to_si
@@ -71,16 +71,15 @@ class Columns(Reader):
         if isinstance(value, str):
             folder = (info.context or {}).get("folder") or Path()
             rows = self._read_file(Path(folder) / value, value)
-        elif _is_row(value):
-            every: Any = value
-            self._check_count(len(every))
-            rows = [self._row(number, row, info) for number, row in enumerate(every)]
+        elif is_list(value):
+            self._check_count(len(value))
+            rows = [self._row(number, row, info) for number, row in enumerate(value)]
         else:
             raise PydanticCustomError("type", f"is {shown(value)}; it must be {self.said}")
         return self._checked(rows)
 
     def _row(self, number: int, row: Any, info: core_schema.ValidationInfo) -> tuple[float, ...]:
-        cells = list(row) if _is_row(row) else [row]
+        cells = list(row) if is_list(row) else [row]
         if len(cells) != len(self.columns):
             raise PydanticCustomError(
                 "row",
@@ -205,11 +204,6 @@ class Columns(Reader):
             return index, to_si(f"1 {written}", unit, unit_required=True)
         except PydanticCustomError as error:
             raise refused(f"whose column '{name}' {error.message()}") from None
-
-
-def _is_row(value: object) -> bool:
-    """Whether a value is a list, a tuple or an array."""
-    return isinstance(value, list | tuple) or getattr(value, "ndim", 0) > 0
 
 
 def _absent(file: Path) -> str:

@@ -13,11 +13,18 @@ from pydantic_core import PydanticCustomError
 _STEERING = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """Categories of Unicode that can change a terminal or a line: controls, formats (such as an override of the direction
 of writing), halves of characters, breaks."""
+_JOINERS = "\u200c\u200d"  # formats that words of some scripts and emoji need
 
 
 def steering(text: str) -> str:
-    """The characters of a text that can change how a terminal shows what follows, or that break the line."""
-    return "".join(letter for letter in text if unicodedata.category(letter) in _STEERING)
+    """The characters of a text that can change how a terminal shows what follows, or that no page may hold."""
+    return "".join(letter for letter in text if _steers(letter))
+
+
+def _steers(letter: str) -> bool:
+    code = ord(letter)
+    no_character = code & 0xFFFE == 0xFFFE or 0xFDD0 <= code <= 0xFDEF
+    return no_character or (unicodedata.category(letter) in _STEERING and letter not in _JOINERS)
 
 
 def printable(text: object) -> str:
@@ -93,5 +100,5 @@ def checked_name(name: str, pattern: str, remedy: str) -> str:
             "name", f"is {shown(name)}, of {len(name)} characters; take up to {LONGEST_NAME}"
         )
     if not re.fullmatch(pattern, name):
-        raise PydanticCustomError("name", f"is {shown(name)}{remedy}")  # type: ignore[arg-type]
+        raise PydanticCustomError("name", f"is {shown(name)}{remedy}")
     return name

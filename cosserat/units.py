@@ -94,7 +94,7 @@ def _units() -> pint.UnitRegistry[float]:
 def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     """Read one value as a number in the SI unit `unit`: a number, or a text such as "2.5 mm", "1e3 kg/m" or "5/6".
 
-    `cosserat.parameters.Quantity` also checks its range.
+    `cosserat.quantities.Quantity` also checks its range.
 
     Raises
     ------

@@ -81,8 +81,9 @@ class Tables(UserDict[str, Any]):
 
 def _bases(name: str, like: object) -> list[str]:
     """The names that a `like` gives."""
-    bases = like if isinstance(like, list) else [like]
-    if len(bases) > _MOST_BASES or not all(isinstance(base, str) for base in bases):
+    given = like if isinstance(like, list) else [like]
+    bases = [base for base in given if isinstance(base, str)]
+    if len(given) > _MOST_BASES or len(bases) < len(given):
         raise InputError(
             f"case '{shortened(name)}': 'like' is {shown(like)}; it must be the name of a case, or a list of up to "
             f"{_MOST_BASES}"

@@ -15,6 +15,7 @@ _COMPUTING = (
     "signals.py",
     "reading.py",
     "explain.py",
+    "quantities.py",
     "solution.py",
     "text.py",
     "units.py",

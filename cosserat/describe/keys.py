@@ -16,6 +16,7 @@ from pydantic.fields import FieldInfo
 
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
+from cosserat.explain import docstrings
 from cosserat.parameters import (
     Count,
     Items,
@@ -23,7 +24,6 @@ from cosserat.parameters import (
     Quantity,
     Reader,
     chooser,
-    docstrings,
     nearest,
 )
 from cosserat.problem import Problem

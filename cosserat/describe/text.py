@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 
 from cosserat.describe.keys import Key, Value, common_keys, keys, title
 from cosserat.errors import InputError
-from cosserat.parameters import Count, Items, Quantity, cited, nearest
+from cosserat.explain import cited
+from cosserat.parameters import Count, Items, Quantity, nearest
 from cosserat.publications import kinds
 from cosserat.units import what_is_in
 
@@ -141,7 +142,9 @@ def _type(value: Value) -> str:
         assert isinstance(value.about, Items)
         many = "" if value.about == Items() else f" of {span(value.about)}"
         items = value.items[0]
-        return f"a list{many} of tables" if items.tables else f"a list{many}, each item {_type(items)}"
+        if items.tables:
+            return f"a list{many or ' of'} tables"
+        return f"a list{many}, each item {_type(items)}"
     if value.form == "either":
         return _either([_type(item) for item in value.items])
     if value.form == "row":

@@ -5,6 +5,7 @@ The function that a kind names in `cosserat.kinds` makes the animation.
 
 from __future__ import annotations
 
+import html
 import re
 import tempfile
 from pathlib import Path
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from cosserat.data.files import whole_or_absent
 from cosserat.progress import bar
+from cosserat.text import printable
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -86,4 +88,6 @@ def _page(drawn: str, title: str) -> str:
     for name, sign in _BUTTONS.items():
         text = text.replace(f'<i class="fa fa-{name}"></i>', sign)
     random = re.search(r'id="_anim_img([0-9a-f]+)"', text)
-    return _PAGE.format(title=title, body=text.replace(random[1], "") if random else text)
+    return _PAGE.format(
+        title=html.escape(printable(title)), body=text.replace(random[1], "") if random else text
+    )

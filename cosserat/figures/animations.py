@@ -19,7 +19,7 @@ from cosserat.data.dataset import problem_of
 from cosserat.figures.animated import FRAMES
 from cosserat.figures.modes import SHOWN, amplitude, buckled, label, mode_shape, panels, spoken
 from cosserat.figures.rod import draw_outline, magnification, outline
-from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas, title_of
 from cosserat.figures.supports import draw_supports
 from cosserat.rods.problem import RodProblem
 
@@ -90,7 +90,7 @@ def _states(data: xr.Dataset, shown: NDArray[np.int64], said: list[str]) -> Func
 
     def show(frame: int) -> None:
         body(frame)
-        ax.set_title(f"{data.attrs['title']}, displacements × {magnified:g}\n{said[frame]}")
+        ax.set_title(f"{title_of(data)}, displacements × {magnified:g}\n{said[frame]}")
 
     return _animation(figure, show, shown.size)
 

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
+from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas, title_of
 from cosserat.problems.crawl import Crawl, CrawlerProblem
 
 Array = NDArray[np.float64]
@@ -159,7 +159,7 @@ def picture(data: xr.Dataset) -> Figure:
     last = data.isel(time=-1) if "time" in data.sizes else data
     draw_crawler(body, last, resting_radius(data))
     body.set_aspect("equal", adjustable="datalim")
-    body.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=data.attrs["title"])
+    body.set(xlabel="along the ground [cm]", ylabel="height [cm]", title=title_of(data))
     for name, colour in STRETCHES.items():
         curves.plot(data.xi_section * 1e2, last[name], color=colour, label=rf"$\{name}$")
     curves.set(xlabel=r"arc length $\xi$ [cm]", ylabel="stretch [1]")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from cosserat.figures.animated import FRAMES
 from cosserat.figures.crawlers import ANCHOR, THINNED, legend_of_bodies, resting_radius, runs
-from cosserat.figures.style import BODY, INK, canvas
+from cosserat.figures.style import BODY, INK, canvas, title_of
 
 Array = NDArray[np.float64]
 _INTERVAL = 80  # from one frame to the next [ms]
@@ -45,7 +45,7 @@ def animate(data: xr.Dataset, frames: int = FRAMES) -> FuncAnimation:
         body.set_verts([_outline(along[frame], top[frame])])
         advancing.set_verts([_outline(along[frame][run], top[frame][run]) for run in runs(thin[frame])])
         anchor.set_data([foot[frame]], [0.0])
-        ax.set_title(f"{data.attrs['title']}, t = {data.time.to_numpy()[frame]:.2f} s")
+        ax.set_title(f"{title_of(data)}, t = {data.time.to_numpy()[frame]:.2f} s")
         return [body, advancing, anchor]
 
     return FuncAnimation(figure, draw, frames=chosen.tolist(), interval=_INTERVAL)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.rod import draw_loads, draw_outline
-from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas, plain, title_of
 from cosserat.figures.supports import draw_supports
 from cosserat.rods.problem import RodProblem
 
@@ -37,7 +37,7 @@ def picture(data: xr.Dataset) -> Figure:
         )
         draw_supports(ax, problem, x, d)
         label(ax, spoken(data, mode))
-    figure.suptitle(data.attrs["title"], fontsize=9)
+    figure.suptitle(title_of(data), fontsize=9)
     return figure
 
 
@@ -57,7 +57,7 @@ def critical_picture(data: xr.Dataset) -> Figure:
             if loaded is not None:
                 draw_loads(ax, loaded, moved_x, moved_d)
         label(ax, title)
-    figure.suptitle(data.attrs["title"], fontsize=9)
+    figure.suptitle(title_of(data), fontsize=9)
     return figure
 
 
@@ -68,7 +68,7 @@ def buckled(data: xr.Dataset) -> list[tuple[Array, Array, Array, Array, str]]:
     for k in range(data.sizes.get("special", 0)):
         load, kind = float(data.special_load_factor[k]), str(data.special.to_numpy()[k])
         x, d, u, delta = (data[f"special_{name}"].to_numpy()[k] for name in ("x", "d", "u", "delta"))
-        words = f"true criterion: {load:.6g} × the loads, {kind.partition(',')[0]}"
+        words = f"true criterion: {load:.6g} × the loads, {plain(kind.partition(',')[0])}"
         shown.append((x, d, u, delta, words))
     for mode in range(data.sizes.get("mode", 0)):
         u, delta = (data[name].to_numpy()[mode] for name in ("linear_u", "linear_delta"))

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.rod import draw_loads, draw_outline, magnification
-from cosserat.figures.style import BODY, COMPUTED, EXACT, VARIANT, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, VARIANT, canvas, plain, title_of
 from cosserat.figures.supports import draw_masses, draw_supports
 from cosserat.rods.problem import RodProblem
 
@@ -36,13 +36,13 @@ def picture(data: xr.Dataset) -> Figure:
         xlabel=r"along $\mathbf{E}_3$ [m]",
         ylabel=r"along $\mathbf{E}_2$ [m]",
     )
-    left.set_title(f"{data.attrs['title']}, displacements × {magnified:g}", pad=24)  # above the legend
+    left.set_title(f"{title_of(data)}, displacements × {magnified:g}", pad=24)  # above the legend
     right.plot(data.time, data.kinetic_energy, color=COMPUTED, label="kinetic")
     right.plot(data.time, data.strain_energy, color=VARIANT, label="strain")
     right.set(xlabel="time [s]", ylabel="energy [J]")
     for ax, axis in zip(below, ("E3", "E2"), strict=False):
         for name in data.probe.to_numpy():
-            ax.plot(data.time, data.probe_displacement.sel(probe=name, axis=axis), label=name)
+            ax.plot(data.time, data.probe_displacement.sel(probe=name, axis=axis), label=plain(name))
         ax.set(xlabel="time [s]", ylabel=f"displacement along {axis} [m]")
     for ax in (left, right, *below):
         ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas, plain, title_of
 
 Array = NDArray[np.float64]
 
@@ -19,7 +19,7 @@ def picture(data: xr.Dataset) -> Figure:
     draw_shapes(left, data)
     left.set_aspect("equal", adjustable="datalim")
     left.set(
-        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=data.attrs["title"]
+        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=title_of(data)
     )
     moved = np.linalg.norm(data.x.to_numpy() - data.x_ref.to_numpy(), axis=2).max(axis=1)
     draw_path(right, moved, data.load_factor.to_numpy(), data)
@@ -70,5 +70,5 @@ def draw_special(ax: Axes, run: xr.Dataset) -> None:
             markersize=6,
             color=INK,
             zorder=5,
-            label=f"{kind} at {load:.4g}",
+            label=f"{plain(kind)} at {load:.4g}",
         )

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas, title_of
 from cosserat.figures.supports import draw_masses, draw_supports
 from cosserat.rods.loads.dead import LineLoad, PointForce
 from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
@@ -38,7 +38,7 @@ def picture(data: xr.Dataset) -> Figure:
     magnified = magnification(data.u.to_numpy(), problem_of(data, RodProblem).rod.length)
     draw_body(top, data, magnified)
     top.set_aspect("equal", adjustable="datalim")
-    top.set_title(f"{data.attrs['title']}, displacements × {magnified:g}")
+    top.set_title(f"{title_of(data)}, displacements × {magnified:g}")
     top.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]")
     curves = [
         (data.u.sel(axis="E3"), "displacement along E3 [m]"),

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import textwrap
-from contextlib import AbstractContextManager
+import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.data.files import whole_or_absent
+from cosserat.text import printable
 
 Array = NDArray[np.float64]
 
@@ -52,9 +56,22 @@ _SETTINGS: Any = {
 }
 
 
-def settings() -> AbstractContextManager[None]:
-    """The settings of matplotlib for a figure."""
-    return mpl.rc_context(_SETTINGS)
+@contextlib.contextmanager
+def settings() -> Iterator[None]:
+    """The settings of matplotlib for a figure; of letters that its font lacks it does not warn."""
+    with mpl.rc_context(_SETTINGS), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph|Matplotlib currently does not support", UserWarning)
+        yield
+
+
+def title_of(data: xr.Dataset) -> str:
+    """The title of a result, for a picture."""
+    return plain(data.attrs.get("title", ""))
+
+
+def plain(text: object) -> str:
+    """A text of the user or of a file for a picture: a dollar is no sign of mathematics, and nothing is steered."""
+    return "\n".join(map(printable, str(text).split("\n"))).replace("$", r"\$")
 
 
 class Picture(Figure):
@@ -74,12 +91,12 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
     return figure, [ax for line in axes for ax in line]
 
 
-def note(figure: Figure | str, warnings: list[str]) -> None:
+def note(figure: Figure | str, said: list[str]) -> None:
     """Put warnings below a picture; an animation shows none."""
-    if warnings and isinstance(figure, Figure):
+    if said and isinstance(figure, Figure):
         width = int(20 * figure.get_size_inches()[0])
-        lines = [textwrap.fill(f"Warning: {warning}", width) for warning in warnings]
-        figure.supxlabel("\n".join(lines), x=0.01, ha="left", fontsize=7, color=VARIANT)
+        lines = [textwrap.fill(f"Warning: {warning}", width) for warning in said]
+        figure.supxlabel(plain("\n".join(lines)), x=0.01, ha="left", fontsize=7, color=VARIANT)
 
 
 def write(figure: Figure | str, path: Path) -> None:

@@ -15,6 +15,7 @@ from cosserat.peristalsis.region import Muscle, Region
 Phase = Annotated[float, Quantity("1", at_least=0)]
 Place = Annotated[float, Quantity("1", r"\tilde{z}", "2.3.14")]
 RampForm = Literal["linear", "smooth"]
+_MOST_ROWS = 200  # of the schedules of all chambers, which are compared with each other
 NEAR = 1e-9  # phases and places closer than this are one
 
 
@@ -121,6 +122,11 @@ def regions(
 
 def check(chambers: Sequence[Chamber], last: float) -> None:
     """Raise PydanticCustomError if chambers overlap or leave the body, or if rows overlap or leave the stride."""
+    rows = sum(len(chamber.schedule) for chamber in chambers)
+    if rows > _MOST_ROWS:
+        raise PydanticCustomError(
+            "gait", f"has {rows} rows in 'chambers' together; give {_MOST_ROWS} or fewer"
+        )
     for number, chamber in enumerate(chambers):
         name = f"'chambers.{number}'"
         if not 0 <= chamber.begin < chamber.end <= 1:

@@ -21,7 +21,7 @@ from cosserat.peristalsis import chambers as scheduled
 from cosserat.peristalsis.chambers import Chamber, RampForm, State
 from cosserat.peristalsis.measured import Measured
 from cosserat.peristalsis.region import Muscle, Region
-from cosserat.peristalsis.tracks import PHASE_TOLERANCE, Track, follow, place_of
+from cosserat.peristalsis.tracks import PHASE_TOLERANCE, Track, check_track, check_work, follow, place_of
 
 _BREAK_OFFSET = 1e-7  # distance from a break at which its two sides are compared, in phases
 _CHANGE_TOLERANCE = 1e-4  # fraction of the body that fronts pass between those sides, and the clearance
@@ -91,12 +91,12 @@ class Gait(Parameters):
             raise PydanticCustomError(
                 "gait", "'phases' is empty; give the duration of at least one phase"
             )
-        self._check_work()
+        check_work((*self.gamma, *self.eta, *self.anchor, *(m.table for m in self.measured)))
         self._check_measured()
         self._check_chambers()
         for name in ("gamma", "eta", "anchor"):
             for number, track in enumerate(self.tracks(name)):
-                self._check_track(f"'{name}.{number}'", track)
+                check_track(f"'{name}.{number}'", track, len(self.phases))
         self._check_anchor()
         for begin, end in itertools.pairwise(self.breaks()):
             self._refuse_crossing(begin, end)
@@ -105,21 +105,6 @@ class Gait(Parameters):
         for phase in self.breaks():
             self._refuse_sudden_change(phase)
         return self
-
-    def _check_work(self) -> None:
-        """Points and rows are few enough to be checked against each other at once."""
-        tracks = (*self.gamma, *self.eta, *self.anchor, *(m.table for m in self.measured))
-        points = sum(map(len, tracks))
-        if points > _MOST_POINTS or points * len(tracks) ** 2 > _MOST_COMPARED:
-            raise PydanticCustomError(
-                "gait",
-                f"has {len(tracks)} tracks of {points} points together, too many to compare; give fewer of either",
-            )
-        rows = sum(len(chamber.schedule) for chamber in self.chambers)
-        if rows > _MOST_ROWS:
-            raise PydanticCustomError(
-                "gait", f"has {rows} rows in 'chambers' together; give {_MOST_ROWS} or fewer"
-            )
 
     @property
     def duration(self) -> float:
@@ -303,28 +288,6 @@ class Gait(Parameters):
                         f"'ramp' is {self.ramp:g} s, too long for the state '{state.load}' of 'chambers.{number}', "
                         f"which lasts {lasts:g} s and rises or falls within it; take a shorter one",
                     )
-
-    def _check_track(self, name: str, track: Track) -> None:
-        if len(track) < 2:
-            raise PydanticCustomError(
-                "gait", f"{name} has {len(track)} points; a track needs two or more"
-            )
-        for (a, _), (b, _) in itertools.pairwise(track):
-            if b <= a:
-                raise PydanticCustomError(
-                    "gait", f"{name} goes from phase {a:g} to phase {b:g}; let its times increase"
-                )
-        if track[-1][0] > len(self.phases) + PHASE_TOLERANCE:
-            raise PydanticCustomError(
-                "gait",
-                f"{name} ends at phase {track[-1][0]:g}, but 'phases' has {len(self.phases)}; end it there",
-            )
-        for phase, place in track:
-            if not 0 <= place <= 1:
-                raise PydanticCustomError(
-                    "gait",
-                    f"{name} is at {place:g} at phase {phase:g}, off the body; places run from 0 to 1",
-                )
 
     def _check_anchor(self) -> None:
         expected = 0.0

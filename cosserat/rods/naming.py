@@ -54,7 +54,7 @@ DofName = Literal["x3", "x2", "d3", "d2"]
 
 
 def _check_name(name: str) -> str:
-    return checked_name(name, r"[^\W\d][\w -]*", "; begin it with a letter, such as 'tip'")
+    return checked_name(name, r"[^\W\d_][\w -]*", "; begin it with a letter, such as 'tip'")
 
 
 Name = Annotated[str, AfterValidator(_check_name)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
@@ -36,9 +35,10 @@ class PlaceName(Reader):
         """Read one place."""
         if isinstance(value, str):
             return value if value in ("first", "last") else _in_metres_or_percent(value)
-        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 0:
-            raise PydanticCustomError("type", f"is {shown(value)}; it must be {self.said}")
-        return int(value)
+        try:
+            return Count().check(value)
+        except PydanticCustomError:
+            raise PydanticCustomError("type", f"is {shown(value)}; it must be {self.said}") from None
 
 
 Place = Annotated[str | int, PlaceName()]

@@ -70,7 +70,10 @@ class Rod(Parameters):
     @classmethod
     def _as_long_as_its_points(cls, values: Any, info: ValidationInfo) -> Any:
         """The length of a rod at rest along points, where none is given."""
-        if not isinstance(values, Mapping) or values.get("length", "none") != "none":
+        if not isinstance(values, Mapping):
+            return values
+        length = values.get("length", "none")
+        if not isinstance(length, str) or length != "none":
             return values
         others, rest = {k: v for k, v in values.items() if k != "length"}, values.get("rest")
         if isinstance(rest, Mapping) and rest.get("kind") == "points":

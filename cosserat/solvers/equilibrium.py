@@ -36,7 +36,7 @@ class NewtonSettings(Parameters):
     """Largest unbalanced force allowed, as a fraction of the largest load or reaction."""
     max_iterations: Annotated[int, Count(at_least=1, at_most=100_000)] = 50
     """Most Newton iterations of an equilibrium."""
-    load_increments: Annotated[int, Count(at_least=1, at_most=100_000)] = 1
+    load_increments: Annotated[int, Count(at_least=1, at_most=10_000)] = 1
     """Number of equal load increments."""
 
 

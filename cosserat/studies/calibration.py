@@ -7,10 +7,11 @@ ordinate.  The logarithms of the coefficients are fitted, which keeps them posit
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
 
 from cosserat.exact import beams
 from cosserat.parameters import Count, Items
@@ -18,6 +19,7 @@ from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import RodProblem
 from cosserat.solution import Field, Solution
+from cosserat.studies.needs import check_coefficients, check_pulled, check_weighed
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
@@ -64,6 +66,16 @@ class CalibrationProcedure(Problem):
     """The beam clamped at both ends, Fig. 3.8(c)."""
     necking: RodStatics
     """The bar pulled at both ends, Fig. 3.8(d)."""
+
+    @model_validator(mode="after")
+    def _have_closed_forms(self) -> Self:
+        check_weighed("hanging_bar", self.hanging_bar, "E3", both_ends=False)
+        check_weighed("clamped_free", self.clamped_free, "-E2", both_ends=False)
+        check_weighed("clamped_clamped", self.clamped_clamped, "-E2", both_ends=True)
+        check_pulled("necking", self.necking)
+        for key, names in ASSIGNED.items():
+            check_coefficients(key, getattr(self, key), names)
+        return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Fit every problem at every mesh, and measure the published coefficients there.

@@ -17,6 +17,7 @@ from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.dead import PointForce
 from cosserat.solution import Field, Solution
 from cosserat.studies.calibration import beam_of
+from cosserat.studies.needs import check_pulled, check_slender, check_weighed
 
 Array = NDArray[np.float64]
 Formula = Callable[[beams.Beam, float, Array], Array]
@@ -63,6 +64,14 @@ class Convergence(Problem):
     def _odd(self) -> Self:
         if any(n % 2 == 0 for n in self.meshes):
             raise PydanticCustomError("odd", "'meshes' must be odd, so that a vertex is at mid-span")
+        return self
+
+    @model_validator(mode="after")
+    def _have_closed_forms(self) -> Self:
+        check_weighed("clamped_free", self.clamped_free, "-E2", both_ends=False)
+        check_weighed("clamped_clamped", self.clamped_clamped, "-E2", both_ends=True)
+        check_pulled("necking", self.necking)
+        check_slender("slender", self.slender)
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:

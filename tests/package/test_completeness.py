@@ -25,11 +25,14 @@ CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 # Each room may import from the rooms before it, never from those after it.
 ROOMS = (
     "solution",
+    "text",
     "errors",
     "signals",
-    "text",
+    "reading",
     "units",
     "synonyms",
+    "quantities",
+    "explain",
     "parameters",
     "tables",
     "problem",

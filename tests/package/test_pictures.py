@@ -1,12 +1,20 @@
 """What `cosserat plot` and `cosserat show` say of loads that follow, press or are over, of forces and named points."""
 
+import io
+import warnings
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
-from matplotlib.text import Annotation
+from conftest import case_of_kind
+from matplotlib.text import Annotation, Text
 
 import cosserat
 from cosserat.cli import main
 from cosserat.figures import motion, rod
+from cosserat.figures.animated import _page
+from cosserat.publications import kinds
+from cosserat.text import printable
 
 CLAMP = [{"at": "first", "fixed": "clamped"}]
 
@@ -89,3 +97,34 @@ def test_show_names_each_point_and_support_with_its_component(tmp_path, capsys):
     value = data.u.sel(axis="E2")[-1].item()
     assert [float(x) for x in tip.split()[3:5]] == pytest.approx([value, value], rel=1e-6)
     assert any("reaction_moment first" in line for line in rows)
+
+
+TITLES = [
+    r"a wrong $\frac$, costs $5, back\slash \$ {braces} %s _^",
+    "<script>a && b]]>--></script> -- <!-- \"quoted\" 'too' -->",
+    "日本語 العربية हिन्दी \x1b[31mred\x07 \u202e\x00\ufffe",  # the last could be in a file
+]
+
+
+@pytest.mark.parametrize("title", TITLES)
+def test_any_title_is_set_as_it_is_written(title, tmp_path):
+    data = bent().assign_attrs(title=title, warnings='["costs $5 and $\\\\frac$"]')
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        figure = cosserat.plot(data, tmp_path / "a.svg")
+    drawn = figure.axes[-1].get_title("left")
+    assert drawn.replace(r"\$", "$").startswith(f"{printable(title)}, displacements")
+    assert ElementTree.parse(tmp_path / "a.svg").getroot().tag.endswith("svg")
+
+
+@pytest.mark.parametrize("kind", [name for name, entry in kinds().items() if entry.picture])
+def test_no_title_is_mathematics_in_any_picture(kind, solved):
+    data = solved[case_of_kind(kind).name].assign_attrs(title=r"a wrong $\frac$")
+    figure = cosserat.plot(data)
+    texts = [text.get_text() for text in figure.findobj(Text)]
+    assert any(r"a wrong \$\frac\$" in text for text in texts)
+    figure.savefig(io.BytesIO(), format="svg")
+
+
+def test_the_name_of_a_file_is_no_markup_in_its_page():
+    assert "<title>&lt;b&gt;&amp;\\x1b</title>" in _page("", "<b>&\x1b")

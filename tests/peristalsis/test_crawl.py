@@ -180,7 +180,7 @@ def posture(regions):
             "'regions.1' from 0.4 to 0.4 is empty",
         ),
         ([REGIONS[0]], "'regions' end at 0.4; they must cover the body"),
-        ([], "'regions' has 0 items; it must have from 1 to 500"),
+        ([], "'regions' has 0 items; it must have 1 to 500"),
         (
             [{**REGIONS[0], "load": "pulling"}, REGIONS[1]],
             "it must be 'anchoring', 'advancing' or 'relaxed'",

@@ -76,7 +76,7 @@ STRAIN, SLIDING, TURNING, STRETCH = range(4)
 """Columns of the measures: of edge K the axial strain, the shear and the turning; of vertex K the section stretch."""
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _stretch_energy(s: float, barrier: float) -> tuple[float, float, float]:
     """(s - 1)^2, or with a barrier (s^2 - s + 1/s - 1) / 2 of Fig. 3.7(a): equal to second order; two derivatives."""
     u = s - 1

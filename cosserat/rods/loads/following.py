@@ -97,7 +97,7 @@ class FollowerLineLoad(Stretch, Following):
             yield vertex, self.density * length
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _force(
     q: Vector,
     after: Vector,

@@ -22,7 +22,8 @@ from cosserat.describe import keys as listing
 from cosserat.describe.keys import Key
 from cosserat.describe.text import need, type_of
 from cosserat.errors import InputError, OutOfToleranceError
-from cosserat.parameters import cited
+from cosserat.explain import cited
+from cosserat.parameters import Count, Quantity
 from cosserat.thesis.figures.catalogue import entry
 from cosserat.thesis.table.errata import Erratum, read_errata
 from cosserat.thesis.table.left_out import LeftOutList, read_left_out
@@ -143,7 +144,9 @@ def _definitions(kind: str, found: Sequence[Key], before: str = "") -> HTML:
         where = f' where <code>{key.by} = "{key.when}"</code>' if key.when and key.name != key.by else ""
         about = key.value.innermost.about
         marks = (
-            [] if about is None else [f"${about.symbol}$" if about.symbol else "", cited(about.source)]
+            [f"${about.symbol}$" if about.symbol else "", cited(about.source)]
+            if isinstance(about, Quantity | Count)
+            else []
         )
         source = ", ".join(filter(None, marks))
         entries.append(
