@@ -142,7 +142,7 @@ def _origin(root: Path, outputs: Sequence[str]) -> str:
 
 
 def checklist(citation: Mapping[str, Any], outputs: Sequence[str]) -> bytes:
-    """The file `codecheck.yml`, with what authors fill in: the outputs that a checker makes again, and how.
+    """The file of the CODECHECK community, with what authors fill in: outputs that a checker makes again, and how.
 
     The netCDF files are left to `cosserat verify`, which compares all of them.
     """
