@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from cosserat.cases.catalogue import published
-from cosserat.data.dataset import load
 from cosserat.data.files import whole_or_absent
+from cosserat.data.netcdf import load
 from cosserat.errors import InputError
 from cosserat.thesis.figures.catalogue import FIGURES
 from cosserat.thesis.outputs import crate
@@ -136,7 +136,7 @@ def _origin(root: Path, outputs: Sequence[str]) -> str:
         (data.attrs["source"], data.attrs["environment"])
         for name in outputs
         if name.endswith(".nc")
-        for data in [load(root / name)]
+        for data in [load(root / name, own=True)]
     }
     return "; ".join(f"{source}, with {versions}" for source, versions in sorted(made))
 

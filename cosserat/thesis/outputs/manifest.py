@@ -20,8 +20,8 @@ import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import published
-from cosserat.data.dataset import load
 from cosserat.data.files import whole_or_absent
+from cosserat.data.netcdf import load
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
 from cosserat.thesis.figures.catalogue import FIGURES
@@ -91,7 +91,7 @@ def make(results: Path, reference: Path, rows: Sequence[Row]) -> list[Output]:
 def _output(results: Path, reference: Path, path: str, floor: str, ids: str) -> Output:
     file, stored = results / path, reference_of(path, reference)
     if path.endswith(".nc"):
-        data = load(file)
+        data = load(file, own=True)
         content, floor = content_of_values(data), floors(data)
     else:
         content = content_of(file, round_off=is_round_off(path))
@@ -149,7 +149,7 @@ def content_of(file: Path, *, round_off: bool = False) -> str:
     InputError : the file cannot be read.
     """
     if file.suffix == ".nc":
-        return content_of_values(load(file))
+        return content_of_values(load(file, own=True))
     if file.suffix != ".svg":
         return digest(file)
     form, places = drawing(_read(file).decode())

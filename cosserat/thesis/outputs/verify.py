@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from cosserat.data.dataset import load
+from cosserat.data.netcdf import load
 from cosserat.errors import InputError, OutOfToleranceError
 from cosserat.thesis.outputs.manifest import (
     CHECK,
@@ -90,7 +90,7 @@ def _compared(output: Output, file: Path, reference: Path) -> tuple[str, str]:
         return _compared_reports(file, stored)
     if output.path == CHECK:
         return DIFFERS, f"compare it with {stored}"
-    changes = compare(load(file), load(stored))
+    changes = compare(load(file, own=True), load(stored, own=True))
     worst = max(changes, key=lambda change: change.largest / change.allowed)
     if not worst.largest:
         return WITHIN, "no value that the reference keeps changed"
