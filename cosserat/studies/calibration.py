@@ -30,6 +30,10 @@ _LOG_RANGE = float(np.log(30.0))  # largest change of a fitted logarithm: some a
 
 _LOG_STEP = 1e-3  # of the logarithms, in a difference quotient
 
+_RESOLVED = 1e-12  # least singular value over the largest that a difference quotient over that step can tell from zero
+
+_UNDETERMINED = 1e6  # condition number from which on a fit says that a direction is not determined
+
 Misfit = Callable[[Array], Array]
 Curves = Callable[[str, RodStatics, str], tuple[Array, Array]]
 
@@ -85,6 +89,7 @@ class CalibrationProcedure(Problem):
         NotConvergedError : a solve on the way failed.
         """
         fits: dict[str, list[OptimizeResult]] = {}
+        conditions: dict[str, float] = {}
         for problem in ASSIGNED:
             fits[problem] = [self.fit(problem, n, name) for n in self.meshes]
             run.progress(len(fits) / (len(ASSIGNED) + 1), problem.replace("_", " "))
@@ -105,6 +110,7 @@ class CalibrationProcedure(Problem):
                 sensitivities(self.misfit(problem, n, name), result.x)
                 for n, result in zip(self.meshes, results, strict=True)
             ]
+            conditions[problem] = max(condition_number(size) for size, _ in found)
             fields[f"{problem}_singular_values"] = (
                 (*mesh, direction),
                 np.array([size for size, _ in found]),
@@ -123,9 +129,14 @@ class CalibrationProcedure(Problem):
             np.exp([result.x for result in both]),
         )
         fields["beams_misfit"] = (mesh, np.array([np.sqrt(2 * result.cost) for result in both]))
+        conditions["beams"] = max(condition_of(result) for result in both)
         solves = sum(int(result.nfev) for results in (*fits.values(), both) for result in results)
         labels = {f"{_GROUP[problem]}_coefficient": names for problem, names in ASSIGNED.items()}
-        return Solution(fields, {"misfit_evaluations": solves}, labels)
+        statistics = {
+            "misfit_evaluations": solves,
+            **{f"{fit}_condition_number": value for fit, value in conditions.items()},
+        }
+        return Solution(fields, statistics, labels, _undetermined(conditions))
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
@@ -196,6 +207,35 @@ def sensitivities(misfit: Misfit, logarithms: Array) -> tuple[Array, Array]:
     _, size, directions = np.linalg.svd(np.column_stack(slopes), full_matrices=False)
     largest = np.take_along_axis(directions, np.abs(directions).argmax(axis=1)[:, None], axis=1)
     return size, directions * np.sign(largest)
+
+
+def condition_number(sizes: Array) -> float:
+    """Largest over least singular value of a fit, the largest first; 1e12 if the least cannot be told from zero.
+
+    A round-off in the misfit moves the fitted logarithms by up to as many times as much.  Three digits.
+    """
+    return float(f"{sizes[0] / max(sizes[-1], _RESOLVED * sizes[0]):.3g}")
+
+
+def condition_of(fit: OptimizeResult) -> float:
+    """Condition number of a fit by its own derivative of the misfit."""
+    return condition_number(np.linalg.svd(fit.jac, compute_uv=False))
+
+
+def _undetermined(conditions: Mapping[str, float]) -> tuple[str, ...]:
+    """The warning about fits that leave a direction to round-off, by the condition number of each fit."""
+    loose = [
+        f"{fit.replace('_', ' ')} {value:.0e}"
+        for fit, value in conditions.items()
+        if value >= _UNDETERMINED
+    ]
+    if not loose:
+        return ()
+    return (
+        f"coefficients: a direction of log c is not determined by the fits with these condition numbers: "
+        f"{', '.join(loose)}; along it a coefficient follows the start and the round-off, "
+        "so use what the others determine, or compare misfits",
+    )
 
 
 def _with_vertices(case: RodStatics, vertices: int, values: dict[str, float]) -> RodStatics:

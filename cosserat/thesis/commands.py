@@ -55,6 +55,8 @@ def add_commands(add: AddCommand) -> None:
         "--references", type=Path, default=RESULTS / "reference", help="folder (%(default)s)"
     )
 
+    _add_commands_of_outputs(add)
+
     add(
         "speed",
         _speed,
@@ -85,6 +87,36 @@ def add_commands(add: AddCommand) -> None:
         type=Path,
         required=True,
         help="folder of the book; index.html is its first page",
+    )
+
+
+def _add_commands_of_outputs(add: AddCommand) -> None:
+    """Add the commands about the outputs as a whole."""
+    sub = add("verify", _verify, "say of every output whether it is as released, on any machine")
+    sub.description = (
+        "Say of every output of the manifest whether it has the same bytes, the same values, values within their "
+        "floor, or differs and by how much; fail if one differs or is missing."
+    )
+    sub.add_argument("--results", type=Path, default=RESULTS, help="folder of the outputs (%(default)s)")
+    sub.add_argument(
+        "--references",
+        type=Path,
+        default=RESULTS / "reference",
+        help="folder of the manifest and the references (%(default)s)",
+    )
+
+    sub = add("manifest", _manifest, "store the digests of all outputs, for a release")
+    sub.add_argument("--results", type=Path, default=RESULTS, help="folder of the outputs (%(default)s)")
+    sub.add_argument(
+        "--references",
+        type=Path,
+        default=RESULTS / "reference",
+        help="folder of the references, for the manifest too (%(default)s)",
+    )
+
+    sub = add("archive", _archive, "write one file to deposit: a research object of the reproduction")
+    sub.add_argument(
+        "-o", "--output", type=Path, default=RESULTS / "archive.zip", help="file to write (%(default)s)"
     )
 
 
@@ -131,6 +163,37 @@ def _accept(options: argparse.Namespace) -> None:
     for line in accept(run(options.case), path, options.because):
         print(line)
     print(f"wrote {path}")
+
+
+def _verify(options: argparse.Namespace) -> None:
+    from cosserat.thesis.outputs import manifest, verify
+
+    listed = manifest.read(options.references / manifest.NAME)
+    verdicts = verify.verify(listed, options.results, options.references)
+    for verdict in verdicts:
+        print(verdict)
+    print(verify.conclude(verdicts))
+
+
+def _manifest(options: argparse.Namespace) -> None:
+    from cosserat.thesis.outputs import manifest
+    from cosserat.thesis.table.tolerances import read_table
+
+    path = options.references / manifest.NAME
+    manifest.store_texts(options.results, options.references)
+    rows = read_table(options.results / "tolerances.csv")
+    outputs = manifest.make(options.results, options.references, rows)
+    manifest.write(outputs, path)
+    print(f"wrote {path}: {len(outputs)} outputs")
+
+
+def _archive(options: argparse.Namespace) -> None:
+    from cosserat.data.files import check_destination
+    from cosserat.thesis.outputs.archive import write
+
+    check_destination(options.output, ".zip")
+    write(Path(), options.output)
+    print(f"wrote {options.output}")
 
 
 def _speed(_: argparse.Namespace) -> None:

@@ -14,6 +14,7 @@ from cosserat.parameters import Quantity
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.crawl import Crawl
 from cosserat.solution import Field, Solution
+from cosserat.studies.calibration import condition_of
 from cosserat.thesis.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50, refuse_segments
 
 Array = NDArray[np.float64]
@@ -79,7 +80,8 @@ class WormCalibration(Problem):
             "fitted_outcomes": (("outcome",), fit.fun + 1),
             "given_outcomes": (("outcome",), self.fractions(self.worm, name)),
         }
-        return Solution(fields, {"misfit_evaluations": int(fit.nfev)}, {"outcome": OUTCOMES})
+        statistics = {"misfit_evaluations": int(fit.nfev), "condition_number": condition_of(fit)}
+        return Solution(fields, statistics, {"outcome": OUTCOMES})
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

@@ -15,8 +15,10 @@ from cosserat.errors import InputError
 from cosserat.figures import crawlers, motion, path, rod
 from cosserat.figures.style import settings, write
 from cosserat.thesis.figures.catalogue import FIGURES, draw, draw_to
+from cosserat.thesis.outputs.manifest import content_of, read
 from cosserat.thesis.table import readouts
 
+MANIFEST = ROOT / "results/reference/manifest.csv"
 ONE_OF_EACH = list({entry.module: name for name, entry in FIGURES.items()}.values())
 
 
@@ -29,6 +31,9 @@ def test_figures_are_reproducible(solved, name, tmp_path):
     first = (tmp_path / "1.svg").read_bytes()
     assert first == (tmp_path / "2.svg").read_bytes()
     assert b"<dc:date>" not in first
+    listed = next(output for output in read(MANIFEST) if output.path == f"figures/{name}.svg")
+    drawn = content_of(tmp_path / "1.svg", round_off=FIGURES[name].round_off)
+    assert drawn == listed.content, "the manifest is stale: 'make', then 'cosserat manifest'"
     assert sorted(file.name for file in tmp_path.iterdir()) == ["1.svg", "2.svg"]
 
 

@@ -16,6 +16,7 @@ import cosserat
 from cosserat.cli import main
 from cosserat.figures.style import write
 from cosserat.thesis.figures.catalogue import FIGURES, draw
+from cosserat.thesis.outputs.manifest import structure
 
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", TEXT, flags=re.MULTILINE | re.DOTALL)
@@ -25,6 +26,8 @@ ELSEWHERE = {  # lines that are not executed here, and where they are
     "make test": "runs this test: .ci/run",
     "make test-workflow": "minutes: .ci/run",
     "source .venv/bin/activate": "sets the path up, as is done here by hand",
+    "make archive": "after make: .ci/run, and tests/thesis/test_outputs.py writes one of some outputs",
+    ".venv/bin/cosserat verify": "after make: .ci/run, and tests/thesis/test_outputs.py",
     ".venv/bin/python -m tests.outside": "minutes: tests/outside/test_public_cases.py runs its quick cases",
     ".venv/bin/cosserat power": "minutes: tests/thesis/test_power.py runs it for some changes",
 }
@@ -116,18 +119,10 @@ def test_files_named_in_the_readme_exist():
     assert [name for name in named if not (ROOT / name).exists()] == []
 
 
-def structure(svg):
-    """An SVG without its numbers and the names that depend on them, and the numbers."""
-    drawn = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
-    named = re.sub(r"[0-9a-f]{10}", "id", drawn)
-    number = r"-?\d+\.?\d*(?:e-?\d+)?"
-    return re.sub(number, "0", named), np.array([float(text) for text in re.findall(number, named)])
-
-
 def same_picture(one, other):
     """Whether two SVGs differ by no more than a hundredth of a point."""
     (form, numbers), (other_form, others) = structure(one), structure(other)
-    return form == other_form and bool(np.abs(numbers - others).max() < 0.01)
+    return form == other_form and bool(np.abs(np.subtract(numbers, others)).max() < 0.01)
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ from cosserat.errors import CosseratError, InputError
 from cosserat.publications import kinds
 from cosserat.thesis.book import page
 from cosserat.thesis.book.api import as_markup
-from cosserat.thesis.book.build import render
+from cosserat.thesis.book.build import execute, render
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::DeprecationWarning", "ignore::PendingDeprecationWarning"
@@ -270,3 +270,14 @@ def test_docstrings_are_plain_text_with_terms_and_sections():
         "* ``InputError``: it is `wrong`.",
         "",
     ]
+
+
+def test_a_chapter_executed_twice_gives_the_same_bytes(tmp_path):
+    chapter = tmp_path / "chapters/sum.py"
+    chapter.parent.mkdir()
+    chapter.write_text("# %% [markdown]\n# # Sum\n\n# %%\n1 + 1\n")
+    for name in ("one", "other"):
+        execute(chapter, tmp_path / f"{name}.ipynb")
+    text = (tmp_path / "one.ipynb").read_text()
+    assert '"text/plain"' in text
+    assert text == (tmp_path / "other.ipynb").read_text()

@@ -5,9 +5,10 @@ import pytest
 from scipy.optimize import brentq
 
 import cosserat
+from cosserat.data.dataset import statistics_of, warnings_of
 from cosserat.errors import InputError
 from cosserat.exact import beams
-from cosserat.studies.calibration import ASSIGNED, beam_of
+from cosserat.studies.calibration import ASSIGNED, _undetermined, beam_of, condition_number
 from cosserat.thesis.figures.calibration import limit
 from cosserat.thesis.table import readouts
 
@@ -175,3 +176,26 @@ def test_necking_needs_a_larger_c6_in_the_limit(fitted):
     beta = beams.necking_decay(beam_of(problem), "printed")
     wanted = (k2 - k7**2 / k1) / beta**2 / (k6 / rod.calibration.c6)
     assert wanted == pytest.approx(found, rel=2e-2)
+
+
+def test_fits_state_their_condition_number_and_name_directions_left_to_round_off(fitted, solved):
+    stated = statistics_of(fitted)
+    for name in ASSIGNED:
+        sizes = fitted[f"{name}_singular_values"].to_numpy()
+        told_apart = np.maximum(sizes[:, -1], 1e-12 * sizes[:, 0])
+        expected = float((sizes[:, 0] / told_apart).max())
+        assert stated[f"{name}_condition_number"] == pytest.approx(expected, rel=1e-2)
+    assert stated["hanging_bar_condition_number"] == 1
+    assert stated["clamped_free_condition_number"] == 1e12  # not the round-off of a least value of zero
+    assert 10 < stated["beams_condition_number"] < 100
+    (warning,) = warnings_of(fitted)
+    assert "clamped free 1e+12, clamped clamped 1e+12, necking 6e+07;" in warning
+    for name in ("worm_calibration", "worm_calibration_printed"):
+        assert 3 < statistics_of(solved[name])["condition_number"] < 6
+        assert warnings_of(solved[name]) == []
+
+
+def test_well_determined_fits_bring_no_warning():
+    assert condition_number(np.array([2.0, 1.0])) == 2
+    assert condition_number(np.array([2.0, 0.0])) == 1e12
+    assert _undetermined({"bar": 1.0, "beams": 9e5}) == ()

@@ -59,6 +59,8 @@ mathjax3_config = {
 def execute(chapter: Path, output: Path) -> None:
     """Run a py:percent chapter from its repository's root and write the notebook with its outputs.
 
+    The same outputs give the same bytes: cells are numbered, and no times are kept.
+
     Raises
     ------
     InputError : the chapter is missing, or the notebook cannot be written.
@@ -81,6 +83,7 @@ def execute(chapter: Path, output: Path) -> None:
     client = NotebookClient(
         notebook,
         timeout=300,
+        record_timing=False,
         kernel_name="python3",
         resources={"metadata": {"path": str(chapter.resolve().parents[1])}},
     )
@@ -88,6 +91,8 @@ def execute(chapter: Path, output: Path) -> None:
         client.execute(env={**os.environ, "TQDM_DISABLE": "1"})  # a page shows no progress bars
     except CellExecutionError as error:
         raise CosseratError(f"{chapter}: a cell failed: {error}") from None
+    for number, cell in enumerate(notebook.cells):
+        cell.id = f"cell-{number}"
     with whole_or_absent(output) as temporary:
         nbformat.write(notebook, temporary)
 
