@@ -562,7 +562,7 @@ def test_a_long_interval_between_frames_is_stored_in_parts(tmp_path, monkeypatch
     [("implicit", 20, 1e-4, 2500), ("implicit", 400, 1e-4, 125), ("rk4", 20, 1e-5, 1250)],
 )
 def test_parts_hold_equal_work_for_every_method(method, vertices, step, steps, monkeypatch):
-    """Of a run of 20 s with a frame every 5 s, longer than a part may be: a tenth of half a million vertices stepped."""
+    """Of a run of 20 s with a frame every 5 s, longer than a part may be: 50 000 vertices stepped."""
     assert checkpoints.WORK_PER_PART == 5e5
     monkeypatch.setattr(checkpoints, "WORK_PER_PART", 5e4)
     integrator = {"method": method, "step": step}
