@@ -54,6 +54,7 @@ def test_every_block_is_in_a_language_that_is_executed():
 @pytest.mark.parametrize("name", [name for name, _ in TABLES])
 def test_a_case_of_the_readme_is_solved(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TQDM_DISABLE", "1")  # a slow machine would show progress
     Path("my.toml").write_text("\n".join(blocks("toml")), encoding="utf-8")
     assert main(["run", name, "--file", "my.toml"]) == 0
     said = capsys.readouterr()
