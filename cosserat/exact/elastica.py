@@ -5,6 +5,8 @@ Lengths in lengths of the rod, forces in EI / L^2, unless a unit is given.
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -41,8 +43,24 @@ def shearable_tip(force: float, axial: float, shear: float) -> tuple[float, floa
 
 def shearable_shape(force: float, axial: float, shear: float, s: Array) -> Array:
     """Reissner's rod by shooting: x, y and the angle of its sections at the arc lengths s, shape (len(s), 3)."""
-    from scipy.integrate import solve_ivp
+    return _shot(force, axial, shear, _first_bend(force, axial, shear), s)[:, :3]
+
+
+@functools.cache
+def _first_bend(force: float, axial: float, shear: float) -> float:
+    """The curvature at the clamp with which the free end has none."""
     from scipy.optimize import brentq
+
+    end = np.array([1.0])
+    found = brentq(
+        lambda bend: _shot(force, axial, shear, bend, end)[-1, 3], 0.0, 1.2 * force, xtol=1e-13
+    )
+    return float(found)
+
+
+def _shot(force: float, axial: float, shear: float, bend: float, s: Array) -> Array:
+    """x, y, angle and curvature at the arc lengths s of the rod that leaves its clamp with a curvature."""
+    from scipy.integrate import solve_ivp
 
     def rates(_: float, y: Array) -> Array:
         turned, bend = y[2], y[3]
@@ -57,14 +75,9 @@ def shearable_shape(force: float, axial: float, shear: float, s: Array) -> Array
             ]
         )
 
-    def shoot(bend: float, at: Array) -> Array:
-        start = [0, 0, 0, bend]
-        done = solve_ivp(rates, (0, 1), start, method="DOP853", t_eval=at, rtol=1e-12, atol=1e-13)
-        return np.asarray(done.y.T)
-
-    end = np.array([1.0])
-    bend = float(brentq(lambda b: shoot(b, end)[-1, 3], 0.0, 1.2 * force, xtol=1e-13))
-    return shoot(bend, s)[:, :3]
+    start = [0, 0, 0, bend]
+    done = solve_ivp(rates, (0, 1), start, method="DOP853", t_eval=s, rtol=1e-12, atol=1e-13)
+    return np.asarray(done.y.T)
 
 
 def column_load(sideways_angle: float) -> float:
@@ -95,6 +108,11 @@ def timoshenko_frequencies(beam: Beam, count: int) -> Array:
     w = exp(s xi) solves the two equations of motion where (kGA s^2 + rho0 w2)(EI s^2 + rho I w2 - kGA) + (kGA s)^2 = 0
     with w2 = omega^2; the clamp and the free end make a determinant vanish.
     """
+    return np.array(_timoshenko_frequencies(beam, count))
+
+
+@functools.cache
+def _timoshenko_frequencies(beam: Beam, count: int) -> tuple[float, ...]:
     from scipy.optimize import brentq
 
     shear = beam.shear_stiffness
@@ -124,4 +142,4 @@ def timoshenko_frequencies(beam: Beam, count: int) -> Array:
         if before * after < 0:
             found.append(float(brentq(determinant, omega, omega + step, xtol=1e-12 * omega)))
         omega, before = omega + step, after
-    return np.array(found)
+    return tuple(found)
