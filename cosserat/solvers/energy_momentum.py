@@ -568,7 +568,7 @@ def _solve_step(
     kernel, constants, history = bodies.kernels[0], bodies.constants[0], bodies.history[0]
     strains, terms, none = bodies.strains[0], bodies.terms[0], factor[:0]
     translations, rotations, moved, rates = run.translations, room.rotations, run.moved, run.rates
-    near, largest = False, _largest(q)
+    near, rounding = False, _EPS * _largest(q)
     turning = memory[_TURNING] != 0.0
     stale = memory[_FRESH] != 0.0 and not turning  # whether the matrix is of an earlier step
     memory[_FRESH] = 1.0 if stale else 0.0
@@ -576,9 +576,8 @@ def _solve_step(
     relative = size = sized = np.inf
     for iteration in range(MAX_ITERATIONS):
         if stale and iteration > 0 and not size <= _DIVERGENCE_RATIO * sized:
-            # restart with a matrix of this step
             memory[_FRESH], memory[_TURNING] = 0.0, 1.0
-            stale, near = False, False
+            stale, near = False, False  # restart with a matrix of this step
             relative = size = np.inf
             _copy(room.first, change)
         _ends(run, q, change, middle, end)
@@ -597,7 +596,7 @@ def _solve_step(
         if not np.isfinite(after):
             return False
         if near and iteration <= _MAX_CORRECTED_ITERATIONS:
-            blur = _EPS * largest * np.sqrt(2 * memory[_STIFFEST])
+            blur = rounding * np.sqrt(2 * memory[_STIFFEST])
             _meet_energy(change, middle, translations, rotations, z, gradient, before, after, blur)
         if bodies.forced:
             _forced(bodies, run, room, GRADIENT, gradient, none, done)
@@ -608,7 +607,6 @@ def _solve_step(
         _unbalance(constrained, pull, inertia, product, gradient, force)
         sized = size
         size, farthest = _correct(factor, force, change)
-        rounding = _EPS * largest
         settled = size <= max(TOLERANCE * farthest, rounding)
         stalled = size > relative * farthest / 2 and size < STALL * rounding
         if near and (settled or stalled):
@@ -688,7 +686,8 @@ def integrate_steps(
         if damped:
             _damp(v, run, room, fraction, exchanged)
         _place(run, room, q)
-        _commit(bodies, room.end, room.gradient, room.factor)
+        if bodies.counted.size > 0:
+            _commit(bodies, room.end, room.gradient, room.factor)
         before = _started(bodies, room.end, room.gradient, room.factor)
         if not np.isfinite(before):
             return done
