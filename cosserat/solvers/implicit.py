@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numba import njit
+from numba import njit as numba_njit
 from numba import types as numba_types
 from numpy.typing import NDArray
 
@@ -23,6 +23,7 @@ from cosserat.solvers.system import MechanicalSystem
 Fields = NDArray[np.float64]
 _POTENTIAL_SLOTS = 6  # of compiled steps; more potentials need another compilation
 types: Any = numba_types  # which says nothing of its own types
+njit: Any = numba_njit  # whose types leave out the option `_nrt`
 
 
 @functools.cache
