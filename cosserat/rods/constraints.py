@@ -19,6 +19,7 @@ from cosserat.rods.time_functions import AnyTimeFunction, TimeFunction
 from cosserat.solvers.banded import Mask
 
 Array = NDArray[np.float64]
+_AXES = {"3": np.array([1.0, 0.0]), "2": np.array([0.0, 1.0])}
 _MAX_ROTATION = 1.0  # of a section in one load increment [rad]; unwrapping needs less than pi
 
 
@@ -150,7 +151,7 @@ class Constraint(Parameters):
 
     def holds(self, D: Array) -> list[tuple[str, Array]]:
         """The components that it holds, a vector ("x" or "d") and a direction (2,) each; D : director (2,) [m]."""
-        return [(dof[0], np.array([dof[1] == "3", dof[1] == "2"], dtype=float)) for dof in self.fixes]
+        return [(dof[0], _AXES[dof[1]]) for dof in self.fixes]
 
     @property
     def moves(self) -> tuple[DofName, ...]:

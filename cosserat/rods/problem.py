@@ -118,7 +118,7 @@ class RodProblem(Problem):
 
     def loads_of(self, key: str) -> tuple[Load, ...]:
         """The loads of one kind."""
-        given = getattr(self, key, None)
+        given = vars(self).get(key)
         return given if isinstance(given, tuple) else () if given is None else (given,)
 
     @property

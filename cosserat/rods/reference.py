@@ -100,7 +100,7 @@ class Geometry:
     @cached_property
     def edge_length(self) -> Array:
         """||E||, shape (N - 1,) [m], eq. (3.3.4)."""
-        return lengths(np.diff(self.X, axis=0))
+        return lengths(self.X[1:] - self.X[:-1])
 
     @cached_property
     def director_length(self) -> Array:
@@ -150,7 +150,7 @@ class Strains:
 
 def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     """Measure a configuration x, d, each of shape (N, 2) [m]."""
-    e = np.diff(x, axis=0)
+    e = x[1:] - x[:-1]
     length = lengths(e)
     tangent = vertex_tangents(x)
     voronoi = to_vertices(length)

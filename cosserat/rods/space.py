@@ -35,7 +35,7 @@ class RodSpace:
         """Dimension of the space of positions and directors."""
         return self.kinematics.dimension
 
-    @property
+    @cached_property
     def reference(self) -> Vector:
         """The DOFs (n,) of the reference configuration."""
         return np.zeros_like(self.at_rest) if self.displacements else self.at_rest

@@ -139,7 +139,8 @@ def edge_masses(stations: Sequence[Station], line_density: float, arc: Array) ->
     def moments(scale: Scales, s: Array) -> Array:
         return mass_scale(scale) * scale.height ** powers[..., None] * s**powers
 
-    M0, M1, M2 = np.moveaxis((np.diff(arc) * line_density) * mean(stations, moments, arc), 1, 0)
+    edge = (arc[1:] - arc[:-1]) * line_density
+    M0, M1, M2 = (edge * mean(stations, moments, arc)).swapaxes(0, 1)
     return EdgeMasses(M0 - 3 / 2 * M1 + M2 / 2, (M1 - M2) / 2, (M1 + M2) / 2)
 
 

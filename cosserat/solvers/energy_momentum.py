@@ -50,6 +50,7 @@ _DIVERGENCE_RATIO = 0.5  # ratio of two corrections above which an older matrix 
 _CORRECTION_START = 1e-3  # relative correction below which the change of energy is imposed
 _MAX_CORRECTED_ITERATIONS = 25  # iterations with sigma, which is not in the matrix; later ones omit it
 _DAMPED, _DRIVEN, _WORKED = range(3)  # indices of `exchanged`
+_FRESH, _JUDGED, _TURNING, _STIFFEST = range(4)  # indices of `memory`
 _TINY = float(np.finfo(float).tiny)
 STALL = 1e4  # corrections that stop shrinking below this multiple of round-off are round-off
 _EPS = float(np.finfo(float).eps)
@@ -314,11 +315,6 @@ def _resist(bodies: Bodies, run: Run, room: Room, gradient: Vector) -> None:
     _add(gradient, 1.0, room.resisted)
 
 
-_FRESH, _JUDGED, _TURNING, _STIFFEST = range(
-    4
-)  # indices of `memory`, which a step passes to the next one
-
-
 @_uncounted
 def _body(bodies: Bodies, q: Vector, after: Vector, task: int, gradient: Vector, band: Band) -> float:
     """The energy of the body; adds its gradient and Hessian."""
@@ -399,15 +395,6 @@ def _place(run: Run, room: Room, q: Vector) -> None:
     """Overwrite `end` by DOFs along the axes of space."""
     _copy(q, room.end)
     rotate(room.end, run.framed, run.axes, -1.0)
-
-
-@_uncounted
-def _push(bodies: Bodies, run: Run, room: Room, gradient: Vector, none: Band, done: int) -> None:
-    """Add the gradient of the forced loads, and minus the force of the stiffness-proportional damping."""
-    if bodies.forced:
-        _forced(bodies, run, room, GRADIENT, gradient, none, done)
-    if run.damping_time > 0.0:
-        _resist(bodies, run, room, gradient)
 
 
 @_uncounted
@@ -581,7 +568,7 @@ def _solve_step(
     kernel, constants, history = bodies.kernels[0], bodies.constants[0], bodies.history[0]
     strains, terms, none = bodies.strains[0], bodies.terms[0], factor[:0]
     translations, rotations, moved, rates = run.translations, room.rotations, run.moved, run.rates
-    near, largest = False, _largest(q)
+    near, rounding = False, _EPS * _largest(q)
     turning = memory[_TURNING] != 0.0
     stale = memory[_FRESH] != 0.0 and not turning  # whether the matrix is of an earlier step
     memory[_FRESH] = 1.0 if stale else 0.0
@@ -589,9 +576,8 @@ def _solve_step(
     relative = size = sized = np.inf
     for iteration in range(MAX_ITERATIONS):
         if stale and iteration > 0 and not size <= _DIVERGENCE_RATIO * sized:
-            # restart with a matrix of this step
             memory[_FRESH], memory[_TURNING] = 0.0, 1.0
-            stale, near = False, False
+            stale, near = False, False  # restart with a matrix of this step
             relative = size = np.inf
             _copy(room.first, change)
         _ends(run, q, change, middle, end)
@@ -610,15 +596,17 @@ def _solve_step(
         if not np.isfinite(after):
             return False
         if near and iteration <= _MAX_CORRECTED_ITERATIONS:
-            blur = _EPS * largest * np.sqrt(2 * memory[_STIFFEST])
+            blur = rounding * np.sqrt(2 * memory[_STIFFEST])
             _meet_energy(change, middle, translations, rotations, z, gradient, before, after, blur)
-        _push(bodies, run, room, gradient, none, done)
+        if bodies.forced:
+            _forced(bodies, run, room, GRADIENT, gradient, none, done)
+        if run.damping_time > 0.0:
+            _resist(bodies, run, room, gradient)
         _accelerate(change, moved, rates, done, run.h, gained)
         _multiply(mass, gained, product)
         _unbalance(constrained, pull, inertia, product, gradient, force)
         sized = size
         size, farthest = _correct(factor, force, change)
-        rounding = _EPS * largest
         settled = size <= max(TOLERANCE * farthest, rounding)
         stalled = size > relative * farthest / 2 and size < STALL * rounding
         if near and (settled or stalled):
@@ -634,19 +622,25 @@ def _solve_step(
 
 
 @_uncounted
+def _exchange(run: Run, room: Room, exchanged: Vector) -> None:
+    """Add the work of the loads that vary, and the energy that the stiffness-proportional damping takes."""
+    for i in range(room.change.size):
+        varied = room.load[i] - run.load[i] - room.pushed[i]
+        exchanged[_WORKED] += varied * room.change[i]
+        exchanged[_DAMPED] += room.resisted[i] * room.change[i]
+
+
+@_uncounted
 def _accept(
     run: Run, room: Room, q: Vector, v: Vector, exchanged: Vector, turned: Vector, done: int
 ) -> None:
-    """Accept the step: DOFs, velocities, and the energy that moved supports and forced loads have given."""
+    """Accept the step: DOFs, velocities, and the energy that moved supports have given."""
     h, load, moved = run.h, room.load, run.moved
     change, earlier, earliest, gradient = room.change, room.earlier, room.earliest, room.gradient
     for i in range(moved.size):
         k = moved[i]
         pushed = 2 / h**2 * room.product[k] - (room.pull[k] - load[k])
         exchanged[_DRIVEN] += pushed * room.gained[k] + (gradient[k] - load[k]) * change[k]
-    for i in range(change.size):
-        exchanged[_WORKED] += (load[i] - run.load[i] - room.pushed[i]) * change[i]
-        exchanged[_DAMPED] += room.resisted[i] * change[i]
     for i in range(0, q.size, run.dimension):
         square = 0.0
         for k in range(i, i + run.dimension):
@@ -669,8 +663,11 @@ def integrate_steps(
     time or have no potential; added to [J].
     turned : (1,) largest change of a vector that rotates, in one step, as a fraction of its length; raised.
     """
-    memory = np.zeros(4)
+    memory = room.memory
+    memory[:] = 0.0
     steps = run.places.shape[0] - 1
+    exchanging = bodies.forced or run.varied.shape[0] > 0 or run.damping_time > 0.0
+    damped = run.damping_rate > 0.0 or run.modal_rates.size > 0
     fraction = 1 - np.exp(-run.damping_rate * run.h / 2)
     if run.damping_rate > 0.0:
         _uncouple(room.mass_factor, run.constrained)
@@ -678,14 +675,19 @@ def integrate_steps(
     _place(run, room, q)
     before = _started(bodies, room.end, room.gradient, room.factor)
     for done in range(steps):
-        _damp(v, run, room, fraction, exchanged)
+        if damped:
+            _damp(v, run, room, fraction, exchanged)
         _predict(run, room, v, done, memory[_TURNING] != 0.0)
         if not _solve_step(bodies, run, room, q, memory, before, done):
             return done
+        if exchanging:
+            _exchange(run, room, exchanged)
         _accept(run, room, q, v, exchanged, turned, done)
-        _damp(v, run, room, fraction, exchanged)
+        if damped:
+            _damp(v, run, room, fraction, exchanged)
         _place(run, room, q)
-        _commit(bodies, room.end, room.gradient, room.factor)
+        if bodies.counted.size > 0:
+            _commit(bodies, room.end, room.gradient, room.factor)
         before = _started(bodies, room.end, room.gradient, room.factor)
         if not np.isfinite(before):
             return done

@@ -68,6 +68,8 @@ class Equilibrium:
 
     def unframed(self, system: MechanicalSystem) -> Equilibrium:
         """The same, its DOFs along the axes of space."""
+        if not system.frame.oblique:
+            return self
         out = system.frame.out
         return replace(self, q=out(self.q), reaction=out(self.reaction))
 

@@ -7,12 +7,12 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numba import njit
+from numba import njit as numba_njit
 from numba import types as numba_types
 from numpy.typing import NDArray
 
 from cosserat.errors import InputError, NotConvergedError
-from cosserat.solvers.banded import Vector
+from cosserat.solvers.banded import NO_BAND, Vector
 from cosserat.solvers.damping import rest_dofs, rest_strains
 from cosserat.solvers.energy_momentum import MAX_ITERATIONS, TOLERANCE, integrate_steps
 from cosserat.solvers.integrate import IntegratorSettings, State, step_count
@@ -23,6 +23,7 @@ from cosserat.solvers.system import MechanicalSystem
 Fields = NDArray[np.float64]
 _POTENTIAL_SLOTS = 6  # of compiled steps; more potentials need another compilation
 types: Any = numba_types  # which says nothing of its own types
+njit: Any = numba_njit  # whose types leave out the option `_nrt`
 
 
 @functools.cache
@@ -39,9 +40,9 @@ def _compiled_steps(count: int) -> Callable[..., int]:
         *(whole, matrix, number, vector, matrix, matrix, vector),
     )
     run = types.NamedTuple(given, Run)
-    room = types.NamedTuple((*(vector,) * 15, *(matrix,) * 5), Room)
+    room = types.NamedTuple((*(vector,) * 16, *(matrix,) * 5), Room)
     signature = types.int64(bodies, run, room, vector, vector, vector, vector)
-    (compiled,) = njit(signature, cache=True)(integrate_steps).overloads.values()
+    (compiled,) = njit(signature, cache=True, _nrt=False)(integrate_steps).overloads.values()
     # called directly: the types are known, and to find them anew takes half a millisecond a call
     steps: Callable[..., int] = compiled.entry_point
     return steps
@@ -86,11 +87,11 @@ def integrate_implicitly(
         system.frame.axes,
         system.damping_time,
         rest_dofs(system),
-        rest_strains(system, name),
+        rest_strains(system, name) if system.damping_time else NO_BAND,
         system.damped_modes.shape,
         system.damped_modes.rate,
     )
-    vectors = [np.zeros(n) for _ in range(15)]
+    vectors = [np.zeros(n) for _ in range(15)] + [np.zeros(4)]
     factor = np.empty((n, max(width, system.half_bandwidth + 1)))
     pushing = np.empty_like(factor if bodies.forced else factor[:0])
     resisting = np.empty_like(factor if system.damping_time else factor[:0])
@@ -110,22 +111,33 @@ def integrate_implicitly(
     return State(q, v, tuple(history), *reached), count
 
 
+class _EmptySlot:
+    """Stands for a kernel that is never called.  Numba looks up the code of a real one at every call of the steps."""
+
+    def __wrapper_address__(self) -> int:
+        """No address."""
+        return -1
+
+
+_EMPTY_SLOT = _EmptySlot()
+
+
 def _bodies(potentials: list[Potential], history: list[Vector]) -> Bodies:
     """The potentials for compiled code, padded to a compiled number of slots."""
     slots = _POTENTIAL_SLOTS
     while slots < len(potentials):
         slots *= 2
-    empty = slots - len(potentials)
-    given = [*potentials, *potentials[:1] * empty]
+    empty, roles = slots - len(potentials), [_role(p) for p in potentials]
+    none, without = (NOTHING,) * empty, (NO_BAND,) * empty
     return Bodies(
-        tuple(p.evaluate for p in given),
-        tuple(p.data for p in given),
-        tuple(history + [NOTHING] * empty),
-        tuple(np.zeros(p.strains) for p in given),
-        tuple(np.empty(len(p.terms)) for p in given),
-        np.array([_role(p) for p in potentials] + [COUNTED] * empty),
-        any(_role(p) == CORRECTED for p in potentials[1:]),
-        any(_role(p) == FORCED for p in potentials),
+        (*(p.evaluate for p in potentials), *(_EMPTY_SLOT,) * empty),
+        (*(p.data for p in potentials), *(potentials[0].data,) * empty),
+        (*history, *none),
+        (*(np.zeros(p.strains) for p in potentials), *without),
+        (*(np.empty(len(p.terms)) for p in potentials), *none),
+        np.array(roles + [COUNTED] * empty),
+        CORRECTED in roles[1:],
+        FORCED in roles,
         np.flatnonzero([p.history.size > 0 for p in potentials]),
     )
 

@@ -75,7 +75,7 @@ class Run(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Work space; all (n,) except `rotations` and the bands `factor`, `mass_factor`, `pushing` and `resisting`.
+    """Work space; all (n,) except `memory`, `rotations` and the bands `factor`, `mass_factor`, `pushing`, `resisting`.
 
     change, first : of the DOFs in the step, and its first guess.  earlier, earliest : changes of the last two steps.
     middle, end : DOFs along the axes of space, as potentials take them.  gradient : of energy and loads.
@@ -84,6 +84,7 @@ class Room(NamedTuple):
     force : unbalanced force.  z : direction of the force that corrects the energy.
     load : the dead load of the step.  pushed, pushing : gradient and Hessian of the forced loads.
     resisted, resisting : minus the force of the stiffness-proportional damping, and the stiffness of the material.
+    memory : (4,) what a step tells the next one about its matrix.
     """
 
     change: Vector
@@ -101,6 +102,7 @@ class Room(NamedTuple):
     load: Vector
     pushed: Vector
     resisted: Vector
+    memory: Vector
     rotations: Fields
     factor: Band
     mass_factor: Band

@@ -5,7 +5,7 @@ The solvers do not depend on the meaning of the degrees of freedom (DOFs), excep
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
@@ -129,12 +129,12 @@ class MechanicalSystem:
         """The same body with its DOFs along the axes of space, for what is said of a state."""
         return self if self.plain is None else damped_like(self, self.plain)
 
-    @property
+    @cached_property
     def own(self) -> tuple[Potential, ...]:
         """The energies that no load factor multiplies."""
         return (self.internal, *self.attached, *self.held)
 
-    @property
+    @cached_property
     def potentials(self) -> tuple[Potential, ...]:
         """The energy of the body, of what it is attached to, of loads that are held, and of its loads."""
         return (*self.own, *self.external)
@@ -200,16 +200,17 @@ class MechanicalSystem:
         force, when = np.zeros(self.constrained.size), np.array([time])
         for level, given in self.varied_loads:
             force += float(level.value(when)[0]) * given
-        for load, own in self._loads(history):
-            if not load.linear and (load.level is not None or not load.symmetric):
+        for number, load in self._nonlinear_loads:
+            if load.level is not None or not load.symmetric:
                 gradient = np.zeros_like(force)
-                load.add_gradient(q, own, gradient)
+                load.add_gradient(q, history[number], gradient)
                 force -= gradient if load.level is None else float(load.level.value(when)[0]) * gradient
         return force
 
-    def _loads(self, history: History) -> Iterator[tuple[Potential, Vector]]:
-        """The loads with their internal variables."""
-        return zip(self.external, history[len(self.own) :], strict=True)
+    @cached_property
+    def _nonlinear_loads(self) -> tuple[tuple[int, Potential], ...]:
+        """The loads that are not linear, with their numbers among the potentials."""
+        return tuple((k, load) for k, load in enumerate(self.external, len(self.own)) if not load.linear)
 
     @cached_property
     def load_sizes(self) -> tuple[float, float]:
@@ -224,8 +225,8 @@ class MechanicalSystem:
 
     def nonlinear_load_energy(self, q: Vector, history: History) -> float:
         """The energy of the loads that are neither linear nor depend on time [J]."""
-        constant = [(load, own) for load, own in self._loads(history) if load.level is None]
-        return float(sum(load.energy(q, own) for load, own in constant if not load.linear))
+        constant = [(number, load) for number, load in self._nonlinear_loads if load.level is None]
+        return float(sum(load.energy(q, history[number]) for number, load in constant))
 
     def attached_energy(self, q: Vector, history: History) -> float:
         """The energy of what the body is attached to [J]."""
@@ -256,8 +257,9 @@ class MechanicalSystem:
         for potential, known in zip(self.own[1:], history[1:], strict=False):
             energy += potential.add(q, known, tangent.gradient, tangent.band, tangent.skew)
         np.negative(self.dead_load, out=tangent.load_gradient)
-        for load, own in self._loads(history):
-            if not load.linear and load.level is None:
+        for number, load in self._nonlinear_loads:
+            if load.level is None:
+                own = history[number]
                 energy += load.add(q, own, tangent.load_gradient, tangent.load_band, tangent.load_skew)
         tangent.add_load(factor)
         return bool(np.isfinite(energy))
@@ -268,8 +270,7 @@ class MechanicalSystem:
 
     def prescribe(self, q: Vector, factor: float) -> Vector:
         """q with its constrained DOFs as prescribed at a load factor."""
-        place = self.space.reference + self.constraints.at_load(factor)[0]
-        return np.where(self.constrained, place, q)
+        return np.where(self.constrained, self.space.reference + self.constraints.at_load(factor)[0], q)
 
     def predicted(self, q: Vector, moved: Fields, factor: float) -> Vector:
         """The DOFs at a load factor after given rotations and stretches of the parts."""
@@ -295,8 +296,7 @@ class Tangent:
 
     def __init__(self, system: MechanicalSystem) -> None:
         n, width = system.constrained.size, system.half_bandwidth + 1
-        loads = [load for load in system.external if not load.linear]
-        own = 1 + max((load.half_bandwidth for load in loads), default=-1)
+        own = 1 + max((load.half_bandwidth for load in system.external), default=-1)
         lopsided = 0 if system.symmetric else n
         self.gradient, self.load_gradient = np.empty(n), np.empty(n)
         self.band, self.load_band = np.empty((n, width)), np.empty((n, own))

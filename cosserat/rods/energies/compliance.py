@@ -68,7 +68,7 @@ def stiffnesses(
     on every edge, or one for all [1/m].
     """
     first_height = stations[0].height if stations else 1.0
-    lift = np.broadcast_to(curvature, arc.size - 1) * offset
+    lift = np.full(arc.size - 1, curvature * offset)
     lifted = bool(lift.any())
 
     def on_edges(s: Scales, _: Array) -> Array:
@@ -76,15 +76,15 @@ def stiffnesses(
         both, higher = axial + volume, s.height - first_height
         ratios = [1 / both, axial / both, volume / both, axial * volume / both]
         inverses = [1 / shear, 1 / bending, 1 / gradient]
-        sums = np.stack([*ratios, *inverses, higher / bending, higher**2 / bending, higher])
+        sums = np.array([*ratios, *inverses, higher / bending, higher**2 / bending, higher])
         return np.concatenate([sums, s.height * sums]) if lifted else sums
 
     def across(s: Scales, _: Array) -> Array:
         own = along(s).section
-        return np.stack([own, s.height * own]) if lifted else own[None]
+        return np.array([own, s.height * own]) if lifted else own[None]
 
-    means, edge, cuts = mean(stations, on_edges, arc), np.diff(arc), vertex_cuts(arc)
-    length, parts = np.ones(edge.size), np.diff(cuts)
+    means, edge, cuts = mean(stations, on_edges, arc), arc[1:] - arc[:-1], vertex_cuts(arc)
+    length, parts = np.ones(edge.size), cuts[1:] - cuts[:-1]
     if lifted:
         plain, raised = np.split(means, 2)
         length = 1 - lift * (first_height + plain[-1])

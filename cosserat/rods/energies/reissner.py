@@ -62,7 +62,7 @@ class Reissner(Energy):
             stiffness,
             barrier=rod.barrier,
             product=rod.lateral_constraint == "incompressible",
-            offsets=rod.elastic_offset * (stiffness.axis / np.stack([heights[:-1], heights[1:]])),
+            offsets=rod.elastic_offset * (stiffness.axis / np.array([heights[:-1], heights[1:]])),
             displacements=displacements,
         )
 
@@ -76,10 +76,11 @@ class Reissner(Energy):
         own = np.zeros((3, heights.size))
         own[:, :-1] += edges.before
         own[:, 1:] += edges.after
-        m0, m1, m2 = own[0], rod.Y02 * own[1] / heights, rod.Y22 * own[2] / heights**2
+        Y02, Y22 = rod.Y02, rod.Y22
+        m0, m1, m2 = own[0], Y02 * own[1] / heights, Y22 * own[2] / heights**2
         low, high = heights[:-1], heights[1:]
         n0, n1, n2 = edges.shared
-        between = [[n0, rod.Y02 * n1 / high], [rod.Y02 * n1 / low, rod.Y22 * n2 / (low * high)]]
+        between = [[n0, Y02 * n1 / high], [Y02 * n1 / low, Y22 * n2 / (low * high)]]
         return self.kinematics.mass_band(np.array([[m0, m1], [m1, m2]]), np.array(between))
 
     def fields(
@@ -117,14 +118,15 @@ def potential(
     displacements : DOFs are displacements; on fine meshes their round-off is far less than that of positions.
     """
     rod = np.zeros(geometry.X.shape[0], VERTEX)
-    rod["low"][:-1], rod["high"][:-1] = np.broadcast_to(offsets, (2, rod.size - 1))
+    rod["low"][:-1], rod["high"][:-1] = np.full((2, rod.size - 1), offsets)
     e, angles = centre_edges(rod, geometry.X, geometry.D), unwrapped_angles(geometry.D)
-    turn = np.diff(angles)
+    turn = angles[1:] - angles[:-1]
     b = angles[:-1] + turn / 2
+    s, c = np.sin(b), np.cos(b)
     edges = {
-        "edge": np.linalg.norm(np.diff(geometry.X, axis=0), axis=1) * stiffness.length,
-        "axial": e[:, 0] * np.sin(b) - e[:, 1] * np.cos(b),
-        "slide": e[:, 0] * np.cos(b) + e[:, 1] * np.sin(b),
+        "edge": np.linalg.norm(geometry.X[1:] - geometry.X[:-1], axis=1) * stiffness.length,
+        "axial": e[:, 0] * s - e[:, 1] * c,
+        "slide": e[:, 0] * c + e[:, 1] * s,
         "turn": turn,
         "k_axial": stiffness.axial,
         "k_volume": stiffness.volume,
