@@ -6,6 +6,7 @@ import itertools
 import json
 import re
 import time
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ import cosserat
 from cosserat.cases.catalogue import parse
 from cosserat.errors import InputError
 from cosserat.parameters import Items, Parameters, Quantity, nearest
+from cosserat.tables import Columns, Rows
 from cosserat.text import shortened, shown
 from cosserat.units import _KINDS, sizes_in
 
@@ -333,6 +335,12 @@ def test_a_crawl_of_many_instants_is_read_at_once(tmp_path):
 def test_lists_have_a_length():
     class Listed(Parameters):
         few: tuple[int, ...] = ()
+        three: Annotated[tuple[int, ...], Items(3, 3)] | None = None
+        rows: Annotated[Rows, Columns((("x", "m"),))] | None = None
+
+    assert len(Listed(rows=np.arange(2000.0)).rows) == 2000
+    with pytest.raises(InputError, match="'three' has 2 items; it must have 3 to 3"):
+        Listed(three=[1, 2])
 
     assert len(Listed(few=(1,) * 1000).few) == 1000
     with pytest.raises(InputError, match="has 1001 items in 'few'; it may have up to 1000"):
