@@ -21,8 +21,8 @@ from cosserat.limits import Limits, Watched
 from cosserat.problem import Progress, Run
 from cosserat.progress import bar
 from cosserat.solution import Solution
-from cosserat.text import LONGEST_NAME, LONGEST_TITLE
 from cosserat.solvers.heartbeat import listening
+from cosserat.text import LONGEST_NAME, LONGEST_TITLE
 
 
 def run(
