@@ -138,7 +138,10 @@ def test_a_range_is_said_with_all_of_its_ends(quantity, written):
         (ROD + "k" * 5000 + " = 1", r"'k+\.\.\.' is not a key"),
         (ROD + 'kind = "' + "k" * 5000 + '"', "'kind' is 'k+...k+'; known are"),
         ('[a]\nlike = "' + "k" * 5000 + '"', "'like' names no case: 'k+...k+'; known are: "),
-        (ROD + "forces = [" + '{ at = 1, along = "E7", forc = 1 }, ' * 300 + "]", r"and 89\d more$"),
+        (
+            ROD + "forces = [" + '{ at = 1, along = "E7", forc = 1 }, ' * 300 + "]",
+            r"also missing: .*; and 88\d more$",
+        ),
         (WORM + 'step = "1e9 s"\ngait.phases = []', "'gait' 'phases' is empty"),
         (
             '[a]\nkind = "rod statics"\nsupports = []\nrod.section.shape = "rectangle"',
