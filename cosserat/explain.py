@@ -43,6 +43,7 @@ def classes_in(annotation: object) -> Choice:
 
 
 _MOST_FAULTS = 8  # that a sentence names
+_MOST_SAID = 400  # characters about several faults
 
 _EXPECTED = {
     "model_type": "a table of keys",
@@ -63,12 +64,18 @@ _EXPECTED = {
 
 
 def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
-    """One sentence with the faults that validation found, up to a few."""
-    faults = error.errors(include_url=False)
+    """One sentence with the faults that validation found, up to a few; a key may be missing as another is misspelt."""
+    faults = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] == "missing")
     clauses = list(_once(_clause(fault, owner) for fault in faults[:_MOST_FAULTS]))
-    if len(faults) > _MOST_FAULTS:
-        clauses.append(f"and {len(faults) - _MOST_FAULTS} more faults like these")
-    return f"{name}: " + "; ".join(clauses)
+    lengths = itertools.accumulate(map(len, clauses))
+    told = max(1, sum(length < _MOST_SAID for length in lengths))
+    missing = [_path(fault, owner) for fault in faults[told:] if fault["type"] == "missing"][
+        :_MOST_FAULTS
+    ]
+    others = len(faults) - told - len(missing)
+    more = [f"also missing: {', '.join(map(repr, missing))}"] if missing else []
+    more += [f"and {others} more"] if others else []
+    return f"{name}: " + "; ".join([*clauses[:told], *more])
 
 
 def _once(clauses: Iterable[str]) -> Iterator[str]:
@@ -80,14 +87,19 @@ def _once(clauses: Iterable[str]) -> Iterator[str]:
         told |= {known} - {""}
 
 
-def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
-    loc, kind, given = fault["loc"], fault["type"], fault["input"]
+def _path(fault: ErrorDetails, owner: type[BaseModel]) -> str:
+    """The key of a fault, as in a case file."""
     parts = [
         shortened(str(part))
-        for n, part in enumerate(loc)
-        if not _chosen(part, _choice_at(owner, loc[:n]))
+        for n, part in enumerate(fault["loc"])
+        if not _chosen(part, _choice_at(owner, fault["loc"][:n]))
     ]
-    path = shortened(".".join(parts), 200)
+    return shortened(".".join(parts), 100)
+
+
+def _clause(fault: ErrorDetails, owner: type[BaseModel]) -> str:
+    loc, kind, given = fault["loc"], fault["type"], fault["input"]
+    path = _path(fault, owner)
     if kind == "missing":
         return f"'{path}' is missing{_what_it_is(owner, loc)}"
     if kind == "extra_forbidden":
@@ -208,4 +220,4 @@ def nearest(word: str, known: list[str], cutoff: float = 0.8) -> str:
     return f"; known are: {', '.join(names[:fitting])}{more}"
 
 
-_LISTED = 450  # most characters of the known words that a sentence lists
+_LISTED = 300  # most characters of the known words that a sentence lists

@@ -67,10 +67,16 @@ def _reads_none(annotation: Any) -> bool:
     return any(map(_reads_none, marks or get_args(annotation)))
 
 
-def _check_length(key: str, value: object, marks: Sequence[object]) -> None:
+def _has_own_length(annotation: Any) -> bool:
+    """Whether a rule of its own says how long a list of this type may be."""
+    inner = (*getattr(annotation, "__metadata__", ()), *get_args(annotation))
+    return isinstance(annotation, Items | Reader) or any(map(_has_own_length, inner))
+
+
+def _check_length(key: str, value: object, annotations: Sequence[object]) -> None:
     """Raise PydanticCustomError for a list that is too long, if it has no rule of its own."""
     items = len(value) if is_list(value) else 0
-    if items > MOST_ITEMS and not any(isinstance(mark, Items | Reader) for mark in marks):
+    if items > MOST_ITEMS and not any(map(_has_own_length, annotations)):
         raise PydanticCustomError(
             "items", f"has {items} items in '{key}'; it may have up to {MOST_ITEMS}"
         )
@@ -99,7 +105,7 @@ class Parameters(BaseModel):
         for key, value in values.items():
             field = cls.model_fields.get(key)
             if field is not None:
-                _check_length(key, value, field.metadata)
+                _check_length(key, value, [field.annotation, *field.metadata])
             named = isinstance(value, str) and (isinstance(value, Dropped) or value == "none")
             field = field if named else None
             word = field is not None and (

@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def read_text(file: Path, most: int) -> str:
-    """The text of a file of at most so many bytes, without the mark that Windows puts before it.
+    """The text of a file of at most so many bytes, with the ends of lines and without the mark of other systems.
 
     Raises
     ------
@@ -20,4 +20,4 @@ def read_text(file: Path, most: int) -> str:
         raise OSError(errno.EINVAL, "no file has such a name") from None
     if len(found) > most:
         raise OSError(errno.EFBIG, f"it is larger than {most / 1e6:g} MB")
-    return found.decode("utf-8-sig")
+    return found.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")

@@ -22,6 +22,7 @@ from cosserat.problem import Progress, Run
 from cosserat.progress import bar
 from cosserat.solution import Solution
 from cosserat.solvers.heartbeat import listening
+from cosserat.text import LONGEST_NAME, LONGEST_TITLE
 
 
 def run(
@@ -112,8 +113,9 @@ def modes(case: Case | str, count: int = 6) -> xr.Dataset:
     if not isinstance(known, Case):
         raise InputError(f"modes takes a case or the name of a published one, not {case!r}")
     problem = RodModes.of(known.problem_as(RodProblem), count)
-    title = f"{known.title}: natural modes"
-    return run(Case(name=f"{known.name}_modes", title=title, source=known.source, problem=problem))
+    name = f"{known.name[: LONGEST_NAME - 6]}_modes"
+    title = f"{known.title[: LONGEST_TITLE - 20]}: natural modes"
+    return run(Case(name=name, title=title, source=known.source, problem=problem))
 
 
 @dataclass(frozen=True)

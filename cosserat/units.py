@@ -80,7 +80,8 @@ _NUMBER = re.compile(
     r"(?:\s*\*?\s*(?P<pi>pi)\b)?(?:\s*/\s*(?P<divisor>\d{1,9}))?"
 )
 _BEGINS_A_UNIT = re.compile(r"[^\W\d]|[%°(/\"']|1\s*/|$")
-_LONGEST_TEXT = 100  # characters of a number with its unit
+LONGEST_TEXT = 100
+"""Most characters of a number with its unit."""
 _UNIT = re.compile(r"(?:1 */)?(?:[^\W\d]\w*|[%°()*/ ]|\^ *\(?[+-]?\d{1,2}\)?(?! *\^))*")
 
 
@@ -136,7 +137,7 @@ def _read_text(text: str, unit: str) -> float:
             kind, f'is "{shortened(text)}", {why}; {remedy or how_to_write(unit)}'
         )
 
-    if len(text) > _LONGEST_TEXT:
+    if len(text) > LONGEST_TEXT:
         raise refused("type", f"a text of {len(text)} characters")
     if "," in text:
         raise refused(

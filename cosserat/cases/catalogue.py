@@ -200,8 +200,9 @@ def parse(parameters: str) -> Case:
         problem = _read_problem(dict(table["problem"]), "problem", units_required=False)
         return Case.read({**table, "problem": problem}, "case")
     except InputError as error:
+        said = shortened(str(error), 350)
         raise InputError(
-            f"the parameters are not those of a case of this version of cosserat ({error}); run the case again by "
+            f"the parameters are not those of a case of this version of cosserat ({said}); run the case again by "
             "its name"
         ) from None
 

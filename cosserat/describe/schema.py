@@ -17,7 +17,7 @@ from cosserat.describe.spellings import accepted, refused
 from cosserat.describe.text import need, thesis, type_of
 from cosserat.parameters import Count, Items, Quantity
 from cosserat.publications import kinds, titles
-from cosserat.units import what_is_in
+from cosserat.units import LONGEST_TEXT, what_is_in
 
 Schema = dict[str, Any]
 _NONE: Schema = {"type": "string", "const": "none"}
@@ -57,6 +57,7 @@ def _shared(*, whole: bool) -> Schema:
     texts = {
         _word(what_is_in(unit)): {
             "type": "string",
+            "maxLength": LONGEST_TEXT,
             "pattern": accepted(unit),
             "not": {"pattern": refused(unit)},
         }

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import ValidationError, ValidationInfo, model_validator
+from pydantic import Strict, ValidationError, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError
@@ -39,7 +39,7 @@ class Rod(Parameters):
 
     energy: Annotated[str, OneOf(ENERGIES)] = "published"
     """The thesis's energy (3.4.11) with its calibration, or the convergent one of `rods.energies.reissner`."""
-    vertices: Annotated[int, Count("N", "3.3.1", at_least=3)]
+    vertices: Annotated[int, Count("N", "3.3.1", at_least=3, at_most=200_000)]
     """Number of vertices of the discrete rod, both ends included."""
     length: Annotated[float, Quantity("m", r"\ell_0", "3.3.1", above=0)]
     """Length of the centreline in the reference configuration."""
@@ -57,7 +57,7 @@ class Rod(Parameters):
     """Coefficients of the published energy, required there; the consistent one has none."""
     lateral_constraint: LateralConstraint = "free"
     """Lateral constraint of the sections in E1, of the consistent rod only."""
-    barrier: bool = False
+    barrier: Annotated[bool, Strict()] = False
     """Whether the consistent rod resists collapse as in Fig. 3.7; equal to second order in the strains."""
     end_sections: EndSections = "full"
     """Whether the end vertices of the published energy have full areas, or half of them, as eq. (3.4.10) is printed."""

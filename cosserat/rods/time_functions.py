@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import Field, Strict
 
 from cosserat.parameters import Parameters, Quantity
 from cosserat.rods.quadrature import gauss
@@ -75,7 +75,7 @@ class Ramp(Window):
     """A rise from 0 to 1 that then stays."""
 
     kind: Literal["ramp"] = "ramp"
-    smooth: bool = False
+    smooth: Annotated[bool, Strict()] = False
     """Whether velocity and acceleration begin and end at zero: 10 s^3 - 15 s^4 + 6 s^5; if not, the rise is linear."""
 
     def derivatives(self, t: Array) -> tuple[Array, Array, Array]:

@@ -174,12 +174,12 @@ def test_all_faults_of_a_case_are_named_together(load_mine):
     ("text", "sentence"),
     [
         (
-            'kind = "rod statics"\nsupports = []\nrod.section = { shape = "rectangle" }',
+            'kind = "rod statics"\nsupports = []\nrod.vertices = 9\nrod.length="1 m"\nrod.section.shape = "rectangle"',
             "'rod.section.height' is missing, height of the section, in the plane of motion, H of section 3.5: write "
             'it with its unit, such as "2.5 m"; ',
         ),
         (
-            'kind = "rod statics"\nsupports = []\nrod.section = { shape = "rectangle" }',
+            'kind = "rod statics"\nsupports = []\nrod.vertices = 9\nrod.length="1 m"\nrod.section.shape = "rectangle"',
             "'rod.section.shear_factor' is missing, factor k of the shear stiffness k mu A: write a number above 0",
         ),
         (

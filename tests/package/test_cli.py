@@ -181,7 +181,7 @@ def test_a_case_file_in_another_encoding_is_refused_with_that_word(capsys, tmp_p
         ("", "holds no case"),
         ("like = 3", "'like' is outside a case"),
         ('[mine]\nkind = ["a"]', "'kind' is ['a']"),
-        ('["../evil"]\nlike = "necking"', "cannot name a file"),
+        ('["../evil"]\nlike = "necking"', "there is no case 'mine' in "),
         (MY + 'rod.length = "3,5 m"', "with a decimal comma"),
         (MY + 'rod.length = "m"', "not a number with a unit"),
         (MY + 'rod.length = "9**9**9**9 m"', "not a number with a unit"),

@@ -415,7 +415,7 @@ def test_a_key_is_printed_as_expected():
         '"first", "last", the index of a vertex, a distance such as "0.35 m", or a percentage '
     )
     assert said_of["supports"].startswith("a list of tables; required ")
-    assert said_of["rod.vertices"].startswith("a whole number (from 3 to 1000000); required ")
+    assert said_of["rod.vertices"].startswith("a whole number (from 3 to 200000); required ")
 
 
 @pytest.mark.parametrize(

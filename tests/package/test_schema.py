@@ -243,7 +243,7 @@ def test_wrong_units_are_refused_except_those_beyond_a_pattern(whole):
     passing = [
         text for unit, text, _ in REFUSED if Draft202012Validator(defs[NAMES[unit]]).is_valid(text)
     ]
-    assert passing == ["5 m m", "1/0 m", "9" * 5000 + " m", "1e400 m"]
+    assert passing == ["5 m m", "1/0 m", "1e400 m"]
 
 
 def test_a_wrong_unit_in_the_schema_would_be_seen():
