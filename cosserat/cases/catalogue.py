@@ -116,7 +116,7 @@ def find(name: str, file: str | Path | None = None) -> Case:
 
 
 def load(file: str | Path) -> Mapping[str, Case]:
-    """All cases of a TOML file, by name; their 'like' may name a published case.
+    """All cases of a TOML file, by name; a case may be like a published one.
 
     Raises
     ------

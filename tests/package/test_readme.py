@@ -26,8 +26,8 @@ ELSEWHERE = {  # lines that are not executed here, and where they are
     "make test": "runs this test: .ci/run",
     "make test-workflow": "minutes: .ci/run",
     "source .venv/bin/activate": "sets the path up, as is done here by hand",
-    "make archive": "after make: .ci/run, and tests/thesis/test_outputs.py writes one of some outputs",
-    ".venv/bin/cosserat verify": "after make: .ci/run, and tests/thesis/test_outputs.py",
+    "make archive": "after make: .ci/run, and tests/thesis/test_released_outputs.py writes one of some outputs",
+    ".venv/bin/cosserat verify": "after make: .ci/run, and tests/thesis/test_released_outputs.py",
     ".venv/bin/python -m tests.outside": "minutes: tests/outside/test_public_cases.py runs its quick cases",
     ".venv/bin/cosserat power": "minutes: tests/thesis/test_power.py runs it for some changes",
 }
