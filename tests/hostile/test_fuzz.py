@@ -12,7 +12,7 @@ from .judge import faults
 from .regressions import FOUND
 from .schema import bases
 
-CASES, LINES, FILES, FOREIGN = 250, 40, 100, 4
+CASES, LINES, FILES, FOREIGN = 220, 40, 100, 4
 """Case files, command lines, and damaged results with and without a digest that are tried, the same in each run: to
 read one without a digest takes a process of its own."""
 CHANGES = st.lists(
