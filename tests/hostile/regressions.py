@@ -1,0 +1,61 @@
+"""What was found once and is mended, a line each: the fault that it had, and the input again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .judge import Input
+from .schema import CASE, file_of
+from .values import SURE
+
+_RUN = ("run", CASE, "--file", "c.toml", "-o", "c.nc")
+_LAYER = 'thickness = "1e300 m", width = "1 m", material = { young = "1 Pa", poisson = 0, density = "1 kg/m^3" }'
+_LAYERS = f'section = {{ shape = "layers", layers = [{{ {_LAYER} }}] }}'
+_CASES = f"""\
+OverflowError | rod statics | prescribed_rotations = [{{ at = "first", by = "1.7e308 rad" }}]
+OverflowError | rod statics | rod.stations = [{{ at = "0.1 m", density = {"9" * 400} }}]
+OverflowError | rod path | rod.section = {{ shape = "tube", shear_factor = 0.5, diameter = "1e300 m", wall = "1 cm" }}
+OverflowError | rod motion | damping = {{ kind = "stiffness", ratio = 0.02, frequency = "1e300 Hz" }}
+OverflowError | posture | crawler.segments = [{{ length = "0.25 m", radius = "1e300 m" }}]
+OverflowError | modes | rod = {{ material = "none", {_LAYERS} }}
+ZeroDivisionError | rod statics | follower_line_loads = [{{ along = "E3", density = "1e100 N/m" }}]
+ZeroDivisionError | critical loads | rod.stations = [{{ at = "0.1 m", young = 1e-300 }}]
+ZeroDivisionError | body masses | masses = ["1e-300 kg"]
+ZeroDivisionError | crawl | step = "500000000000 s"
+ZeroDivisionError | rod motion | duration = "1e-300 s"
+ZeroDivisionError | rod motion | every = "1e-300 s"
+ValueError | critical loads | line_loads = [{{ along = "E3", density = "1.7e308 N/m" }}]
+ValueError | rod motion | start = {{ shape = "reference", mode = 1, spin = "1e300 rad/s" }}
+ValueError | rod motion | rod.stations = [{{ at = "0.1 m", young = 1.7e308 }}]
+ValueError | rod motion | foundations = [{{ rotational_stiffness = "1.7e308 N*m/rad/m" }}]
+ValueError | convergence | slender = {{ rod = {{ section = {{ height = "1e-300 m" }} }} }}
+ValueError | convergence | meshes = []
+IndexError | convergence | necking = {{ forces = [] }}
+AttributeError | calibration | hanging_bar = {{ like = "hanging_bar_consistent" }}
+LinAlgError | worm calibration | worm = {{ crawler = {{ length = "1e-300 m" }} }}
+a warning | crawl | gait.clearance = 5e-324
+a warning | critical loads | search = {{ limit = 1e300 }}
+a warning | rod statics | rod.material.young = "1e-300 Pa"
+a warning | rod statics | prestrains = [{{ section = 1.7e308 }}]
+a warning | posture | crawler.segments = [{{ length = "0.25 m", young = "1.7e308 Pa" }}]
+endless | rod motion | duration = "1e300 s"
+endless | rod motion | integrator = {{ step = "1e-15 s" }}
+endless | rod statics | rod.length = "1 m^(9^9^9^9)"
+"""
+_LINES = """\
+KeyError | --merged schema
+two lines | run c --hours
+two lines | plot c.nc --frames abc
+"""
+
+
+def _found() -> Iterator[Input]:
+    for line in _CASES.splitlines():
+        fault, kind, written = line.split(" | ")
+        yield Input(f"{fault}: {written[:50]}", _RUN, {"c.toml": file_of(kind, {}) + written.encode()})
+    for line in _LINES.splitlines():
+        fault, words = line.split(" | ")
+        yield Input(f"{fault}: {words}", tuple(words.split()), codes=SURE)
+
+
+FOUND = list(_found())
