@@ -19,7 +19,7 @@ from cosserat.limits import GIGABYTES, HOURS
 from cosserat.parameters import nearest
 from cosserat.publications import AddCommand, Command, publications
 from cosserat.signals import Stopped
-from cosserat.text import printable, shown
+from cosserat.text import printable, shortened, shown
 
 _OWN = "commands"
 _LONGEST_LINE = 2000  # characters of an error, whatever a file or a library put into it
@@ -121,6 +121,9 @@ def _read(arguments: list[str]) -> argparse.Namespace:
     parser = parser_of_commands()
     actions = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
     known: dict[str, argparse.ArgumentParser] = dict(actions[0].choices or {})
+    for given in arguments:
+        if given.startswith("-") and given.endswith("=--"):  # which argparse reads as an empty list
+            raise InputError(f"{shown(given)} gives no value; write one behind '='")
     word = arguments[0] if arguments else "--help"
     if not word.startswith("-") and word not in known:
         raise InputError(f"there is no command {shown(word)}{nearest(word, list(known), 0.6)}")
@@ -281,7 +284,14 @@ class _Parser(argparse.ArgumentParser):
     """Raises its complaints, which argparse would print with the usage in front."""
 
     def error(self, message: str) -> NoReturn:
-        raise InputError(f"'{self.prog}': {message}; '{self.prog} --help' tells what it takes")
+        raise InputError(
+            f"'{self.prog}': {shortened(message, 300)}; '{self.prog} --help' tells what it takes"
+        )
+
+    def print_help(self, file: Any = None) -> None:
+        """Print the help, and notice if it cannot be printed."""
+        super().print_help(file)
+        sys.stdout.flush()
 
 
 class _Version(argparse.Action):
@@ -291,7 +301,7 @@ class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from cosserat.data.provenance import source
 
-        print(source())
+        print(source(), flush=True)
         parser.exit()
 
 

@@ -73,6 +73,8 @@ def _standard_input() -> str:
     ------
     InputError : it is no text, or a very long one.
     """
+    if sys.stdin is None:
+        raise InputError("standard input is closed; give cases as JSON text there")
     try:
         given = sys.stdin.read(_MOST_INPUT + 1)
     except UnicodeDecodeError:

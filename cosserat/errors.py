@@ -38,8 +38,13 @@ def path_of(given: object) -> Path:
     path = Path(given)
     try:
         os.fsencode(path).decode()
-        path.exists()
-    except (OSError, ValueError) as error:  # too long, with a null character, or not in UTF-8
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError, PermissionError):
+        pass  # whoever reads or writes it says so
+    except (
+        OSError,
+        ValueError,
+    ) as error:  # too long, a link to itself, with a null character, or not in UTF-8
         why = getattr(error, "strerror", None) or error
         raise InputError(f"{shown(str(path))} cannot name a file ({why}); give another path") from None
     return path

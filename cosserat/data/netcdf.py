@@ -74,9 +74,7 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
     try:
         with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
             read = dataset.load()
-    except Exception as error:  # without a digest, xarray and HDF5 may say anything about what is in it
-        if intact:
-            raise
+    except Exception as error:  # xarray and HDF5 may say anything about what is in it
         raise InputError(
             f"cannot read {path} as a result ({printable(error)}); run its case again"
         ) from None

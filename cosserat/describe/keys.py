@@ -29,6 +29,7 @@ from cosserat.parameters import (
 from cosserat.problem import Problem
 from cosserat.publications import kinds
 from cosserat.tables import ShortForm
+from cosserat.text import shortened
 
 Form = Literal["quantity", "count", "word", "name", "text", "truth", "table", "list", "row", "either"]
 
@@ -124,7 +125,7 @@ def keys(kind: str) -> tuple[Key, ...]:
     InputError : there is no such kind.
     """
     if kind not in kinds():
-        raise InputError(f"there is no kind '{kind}'{nearest(kind, list(kinds()))}")
+        raise InputError(f"there is no kind '{shortened(kind)}'{nearest(kind, list(kinds()))}")
     found = list(_keys(kinds()[kind].problem_class(), "", "", "kind"))
     return tuple(sorted(found, key=lambda key: key.path != "kind"))
 

@@ -10,6 +10,7 @@ from cosserat.errors import InputError
 from cosserat.explain import cited
 from cosserat.parameters import Count, Items, Quantity, nearest
 from cosserat.publications import kinds
+from cosserat.text import shortened
 from cosserat.units import what_is_in
 
 WIDTH = 100
@@ -60,7 +61,9 @@ def list_of_keys(kind: str, under: str = "") -> str:
         found = [key for path, key in named if f"{path}.".startswith(f"{under}.")]
         if not found:
             level = list(dict.fromkeys(path for path, _ in named if path.count(".") == under.count(".")))
-            raise InputError(f"there is no key '{under}' in kind '{kind}'{nearest(under, level)}")
+            raise InputError(
+                f"there is no key '{shortened(under)}' in kind '{kind}'{nearest(under, level)}"
+            )
     return "\n\n".join([f"{kind}: {title(kind)}", *(paragraph(key, told) for key, told in _once(found))])
 
 

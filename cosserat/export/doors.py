@@ -10,6 +10,7 @@ from cosserat.data.netcdf import existing, load
 from cosserat.errors import InputError, path_of
 from cosserat.export.table import write_csv
 from cosserat.export.vtk import instant_of, write_vtk
+from cosserat.text import shortened
 
 _FORMATS = {".csv": "csv", ".vtu": "vtk", ".pvd": "vtk"}
 
@@ -37,7 +38,9 @@ def export(file: Path, to: str | None, output: Path | None, place: str | None) -
             "'.pvd' with --output"
         )
     if place is not None and to != "csv":
-        raise InputError(f"'--place {place}' chooses rows of a table; leave it out, or write csv")
+        raise InputError(
+            f"'--place {shortened(place)}' chooses rows of a table; leave it out, or write csv"
+        )
     dataset = load(file)
     ending = "csv" if to == "csv" else "vtu" if instant_of(dataset) is None else "pvd"
     path = named or folder / f"{file.stem}.{ending}"

@@ -24,6 +24,7 @@ from cosserat.data.netcdf import opened
 from cosserat.data.variables import LABELS
 from cosserat.errors import InputError
 from cosserat.parameters import nearest
+from cosserat.text import shortened
 
 INSTANTS = ("time", "point", "mode", "special")
 """Dimensions of instants: of a motion, a path, natural modes, and special points of a path."""
@@ -49,7 +50,7 @@ def to_dataframe(result: xr.Dataset | str | Path, place: str | None = None) -> p
     known = {name: _split(dataset[name]) for name in _numeric(dataset)}
     places = list(dict.fromkeys(split.place for split in known.values()))
     if place is not None and place not in places:
-        raise InputError(f"the result has no place '{place}'{nearest(place, places)}")
+        raise InputError(f"the result has no place '{shortened(place)}'{nearest(place, places)}")
     tables = [
         _rows(dataset, known, instant, one)
         for one in sorted(places, key=WHOLE.__eq__)

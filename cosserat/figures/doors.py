@@ -15,6 +15,7 @@ from cosserat.errors import InputError, path_of
 from cosserat.figures.animated import ENDINGS, FRAMES, MOST_FRAMES, write_animation
 from cosserat.figures.style import PICTURES, note, settings, write
 from cosserat.publications import kinds
+from cosserat.text import shown
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -64,7 +65,9 @@ def animate(
     if path is not None:
         check_destination(path_of(path), *ENDINGS)
     if not 2 <= frames <= MOST_FRAMES:
-        raise InputError(f"an animation of {frames} frames cannot be drawn; take 2 to {MOST_FRAMES}")
+        raise InputError(
+            f"an animation of {shown(frames)} frames cannot be drawn; take 2 to {MOST_FRAMES}"
+        )
     data = opened(result)
     kind = case_of(data).problem.kind
     if not kinds()[kind].animate:

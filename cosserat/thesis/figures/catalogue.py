@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from cosserat.errors import InputError
 from cosserat.parameters import nearest
+from cosserat.text import shortened
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -185,5 +186,5 @@ def entry(name: str) -> Entry:
     InputError : no figure of that name.
     """
     if name not in FIGURES:
-        raise InputError(f"there is no figure '{name}'{nearest(name, list(FIGURES))}")
+        raise InputError(f"there is no figure '{shortened(name)}'{nearest(name, list(FIGURES))}")
     return FIGURES[name]

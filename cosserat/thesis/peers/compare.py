@@ -41,6 +41,7 @@ from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table.readouts import period
 
 RUNS = 5
+_START = 30.0  # seconds in which a Python starts
 _FORCE, _DURATION, _STEPS = 10.0, 0.2, 800
 SCRIPTS = {"Exudyn": "with_exudyn.py", "PyElastica": "with_pyelastica.py"}
 
@@ -142,6 +143,11 @@ def compare(python: Path, progress: Callable[[str], None], runs: int = RUNS) -> 
     """
     if not python.is_file():
         raise InputError(f"there is no Python {python}; make the environment with 'snakemake peers'")
+    asked = subprocess.run(
+        [python, "-c", "print('here')"], capture_output=True, text=True, timeout=_START, check=False
+    )
+    if asked.stdout != "here\n":
+        raise InputError(f"{python} is no Python; make the environment with 'snakemake peers'")
     for problem, ours in problems().items():
         with contextlib.ExitStack() as running:
             packages: list[_Ours | _Peer] = [_Ours(problem, ours)]
