@@ -289,9 +289,8 @@ class _Parser(argparse.ArgumentParser):
         )
 
     def print_help(self, file: Any = None) -> None:
-        """Print the help, and notice if it cannot be printed."""
-        super().print_help(file)
-        sys.stdout.flush()
+        """Print the help; argparse would not say that it cannot be printed."""
+        print(self.format_help(), end="", file=file, flush=True)
 
 
 class _Version(argparse.Action):
