@@ -1,0 +1,176 @@
+"""Names, links, pipes and memory: what else a run may find around itself."""
+
+from __future__ import annotations
+
+import os
+import resource
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+
+from .processes import (
+    Done,
+    call,
+    end,
+    environment,
+    expect_bytes,
+    expect_names,
+    expect_sentence,
+    expect_success,
+    expect_whole_files,
+    run_words,
+    start,
+    undisturbed,
+)
+from .table import Trial, expect, fault
+
+KIND = "surroundings"
+KEPT = (
+    ("plot", "x.svg"),
+    ("plot", "x.svg", "-o", "./x.svg"),
+    ("plot", "x.gif", "--animate", "x.gif"),
+    ("export", "x.csv", "--to", "csv"),
+    ("export", "x.csv", "-o", "linked.csv"),
+    ("export", "x.vtu", "--to", "vtk"),
+    ("measure", "--table", "x.csv", "--output", "x.csv", "--cases", "."),
+    ("chapter", "x.py", "--output", "x.py"),
+)
+"""Commands whose output is their input."""
+
+
+@fault(
+    KIND,
+    "the output is the input",
+    "Refused in one sentence, exit 2; the input keeps its bytes.",
+    len(KEPT),
+)
+def _own_input(trial: Trial) -> Iterator[None]:
+    words = KEPT[trial.number]
+    name = next(word for word in words if word.startswith("x."))
+    path = trial.folder / name
+    shutil.copy(undisturbed("path" if name == "x.gif" else "statics").path, path)
+    if "linked.csv" in words:
+        (trial.folder / "linked.csv").symlink_to(path)
+    before = path.read_bytes()
+    done = call(trial.folder, *words)
+    expect(path.read_bytes() == before, f"the input was overwritten: {done.told}")
+    if done.code:
+        expect_sentence(done, 2)
+    else:
+        expect(path.is_file() and "linked.csv" in words, f"not refused: {done.told}")
+    yield
+
+
+LINKS = ("to a file", "to nothing", "to a folder", "to itself")
+
+
+@fault(
+    KIND,
+    "the output is a symbolic link",
+    "It is followed and stays a link, or refused in one sentence; its target is whole.",
+    2 * len(LINKS),
+)
+def _link(trial: Trial) -> Iterator[None]:
+    link, target = trial.folder / "link.nc", trial.folder / "far" / "target.nc"
+    target.parent.mkdir()
+    to = LINKS[trial.number % len(LINKS)]
+    if to == "to a file":
+        shutil.copy(undisturbed("modes").path, target)
+    link.symlink_to({"to a folder": target.parent, "to itself": link}.get(to, target))
+    case = ("statics", "motion")[trial.number // len(LINKS)]
+    done = call(trial.folder, *run_words(case, "link.nc"))
+    expect(link.is_symlink(), "the link was replaced by a file")
+    if done.code == 0:
+        expect_success(done)
+        written = target.parent / f"{case}.nc" if to == "to a folder" else target
+        expect_bytes(written, undisturbed(case).bytes)
+    else:
+        expect_sentence(done, 2, naming=["link.nc"])
+        if to == "to a file":
+            expect_bytes(target, undisturbed("modes").bytes)
+    yield
+
+
+PIPES = (
+    "cases | head -1",
+    "cases | true",
+    "describe rod motion | head -1",
+    "schema | head -1",
+    "--help | head -1",
+    "show {statics} | head -1",
+    "run statics --file {file} -o x.nc | true",
+    "cases >&-",
+    "show {statics} 2>&-",
+)
+
+
+@fault(KIND, "a closed pipe", "No error, no word; what is written is whole.", len(PIPES))
+def _pipe(trial: Trial) -> Iterator[None]:
+    from .processes import CASES
+
+    text = PIPES[trial.number].format(statics=undisturbed("statics").path, file=CASES)
+    done = subprocess.run(
+        ["bash", "-o", "pipefail", "-c", f"'{sys.executable}' -m cosserat {text}"],
+        cwd=trial.folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    told = Done(done.returncode, done.stdout, done.stderr).told
+    expect(done.returncode == 0 and not done.stderr, f"{PIPES[trial.number]}: {told}")
+    if " run " in f" {text} ":
+        expect_bytes(trial.folder / "x.nc", undisturbed("statics").bytes)
+    yield
+
+
+MEMORY = ("long_statics", "long_crawl", "long_motion", "long_path", "motion", "crawl")
+
+
+@fault(KIND, "too little memory", "One sentence, exit 2, or the result; nothing invalid is left.", 18)
+def _memory(trial: Trial) -> Iterator[None]:
+    """As much as the start needs, and a random amount more."""
+    case = MEMORY[trial.number % len(MEMORY)]
+    least = _needed()
+    limit = least + int(trial.rng.uniform(0, 150e6))
+
+    def limited() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+
+    running = start(trial.folder, *run_words(case, "x.nc"), before=limited)
+    try:
+        running.wait(20)
+    except subprocess.TimeoutExpired:  # it had enough
+        running.terminate()
+        running.communicate()
+        return
+    done = end(running)
+    expect_whole_files(trial.folder)
+    if done.code == 0:
+        expect_success(done)
+    else:
+        expect_sentence(done, 1, 2)
+        expect("memory" in done.err, f"not about memory: {done.told}")
+        expect_names(trial.folder)
+    yield
+
+
+def _needed() -> int:
+    """Address space of a small run [bytes]."""
+    if not _NEEDED:
+        running = start(undisturbed("posture").path.parent, *run_words("posture", "memory.nc"))
+        most = 0
+        while running.poll() is None:
+            try:
+                with open(f"/proc/{running.pid}/status") as status:
+                    lines = dict(line.split(":", 1) for line in status)
+                most = max(most, int(lines.get("VmPeak", "0 kB").split()[0]) * 1024)
+            except (OSError, ValueError):
+                break
+        end(running)
+        _NEEDED.append(most)
+    return _NEEDED[0]
+
+
+_NEEDED: list[int] = []
