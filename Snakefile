@@ -22,6 +22,7 @@ os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get
 CASES = published()
 BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
+MEASURED = {"ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv"]}  # tracked tables of chapters
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/exact/beams.py", "cosserat/exact/elastica.py"]
 READOUTS = [
@@ -179,11 +180,7 @@ rule chapter:
         "results/left_out.toml",
         expand("results/cases/{case}.nc", case=CASES),
         expand("results/figures/{figure}.svg", figure=FIGURES),
-        measured=lambda wildcards: (
-            ["results/peers.csv"]
-            if wildcards.chapter == "ch5_peers" and os.path.exists("results/peers.csv")
-            else []
-        ),
+        measured=lambda wildcards: [name for name in MEASURED.get(wildcards.chapter, []) if os.path.exists(name)],
         source="chapters/{chapter}.py",
     output:
         "results/notebooks/{chapter}.ipynb",

@@ -32,6 +32,7 @@
 # ch3_rods
 # ch4_consistent
 # ch5_peers
+# reliability
 # results_table
 # errata
 # left_out

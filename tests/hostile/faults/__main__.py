@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 
 from . import catalogue  # noqa: F401  (its modules enter their faults)
@@ -16,6 +17,7 @@ from .table import FAULTS, Tally, store, tried
 def main() -> int:
     """Try the faults that the options name, print the table and store it."""
     options = _read()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # small disks are taken away
     chosen = [one for one in FAULTS.values() if options.only in f"{one.kind}: {one.name}"]
     if not chosen:
         print(
@@ -35,8 +37,8 @@ def main() -> int:
         )
         for command, found in tally.failures:
             print(f"    {found}\n      {command}", flush=True)
-    if options.count is None and options.first == 0:
-        store(tallies, ROOT / "results" / "faults.csv")
+        if options.write or (options.count is None and options.first == 0):
+            store([tally], ROOT / "results" / "faults.csv")
     failed = sum(len(tally.failures) for tally in tallies)
     print(f"{failed} not as promised" if failed else "everything as promised")
     return min(failed, 1)
@@ -52,6 +54,9 @@ def _read() -> argparse.Namespace:
         "--seed", type=int, default=0, help="of all random choices (default: %(default)s)"
     )
     parser.add_argument("--from", type=int, default=0, dest="first", help="number of the first attempt")
+    parser.add_argument(
+        "--write", action="store_true", help="write the table also with --count or --from"
+    )
     return parser.parse_args()
 
 

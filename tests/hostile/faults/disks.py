@@ -9,7 +9,7 @@ import resource
 import shutil
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from .processes import (
@@ -44,7 +44,10 @@ CASES = (
     "calibration",
     "convergence",
 )
-FULL = "One sentence with path, need and free space, exit 2; nothing invalid is left; where there is space, the same bytes"
+FULL = (
+    "One sentence with path, need and free space, exit 2; nothing invalid is left; where there is space, the "
+    "same bytes"
+)
 
 
 @contextlib.contextmanager
@@ -177,7 +180,7 @@ def _limited_files(trial: Trial) -> Iterator[None]:
 def _read_only(trial: Trial) -> Iterator[None]:
     with small_disk(trial.folder, "8m") as disk:
         copied(stopped_motion(), disk) if trial.number % 2 else None
-        subprocess.run(["mount", "-o", "remount,ro", disk], check=True)
+        _until(lambda: _remounted(disk, "ro"))
         verb = ("run", "plot", "export")[trial.number // 2]
         words: tuple[object, ...] = run_words("motion", disk / "motion.nc")
         if verb != "run":
@@ -225,16 +228,9 @@ def _turned_read_only(trial: Trial) -> Iterator[None]:
     with small_disk(trial.folder, "16m") as disk:
         running = start(disk, *run_words("motion", "motion.nc"))
         wait_for_parts(running, disk / "motion.nc.parts", 2)
-        _until(
-            lambda: (
-                subprocess.run(
-                    ["mount", "-o", "remount,ro", disk], capture_output=True, check=False
-                ).returncode
-                == 0
-            )
-        )
+        _until(lambda: _remounted(disk, "ro"))
         expect_sentence(end(running), 2, naming=["motion.nc"])
-        subprocess.run(["mount", "-o", "remount,rw", disk], check=True)
+        _until(lambda: _remounted(disk, "rw"))
         expect_whole_files(disk)
         expect_success(call(disk, *run_words("motion", "motion.nc")))
         expect_bytes(disk / "motion.nc", undisturbed("motion").bytes)
@@ -242,10 +238,15 @@ def _turned_read_only(trial: Trial) -> Iterator[None]:
         yield
 
 
-def _until(done: object, seconds: float = 5.0) -> None:
+def _remounted(disk: Path, how: str) -> bool:
+    done = subprocess.run(["mount", "-o", f"remount,{how}", disk], capture_output=True, check=False)
+    return done.returncode == 0
+
+
+def _until(done: Callable[[], bool], seconds: float = 5.0) -> None:
     """Repeat what is refused while a file is open."""
     until = time.monotonic() + seconds
-    while not done() and time.monotonic() < until:  # type: ignore[operator]
+    while not done() and time.monotonic() < until:
         time.sleep(0.002)
 
 
@@ -285,7 +286,7 @@ def _vanishes(trial: Trial) -> Iterator[None]:
     3,
 )
 def _full_output(trial: Trial) -> Iterator[None]:
-    words = (("cases",), ("show", undisturbed("statics").path), run_words("statics", "statics.nc"))[
+    words = (("cases",), ("show", undisturbed("motion").path), run_words("statics", "statics.nc"))[
         trial.number
     ]
     with Path("/dev/full").open("wb") as full:

@@ -14,6 +14,8 @@ import numpy as np
 
 from .processes import (
     ROOT,
+    call,
+    copied,
     end,
     environment,
     expect_bytes,
@@ -22,6 +24,7 @@ from .processes import (
     expect_whole_files,
     run_words,
     start,
+    stopped_motion,
     undisturbed,
     wait_for_parts,
 )
@@ -84,6 +87,30 @@ def _picture(trial: Trial) -> Iterator[None]:
         expect_success(end(start(trial.folder, "plot", result.path, "-o", name)))
     expect_bytes(trial.folder / "path.svg", (trial.folder / "again.svg").read_bytes())
     expect_names(trial.folder, "path.svg", "again.svg")
+    yield
+
+
+@fault(
+    KIND,
+    "what a killed motion left",
+    "It holds nobody: the run goes on at once to the same bytes.",
+    3,
+)
+def _after_a_kill(trial: Trial) -> Iterator[None]:
+    """Its parts, locks and temporary files, also if its process number is that of a live process of another."""
+    copied(stopped_motion(), trial.folder)
+    begun = [path for path in (trial.folder / "motion.nc.parts").iterdir() if path.suffix == ".part"]
+    if trial.number == 1:
+        for name in (
+            f".motion.nc.host.{os.getpid()}.part",
+            f".motion.nc.{os.uname().nodename}.{2**22 - 1}.part",
+        ):
+            (trial.folder / name).write_bytes(b"left")
+    expect_success(call(trial.folder, *run_words("motion", "motion.nc")))
+    expect_bytes(trial.folder / "motion.nc", undisturbed("motion").bytes)
+    left = [f".motion.nc.host.{os.getpid()}.part"] if trial.number == 1 else []  # another machine's
+    expect_names(trial.folder, "motion.nc", *left)
+    expect(not any(path.exists() for path in begun), "temporary files of the killed process are left")
     yield
 
 

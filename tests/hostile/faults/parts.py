@@ -11,6 +11,9 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
+import cosserat
+from cosserat.problems.motion import RodMotion
+
 from .damage import damage
 from .processes import (
     call,
@@ -84,6 +87,13 @@ def _edit_within(parts: list[Path], rng: np.random.Generator) -> None:
         opened["x"][5, 3, 1] = 1.5 * opened["x"][5, 3, 1] + 1e-6
 
 
+def _save_again(parts: list[Path], rng: np.random.Generator) -> None:
+    """A changed velocity at the end of the last part, saved as a user saves a Dataset, with a digest that holds."""
+    part = cosserat.load(parts[-1])
+    part["x_rate"][-1, int(rng.integers(part.sizes["vertex"])), 0] = 0.1
+    cosserat.save(part, parts[-1])
+
+
 def _not_a_number(parts: list[Path], rng: np.random.Generator) -> None:
     _edit(parts, rng, np.nan)
 
@@ -98,11 +108,11 @@ def _other_case(parts: list[Path], rng: np.random.Generator) -> None:
     other = store() / "other_case"
     if not other.is_dir():
         other.mkdir()
-        text = '[motion]\nlike = "vibration_consistent"\nduration = "0.4 s"\nevery = "1 ms"\nrod.length = "{} m"\n'
-        length = 1.001 * float(str(_length()))
+        text = '[motion]\nlike = "vibration_consistent"\nduration = "0.25 s"\nevery = "1 ms"\nrod.length = "{} m"\n'
+        length = 1.001 * _length()
         (other / "other.toml").write_text(text.format(length))
         running = start(other, "run", "motion", "--file", "other.toml", "-o", "motion.nc")
-        wait_for_parts(running, other / "motion.nc.parts", 4)
+        wait_for_parts(running, other / "motion.nc.parts", 3)
         running.kill()
         running.communicate()
     number = int(rng.integers(len(parts)))
@@ -110,9 +120,8 @@ def _other_case(parts: list[Path], rng: np.random.Generator) -> None:
 
 
 def _length() -> float:
-    import cosserat
-
-    return float(cosserat.case("vibration_consistent").problem.rod.length)  # type: ignore[attr-defined]
+    problem = cosserat.case("vibration_consistent").problem_as(RodMotion)
+    return problem.rod.length
 
 
 def _bits(parts: list[Path], rng: np.random.Generator) -> None:
@@ -134,6 +143,7 @@ CHANGES: tuple[Change, ...] = (
     _folder,
     _edit,
     _edit_within,
+    _save_again,
     _not_a_number,
     _edit_steps,
     _other_case,
@@ -171,6 +181,7 @@ PHRASES = {
     "folder": "one is a folder",
     "edit": "a velocity of the last is edited",
     "edit within": "a place within one is edited",
+    "save again": "the last is changed and saved by the package itself",
     "not a number": "a velocity of the last is no number",
     "edit steps": "the count of steps of one is edited",
     "other case": "one is of a case that differs in one number",

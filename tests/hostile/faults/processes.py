@@ -31,7 +31,7 @@ OWN = tomllib.loads(CASES.read_text(encoding="utf-8"))
 """Names of the table's own cases; others are published ones."""
 HANGS = 120.0
 """Seconds after which a process counts as hung, on a busy machine too."""
-_MARKED = "import sys\nfrom cosserat.cli import main\nprint('begun', flush=True)\nsys.exit(main())"
+_MARKED = "import sys\nfrom cosserat.__main__ import main\nprint('begun', flush=True)\nsys.exit(main())"
 """`python -m cosserat`, which says on standard output when `main` begins."""
 
 
@@ -77,7 +77,7 @@ def start(
         stdout=stdout,
         stderr=subprocess.PIPE,
         text=True,
-        preexec_fn=before or _interruptible,
+        preexec_fn=before or _interruptible,  # noqa: PLW1509 - this process has no other threads
         start_new_session=True,
     )
     if marked and running.stdout is not None:
@@ -144,7 +144,7 @@ def undisturbed(case: str) -> Undisturbed:
 
 
 @functools.cache
-def stopped_motion(parts: int = 4) -> Path:
+def stopped_motion(parts: int = 3) -> Path:
     """A folder with the first parts of the case `motion`, whose run was killed."""
     folder = store() / f"stopped_{parts}"
     folder.mkdir()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import resource
 import shutil
 import subprocess
@@ -10,6 +9,7 @@ import sys
 from collections.abc import Iterator
 
 from .processes import (
+    CASES,
     Done,
     call,
     end,
@@ -49,7 +49,7 @@ def _own_input(trial: Trial) -> Iterator[None]:
     words = KEPT[trial.number]
     name = next(word for word in words if word.startswith("x."))
     path = trial.folder / name
-    shutil.copy(undisturbed("path" if name == "x.gif" else "statics").path, path)
+    shutil.copy(undisturbed("motion").path, path)
     if "linked.csv" in words:
         (trial.folder / "linked.csv").symlink_to(path)
     before = path.read_bytes()
@@ -98,18 +98,16 @@ PIPES = (
     "describe rod motion | head -1",
     "schema | head -1",
     "--help | head -1",
-    "show {statics} | head -1",
-    "run statics --file {file} -o x.nc | true",
+    "show {motion} | head -1",
+    "run motion --file {file} -o x.nc | true",
     "cases >&-",
-    "show {statics} 2>&-",
+    "show {motion} 2>&-",
 )
 
 
 @fault(KIND, "a closed pipe", "No error, no word; what is written is whole.", len(PIPES))
 def _pipe(trial: Trial) -> Iterator[None]:
-    from .processes import CASES
-
-    text = PIPES[trial.number].format(statics=undisturbed("statics").path, file=CASES)
+    text = PIPES[trial.number].format(motion=undisturbed("motion").path, file=CASES)
     done = subprocess.run(
         ["bash", "-o", "pipefail", "-c", f"'{sys.executable}' -m cosserat {text}"],
         cwd=trial.folder,
@@ -121,7 +119,7 @@ def _pipe(trial: Trial) -> Iterator[None]:
     told = Done(done.returncode, done.stdout, done.stderr).told
     expect(done.returncode == 0 and not done.stderr, f"{PIPES[trial.number]}: {told}")
     if " run " in f" {text} ":
-        expect_bytes(trial.folder / "x.nc", undisturbed("statics").bytes)
+        expect_bytes(trial.folder / "x.nc", undisturbed("motion").bytes)
     yield
 
 

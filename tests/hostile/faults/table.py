@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import platform
 import tempfile
 import zlib
 from collections.abc import Callable, Iterator
@@ -119,7 +120,8 @@ def tried(one: Fault, *, count: int, seed: int = 0, first: int = 0) -> Tally:
                 for _ in one.attempt(trial):
                     tally.kept += 1
             except NotAsPromisedError as found:
-                tally.failures.append((trial.command, str(found)))
+                told = str(found).replace(folder, "FOLDER").replace(platform.node(), "HOST")
+                tally.failures.append((trial.command, told))
             except CannotBeTriedError as lack:
                 tally.lacking = f"not tried: {lack}"
                 break

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import time
 from collections.abc import Iterator
@@ -10,7 +9,6 @@ from collections.abc import Iterator
 from .processes import (
     Done,
     call,
-    copied,
     end,
     expect_bytes,
     expect_names,
@@ -18,7 +16,6 @@ from .processes import (
     expect_success,
     run_words,
     start,
-    stopped_motion,
     undisturbed,
     wait_for_parts,
 )
@@ -83,30 +80,6 @@ def _expect_one(ended: list[Done], name: str) -> None:
             expect_success(done)
         else:
             expect_sentence(done, 2, naming=[name])
-
-
-@fault(
-    KIND,
-    "after a killed one",
-    "What it left holds nobody: the run goes on at once to the same bytes.",
-    3,
-)
-def _after_a_kill(trial: Trial) -> Iterator[None]:
-    """Its parts, locks and temporary files, also if its process number is that of a live process of another."""
-    copied(stopped_motion(), trial.folder)
-    begun = [path for path in (trial.folder / "motion.nc.parts").iterdir() if path.suffix == ".part"]
-    if trial.number == 1:
-        for name in (
-            f".motion.nc.host.{os.getpid()}.part",
-            f".motion.nc.{os.uname().nodename}.{2**22 - 1}.part",
-        ):
-            (trial.folder / name).write_bytes(b"left")
-    expect_success(call(trial.folder, *run_words("motion", "motion.nc")))
-    expect_bytes(trial.folder / "motion.nc", undisturbed("motion").bytes)
-    left = [f".motion.nc.host.{os.getpid()}.part"] if trial.number == 1 else []  # another machine's
-    expect_names(trial.folder, "motion.nc", *left)
-    expect(not any(path.exists() for path in begun), "temporary files of the killed process are left")
-    yield
 
 
 @fault(KIND, "while one is stopped", f"{ONE}, however long the other has been standing still.", 1)
