@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 import tomllib
+import warnings
 import xml.etree.ElementTree
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -21,7 +22,7 @@ from pathlib import Path
 from typing import IO
 
 import cosserat
-from cosserat.errors import CosseratError
+from cosserat.errors import CosseratError, CosseratWarning
 
 from .table import expect
 
@@ -50,9 +51,15 @@ class Done:
 
 
 def environment() -> dict[str, str]:
-    """The environment of every process: this checkout's package, one thread."""
+    """The environment of every process: this checkout's package, one thread, no lines of progress."""
     path = os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()])
-    return {**os.environ, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1", "PATH": path}
+    return {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "OMP_NUM_THREADS": "1",
+        "TQDM_DISABLE": "1",
+        "PATH": path,
+    }
 
 
 def start(
@@ -206,8 +213,21 @@ def expect_whole_files(folder: Path) -> None:
         if path.is_file() and not path.name.startswith("."):
             try:
                 _READERS.get(path.suffix, Path.read_bytes)(path)
-            except (CosseratError, xml.etree.ElementTree.ParseError, ValueError, SyntaxError) as error:
+            except (
+                CosseratError,
+                CosseratWarning,
+                xml.etree.ElementTree.ParseError,
+                ValueError,
+                SyntaxError,
+            ) as error:
                 expect(False, f"{path.relative_to(folder)} is not whole: {error}")
+
+
+def _load(path: Path) -> None:
+    """Read a result that cosserat itself wrote to its end; of any other there is a warning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cosserat.load(path)
 
 
 def _read_table(path: Path) -> None:
@@ -218,7 +238,7 @@ def _read_table(path: Path) -> None:
 
 
 _READERS: dict[str, Callable[[Path], object]] = {
-    ".nc": cosserat.load,
+    ".nc": _load,
     ".svg": xml.etree.ElementTree.parse,
     ".vtu": xml.etree.ElementTree.parse,
     ".pvd": xml.etree.ElementTree.parse,

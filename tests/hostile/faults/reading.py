@@ -1,6 +1,7 @@
 """How `cosserat.load` reads files, each in a child that can be stopped: `python reading.py RIGHT FILE ...`.
 
-A line for each file: "same" content as RIGHT, "refused" by its name, or what is not as promised.
+A line for each file: "same" content as RIGHT, "refused" by its name, "said to be changed" by another program, or what
+is not as promised.
 """
 
 from __future__ import annotations
@@ -9,18 +10,20 @@ import os
 import signal
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import xarray as xr
 
 import cosserat
-from cosserat.errors import CosseratError
+from cosserat.errors import CosseratError, CosseratWarning
 
 LONGEST = 10.0
 """Seconds that a file may take."""
 VERDICTS = (
     "same",
     "refused",
+    "said to be changed",
     "read as other content without a word",
     "refused in other than one sentence with the file's name",
     "an exception that is none of the package's",
@@ -48,11 +51,15 @@ def verdict(path: Path, right: xr.Dataset) -> str:
 def _read(path: Path, right: xr.Dataset) -> int:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
     try:
-        return 0 if cosserat.load(path).identical(right) else 2
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            same = cosserat.load(path).identical(right)
+        words = any(issubclass(one.category, CosseratWarning) for one in told)
+        return 0 if same else 2 if words else 3
     except CosseratError as error:
-        return 1 if path.name in str(error) and "\n" not in str(error) else 3
+        return 1 if path.name in str(error) and "\n" not in str(error) else 4
     except BaseException:
-        return 4
+        return 5
 
 
 def main(right: str, *files: str) -> None:
