@@ -24,8 +24,8 @@
 #   129 for the three signals.
 #
 # Each row below is a fault that `python -m tests.hostile.faults` brings about in real processes, many times and at random
-# moments. Each attempt is judged by exit code, words, bytes and by the files that are left. The fault is tried by its own seed, so an
-# attempt that does not end as promised can be repeated.
+# moments. Each attempt is judged by its exit code, its words, its bytes and the files that are left. All random choices follow
+# from a seed, so an attempt can be repeated.
 
 # %% tags=["remove-cell"]
 import csv

@@ -39,6 +39,7 @@ FILES = (
     "requirements.in",
     "requirements.lock",
     "results/errata.toml",
+    "results/faults.csv",
     "results/left_out.toml",
     "results/peers.csv",
     "results/tolerances.csv",

@@ -112,7 +112,7 @@ class Tally:
 
 def tried(one: Fault, *, count: int, seed: int = 0, first: int = 0) -> Tally:
     """Try a fault so many times, each in a folder of its own that is deleted afterwards."""
-    tally = Tally(one)
+    tally = Tally(one, lacking="" if count else "not tried yet")
     for number in range(first, first + count):
         with tempfile.TemporaryDirectory(prefix="fault-", ignore_cleanup_errors=True) as folder:
             trial = Trial(one, number, seed, Path(folder))
