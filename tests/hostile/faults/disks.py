@@ -230,13 +230,10 @@ def _read_only(trial: Trial) -> Iterator[None]:
 )
 def _no_right(trial: Trial) -> Iterator[None]:
     """That of the result, or that of the parts which are already there."""
-    prefix = ("setpriv", "--bounding-set=-dac_override,-dac_read_search") if os.getuid() == 0 else ()
-    if prefix and shutil.which(prefix[0]) is None:
-        raise CannotBeTriedError("root writes anywhere without 'setpriv'")
     copied(stopped_motion(), trial.folder)
     closed = trial.folder / "motion.nc.parts" if trial.number else trial.folder
     closed.chmod(0o555)
-    done = end(start(trial.folder, *run_words("motion", "motion.nc"), prefix=prefix))
+    done = end(start(trial.folder, *run_words("motion", "motion.nc"), prefix=_without_all_rights()))
     closed.chmod(0o755)
     expect_sentence(done, 2)
     expect(re.search("cannot be written|permission", done.err, re.IGNORECASE), done.told)
@@ -247,26 +244,35 @@ def _no_right(trial: Trial) -> Iterator[None]:
 
 @fault(
     KIND,
-    "read-only while a motion is run",
-    "One sentence with the path, exit 2; when it can be written again, the same command goes on to the same bytes.",
+    "the right to write is taken away while a motion is run",
+    "One sentence with the path, exit 2; when it is given back, the same command goes on to the same bytes.",
     3,
 )
-def _turned_read_only(trial: Trial) -> Iterator[None]:
-    with small_disk(trial.folder, "16m") as disk:
-        running = start(disk, *run_words("motion", "motion.nc"))
-        wait_for_parts(running, disk / "motion.nc.parts", 1)
-        while not _remounted(disk, "ro") and running.poll() is None:  # refused while a file is open
-            time.sleep(0.002)
-        done = end(running)
-        if done.code == 0:
-            return  # it had ended before
-        expect_sentence(done, 2, naming=["motion.nc"])
-        _until(lambda: _remounted(disk, "rw"))
-        expect_whole_files(disk)
-        expect_success(call(disk, *run_words("motion", "motion.nc")))
-        expect_bytes(disk / "motion.nc", undisturbed("motion").bytes)
-        expect_names(disk, "motion.nc")
-        yield
+def _right_taken_away(trial: Trial) -> Iterator[None]:
+    folder = trial.folder / "motion.nc.parts"
+    running = start(trial.folder, *run_words("motion", "motion.nc"), prefix=_without_all_rights())
+    wait_for_parts(running, folder, 1 + trial.number)
+    closed = [place for place in (folder, trial.folder) if place.is_dir()]
+    for place in closed:
+        place.chmod(0o555)
+    done = end(running)
+    for place in reversed(closed):
+        place.chmod(0o755)
+    expect_sentence(done, 2, naming=["motion.nc"])
+    expect_whole_files(trial.folder)
+    expect_success(call(trial.folder, *run_words("motion", "motion.nc")))
+    expect_bytes(trial.folder / "motion.nc", undisturbed("motion").bytes)
+    expect_names(trial.folder, "motion.nc")
+    yield
+
+
+def _without_all_rights() -> tuple[str, ...]:
+    """The program that starts a process of root which may write only where others of its rights may."""
+    if os.getuid() != 0:
+        return ()
+    if shutil.which("setpriv") is None:
+        raise CannotBeTriedError("root writes anywhere without 'setpriv'")
+    return ("setpriv", "--bounding-set=-dac_override,-dac_read_search")
 
 
 def _remounted(disk: Path, how: str) -> bool:

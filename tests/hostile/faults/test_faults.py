@@ -14,18 +14,25 @@ QUICK = (
     ("Ctrl-C from the first line of the program on", 0),
     ("SIGTERM from the first line of the program on", 0),
     ("SIGHUP from the first line of the program on", 0),
-    ("what a killed motion left", 0),
     ("two are swapped", 0),
     ("standard output is full", 0),
-    ("while one is stopped", 0),
     ("loaded in Python", 1),
     ("the output is the input", 0),
     ("a closed pipe", 0),
 )
 """Names of faults, and the number of the attempt that is a test."""
+LONGER = (
+    ("what a killed motion left", 0),
+    ("while one is stopped", 0),
+    ("no file may be longer than a limit", 1),
+)
+"""Those among the tests of the workflow."""
 
 
-@pytest.mark.parametrize(("name", "number"), QUICK)
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [*QUICK, *(pytest.param(*one, marks=pytest.mark.workflow) for one in LONGER)],
+)
 def test_a_fault_ends_as_promised(name, number):
     tally = tried(FAULTS[name], count=1, first=number)
     assert tally.failures == []
@@ -33,7 +40,7 @@ def test_a_fault_ends_as_promised(name, number):
 
 
 def test_every_class_of_faults_has_a_quick_attempt():
-    assert {FAULTS[name].kind for name, _ in QUICK} == {one.kind for one in FAULTS.values()}
+    assert {FAULTS[name].kind for name, _ in (*QUICK, *LONGER)} == {one.kind for one in FAULTS.values()}
 
 
 def test_the_stored_table_has_every_fault():
