@@ -83,9 +83,13 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - whoever read our output has gone
         return 0
-    except OSError as error:  # files have sentences of their own, so it is what the command prints
+    except OSError as error:
+        reason = error.strerror or error
+        if error.filename is not None:
+            _complain(f"{error.filename}: {reason}; check name, space and permissions")
+            return 2
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - what is left unprinted cannot be printed
-        _complain(f"cannot write to standard output: {error.strerror or error}; send it elsewhere")
+        _complain(f"cannot write to standard output: {reason}; send it elsewhere")
         return 2
     return 0
 

@@ -59,7 +59,7 @@ class CosseratWarning(UserWarning):
 
 
 class ChangedResultWarning(CosseratWarning):
-    """A result was written or changed by another program: nothing says that a solver computed its values."""
+    """A result was written by another program or changed: nothing says that a solver computed its values."""
 
 
 class UnsupportedRodError(InputError):

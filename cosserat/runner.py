@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_limits
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.checkpoints import Parts
+from cosserat.data.content import stamped
 from cosserat.data.dataset import statistics_of, to_dataset, warnings_of
 from cosserat.data.locks import only_writer
 from cosserat.data.variables import VARIABLES
@@ -92,7 +93,7 @@ def _with_warnings(dataset: xr.Dataset, caught: list[warnings.WarningMessage]) -
         return dataset
     said = ", ".join(sorted({str(warning.message).splitlines()[0] for warning in caught}))
     sentence = f"numerics: {said} in the solution; check the sizes of the values of the case"
-    return dataset.assign_attrs(warnings="\n".join([*warnings_of(dataset), sentence]))
+    return stamped(dataset.assign_attrs(warnings="\n".join([*warnings_of(dataset), sentence])))
 
 
 def modes(case: Case | str, count: int = 6) -> xr.Dataset:

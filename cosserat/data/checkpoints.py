@@ -8,8 +8,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from cosserat.data.digest import digest_of
-from cosserat.data.netcdf import load, save
+from cosserat.data.netcdf import load, save, stored_digest
 from cosserat.errors import InputError
 
 _MUST_AGREE = ("parameters", "source", "environment")
@@ -81,7 +80,7 @@ class Parts:
 
     def _before(self, number: int) -> str:
         """The digest of the part before one."""
-        return str(digest_of(self._path(number - 1))) if number else ""
+        return str(stored_digest(self._path(number - 1))) if number else ""
 
     def _path(self, number: int) -> Path:
         return self.folder / f"{number:05d}.nc"

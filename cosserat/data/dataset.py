@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, parse
+from cosserat.data.content import stamped
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import CosseratError, InputError
@@ -87,7 +88,7 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
         dataset.attrs["warnings"] = "\n".join(solution.warnings)
     if derived:
         dataset.attrs["derived"] = " ".join(name for name in VARIABLES if name in derived)
-    return dataset
+    return stamped(dataset)
 
 
 def _completed(solution: Solution) -> tuple[Solution, set[str]]:
@@ -107,7 +108,7 @@ def without_derived(dataset: xr.Dataset) -> xr.Dataset:
     used = {dim for variable in left.data_vars.values() for dim in variable.dims}
     left = left.drop_vars([name for name, place in left.coords.items() if not set(place.dims) <= used])
     left.attrs.pop("derived", None)
-    return left
+    return stamped(left)
 
 
 def warnings_of(dataset: xr.Dataset) -> list[str]:

@@ -72,20 +72,26 @@ def whole_or_absent(path: Path, need: int | None = None) -> Iterator[Path]:
         yield temporary
         temporary.replace(path)
     except OSError as error:
-        raise InputError(f"cannot write {path}: {_why(error, path, need)}") from None
+        raise refusal(error, path, temporary, need) from None
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
 
 
-def _why(error: OSError, path: Path, need: int | None) -> str:
-    """Why the system refuses to write, and the remedy."""
+def refusal(error: OSError, path: Path, temporary: Path, need: int | None = None) -> InputError:
+    """The error for a system that refuses to write, with the remedy.
+
+    temporary : the file or the folder with what was written so far.  need : number of bytes, if it is known.
+    """
     reason = error.strerror or str(error)
     free = shutil.disk_usage(path.parent).free if path.parent.is_dir() else 0
     if error.errno not in _FULL and (need is None or free > need):
-        return f"{reason}; check name, space and permissions"
-    needed = "" if need is None else f"it needs {size(need)}, and "
-    return f"{reason}: {needed}{size(free)} are free in {path.parent}; free some space or choose another disk"
+        return InputError(f"cannot write {path}: {reason}; check name, space and permissions")
+    files = temporary.rglob("*") if temporary.is_dir() else [temporary]
+    written = sum(file.stat().st_size for file in files if file.is_file())
+    needed = f"more than {size(written)}" if need is None else size(need)
+    room = f"it needs {needed}, and {size(free)} are free in {path.parent}"
+    return InputError(f"cannot write {path}: {reason}: {room}; free some space or choose another disk")
 
 
 def _is_running(process: str) -> bool:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from cosserat.data.content import is_as_computed
 from cosserat.data.dataset import FORMAT, INTACT, version_of
 from cosserat.data.digest import DamagedError, digest_of, is_marked, seal
 from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
@@ -27,7 +28,8 @@ _PROBE_MEMORY = 2 << 30  # bytes, likewise
 def save(dataset: xr.Dataset, path: str | Path) -> None:
     """Write a netCDF file under a temporary name and rename it, so that no half-written file is ever seen.
 
-    The same Dataset gives the same bytes, with their digest at the end.  Instants are along the dimension `frame` of
+    The same Dataset gives the same bytes.  A Dataset that is as it was computed gets the digest of these bytes at the
+    end; a changed one has none, and says so when it is read.  Instants are along the dimension `frame` of
     the file, with `time` as their coordinate in plain seconds.
 
     Raises
@@ -48,7 +50,8 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
                 written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
         except RuntimeError:  # of HDF5, which does not say why
             raise OSError(_UNKNOWN) from None
-        seal(temporary)
+        if is_as_computed(dataset):
+            seal(temporary)
 
 
 def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
@@ -64,7 +67,7 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
     InputError : the file is missing, damaged, or no result of this version of cosserat.
     """
     path = existing(path)
-    intact = _has_digest(path)
+    intact = stored_digest(path) is not None
     if not intact and own:
         raise InputError(
             f"{path} has no digest, so cosserat did not write it or it was changed; run its case again"
@@ -81,7 +84,7 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
     _check_format(read, path)
     if not intact:
         warnings.warn(
-            f"{path} was written or changed by another program: nothing says that a solver computed its values",
+            f"{path} was written by another program or changed: nothing says that a solver computed its values",
             ChangedResultWarning,
             stacklevel=2,
         )
@@ -99,7 +102,7 @@ def check_replaceable(path: Path) -> None:
         return  # whoever writes the file says what is wrong with it
     if foreign:
         raise InputError(
-            f"{path} was written or changed by another program, and the run would replace it; move it away or choose "
+            f"{path} was written by another program or changed, and the run would replace it; move it away or choose "
             "another with --output"
         )
 
@@ -137,10 +140,15 @@ def load_case(folder: Path, case: str) -> xr.Dataset:
     return dataset
 
 
-def _has_digest(path: Path) -> bool:
-    """Whether a file ends with its digest; if not, another program wrote it."""
+def stored_digest(path: Path) -> str | None:
+    """The digest of a file, which its bytes have; None if another program wrote it, or wrote a changed Dataset.
+
+    Raises
+    ------
+    InputError : the file cannot be read, or is damaged.
+    """
     try:
-        return digest_of(path) is not None
+        return digest_of(path)
     except OSError as error:
         raise InputError(
             f"cannot read {path}: {error.strerror or error}; check its permissions and its disk"

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from cosserat.data.dataset import case_of
-from cosserat.data.files import check_destination, whole_or_absent
+from cosserat.data.files import check_destination, refusal, whole_or_absent
 from cosserat.errors import InputError
 from cosserat.export.table import INSTANTS
 from cosserat.problem import Problem
@@ -118,7 +118,6 @@ def _replaced(folder: Path, listing: Path) -> Iterator[Path]:
             shutil.rmtree(folder)
         temporary.replace(folder)
     except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"cannot write {folder}: {reason}; check name, space and permissions") from None
+        raise refusal(error, folder, temporary) from None
     finally:
         shutil.rmtree(temporary, ignore_errors=True)

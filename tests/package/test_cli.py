@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, save_own
 
 import cosserat
 from cosserat.cli import main
@@ -206,9 +206,9 @@ def test_malformed_case_files_give_one_sentence(capsys, tmp_path, text, sentence
 def test_similar_files_of_other_programs_are_refused(capsys, tmp_path, solved):
     import os
 
-    cosserat.save(solved["necking"].assign_attrs(solver="{"), tmp_path / "a.nc")
-    cosserat.save(solved["necking"].assign_attrs(parameters="{}"), tmp_path / "old.nc")
-    cosserat.save(solved["necking"].drop_attrs(), tmp_path / "foreign.nc")
+    save_own(solved["necking"].assign_attrs(solver="{"), tmp_path / "a.nc")
+    save_own(solved["necking"].assign_attrs(parameters="{}"), tmp_path / "old.nc")
+    save_own(solved["necking"].drop_attrs(), tmp_path / "foreign.nc")
     os.mkfifo(tmp_path / "pipe.nc")
     (tmp_path / "empty.csv").write_text("")
     (tmp_path / "report.csv").write_text("id,verdict\na,OUTSIDE\n")

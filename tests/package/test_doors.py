@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import ROOT, case_of_kind
+from conftest import ROOT, case_of_kind, save_own
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -165,7 +165,7 @@ def test_a_gif_has_every_frame_and_goes_on_for_ever(crawled, tmp_path):
 
 
 def test_a_page_holds_its_frames_and_needs_no_network(crawled, tmp_path, capsys):
-    cosserat.save(crawled, tmp_path / "a.nc")
+    save_own(crawled, tmp_path / "a.nc")
     for name in "ab":
         target = tmp_path / f"{name}.html"
         assert call(capsys, "plot", tmp_path / "a.nc", "--animate", target) == (

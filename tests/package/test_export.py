@@ -10,7 +10,7 @@ import meshio
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import case_of_kind
+from conftest import case_of_kind, save_own
 
 import cosserat
 from cosserat.cli import main
@@ -115,7 +115,7 @@ def test_special_points_of_a_path_are_rows_of_their_own():
 def test_csv_reads_back_to_the_same_bits(capsys, solved, tmp_path):
     """By Python's own reader."""
     data = solved["elastica"]
-    cosserat.save(data, tmp_path / "a.nc")
+    save_own(data, tmp_path / "a.nc")
     assert call(capsys, "export", tmp_path / "a.nc", "--to", "csv") == (
         0,
         f"wrote {tmp_path}/a.csv\n",
@@ -215,7 +215,7 @@ def test_a_worm_in_a_file_keeps_its_volume(solved, tmp_path, capsys):
 
 def test_a_path_in_files_is_a_frame_for_each_point(solved, tmp_path, capsys):
     data, target = solved["column_path"].isel(point=[0, 3, 15]), tmp_path / "b.pvd"
-    cosserat.save(data, tmp_path / "a.nc")
+    save_own(data, tmp_path / "a.nc")
     for _ in range(2):  # the second replaces the first
         assert call(capsys, "export", tmp_path / "a.nc", "-o", target) == (0, f"wrote {target}\n", "")
     assert sorted(f.name for f in tmp_path.iterdir()) == ["a.nc", "b.frames", "b.pvd"]
@@ -229,7 +229,7 @@ def test_a_path_in_files_is_a_frame_for_each_point(solved, tmp_path, capsys):
 
 def test_times_of_a_motion_are_those_of_the_frames(solved, tmp_path, capsys):
     data = solved["tumbling"].isel(time=slice(0, 3))
-    cosserat.save(data, tmp_path / "a.nc")
+    save_own(data, tmp_path / "a.nc")
     assert call(capsys, "export", tmp_path / "a.nc", "--to", "vtk")[0] == 0
     listed = [
         entry.attrib["timestep"] for entry in ElementTree.parse(tmp_path / "a.pvd").iter("DataSet")
@@ -239,7 +239,7 @@ def test_times_of_a_motion_are_those_of_the_frames(solved, tmp_path, capsys):
 
 @pytest.mark.parametrize("kind", kinds())
 def test_any_kind_is_a_body_or_says_that_it_is_none(solved, kind, tmp_path, capsys):
-    cosserat.save(two_instants(solved[name_of_kind(kind)]), tmp_path / "a.nc")
+    save_own(two_instants(solved[name_of_kind(kind)]), tmp_path / "a.nc")
     code, out, err = call(capsys, "export", tmp_path / "a.nc", "--to", "vtk", "-o", tmp_path)
     if kinds()[kind].mesh:
         assert (code, err) == (0, "")
@@ -251,7 +251,7 @@ def test_any_kind_is_a_body_or_says_that_it_is_none(solved, kind, tmp_path, caps
 
 
 def test_frames_that_could_not_be_written_leave_the_old_ones(solved, tmp_path, capsys, monkeypatch):
-    cosserat.save(solved["column_path"], tmp_path / "a.nc")
+    save_own(solved["column_path"], tmp_path / "a.nc")
     assert call(capsys, "export", tmp_path / "a.nc", "--to", "vtk")[0] == 0
     before = {str(f): f.read_bytes() for f in tmp_path.rglob("*") if f.is_file()}
     write = meshio.write
@@ -270,8 +270,8 @@ def test_frames_that_could_not_be_written_leave_the_old_ones(solved, tmp_path, c
 def test_exports_that_cannot_be_are_one_sentence(solved, tmp_path, capsys, monkeypatch):
     static, motion = tmp_path / "a.nc", tmp_path / "m.nc"
     cosserat.save(solved["necking"], static)
-    cosserat.save(solved["tumbling"].isel(time=[0, 1]), motion)
-    cosserat.save(solved["necking"].drop_attrs(), tmp_path / "foreign.nc")
+    save_own(solved["tumbling"].isel(time=[0, 1]), motion)
+    save_own(solved["necking"].drop_attrs(), tmp_path / "foreign.nc")
     (tmp_path / "bad.nc").write_text("no")
     (tmp_path / "t.frames").mkdir()
     (tmp_path / "t.frames" / "thesis.tex").write_text("mine")

@@ -16,10 +16,10 @@ from collections.abc import Sequence
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import published
+from cosserat.data.content import digest_of_values
 from cosserat.data.files import whole_or_absent
 from cosserat.data.netcdf import load
 from cosserat.data.variables import VARIABLES
@@ -92,7 +92,7 @@ def _output(results: Path, reference: Path, path: str, floor: str, ids: str) -> 
     file, stored = results / path, reference_of(path, reference)
     if path.endswith(".nc"):
         data = load(file, own=True)
-        content, floor = content_of_values(data), floors(data)
+        content, floor = digest_of_values(data), floors(data)
     else:
         content = content_of(file, round_off=is_round_off(path))
     return Output(path, digest(file), content, digest(stored) if stored else "", floor, ids)
@@ -149,26 +149,12 @@ def content_of(file: Path, *, round_off: bool = False) -> str:
     InputError : the file cannot be read.
     """
     if file.suffix == ".nc":
-        return content_of_values(load(file, own=True))
+        return digest_of_values(load(file, own=True))
     if file.suffix != ".svg":
         return digest(file)
     form, places = drawing(_read(file).decode())
     parts = [form] if round_off else [form, *map(str, places)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
-
-
-def content_of_values(data: xr.Dataset) -> str:
-    """SHA-256 of names, dimensions, units and values of a Dataset."""
-    found = hashlib.sha256()
-    for name in sorted(map(str, data.variables)):
-        variable = data[name]
-        about = (name, variable.dims, variable.shape, variable.attrs.get("units", ""))
-        found.update(repr(about).encode())
-        if variable.dtype.kind == "f":
-            found.update(np.ascontiguousarray(variable, dtype="<f8").tobytes())
-        else:
-            found.update("\n".join(map(str, variable.to_numpy().ravel())).encode())
-    return found.hexdigest()
 
 
 def drawing(svg: str) -> tuple[str, list[int]]:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from cosserat.data.content import stamped
 from cosserat.data.dataset import case_of, without_derived
 from cosserat.data.netcdf import load, save
 from cosserat.data.variables import VARIABLES
@@ -21,6 +22,7 @@ _IGNORED_ATTRIBUTES = (
     "environment",
     "solver",
     "history",
+    "content",
 )  # machine and number of steps
 
 
@@ -58,7 +60,7 @@ def thin(dataset: xr.Dataset) -> xr.Dataset:
         elif dim in dataset.sizes:
             every = max(1, (dataset.sizes[dim] - 1) // count)
             dataset = dataset.isel({dim: slice(None, None, every)})
-    return dataset
+    return stamped(dataset)
 
 
 def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
