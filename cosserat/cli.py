@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from cosserat import commands
-from cosserat.errors import CosseratError, CosseratWarning, InputError
+from cosserat.errors import CosseratError, CosseratWarning, InputError, path_of
 from cosserat.limits import GIGABYTES, HOURS
 from cosserat.parameters import nearest
 from cosserat.publications import AddCommand, Command, publications
@@ -132,6 +132,9 @@ def _read(arguments: list[str]) -> argparse.Namespace:
     if not word.startswith("-") and word not in known:
         raise InputError(f"there is no command {shown(word)}{nearest(word, list(known), 0.6)}")
     options, unknown = parser.parse_known_args(arguments or [word])
+    for value in vars(options).values():
+        if isinstance(value, Path):
+            path_of(value)
     if not unknown:
         return options
     asked = known.get(word, parser)

@@ -142,20 +142,23 @@ def name_of(dataset: xr.Dataset) -> str:
 
 @contextlib.contextmanager
 def holding_what_is_needed(dataset: xr.Dataset, purpose: str) -> Iterator[None]:
-    """Turn what goes wrong with a Dataset that a user or another program may have changed into one sentence.
+    """Turn what goes wrong with a Dataset into one sentence, with the error itself as its cause.
 
     Raises
     ------
-    InputError : it lacks something, or holds it in another form.
+    InputError : it lacks something, or holds it in another form, as a user or another program may have changed it.
+    CosseratError : it is as it was computed, so the fault is in cosserat.
     """
     try:
         yield
     except CosseratError:
         raise
     except Exception as error:
-        if dataset.encoding.get(INTACT):
-            raise  # then it is as it was computed, and the fault is ours
         what = printable(f"{type(error).__name__}: {error}")[:_SHORT]
+        if dataset.encoding.get(INTACT):
+            raise CosseratError(
+                f"{purpose} failed for {name_of(dataset)} ({what}); this is a fault of cosserat: please report it"
+            ) from error
         raise InputError(
             f"{name_of(dataset)} does not hold what {purpose} needs ({what}); use it as cosserat made it"
         ) from error

@@ -25,6 +25,7 @@ FEW = 5
 """Free DOFs for each mode that is asked for, below which all are found."""
 _SHIFT = 100.0  # of the round-off, from which squared frequencies of a free body are first sought
 _ROUND_OFF_FRACTION = 16 * float(np.finfo(float).eps)  # of the largest squared frequency
+_ROUGHLY = 1e-2  # tolerance of the highest eigenvalue, which only sizes round-off
 
 
 @dataclass(frozen=True)
@@ -231,8 +232,12 @@ def _sparse(
     from scipy.sparse.linalg import eigsh
 
     start = np.ones(mass.shape[0])
-    (most,) = eigsh(stiffness, 1, mass, which="LM", v0=start, return_eigenvectors=False)
-    rounding = 0.0 if supported else _ROUND_OFF_FRACTION * abs(most)
+    rounding = 0.0
+    if not supported:
+        (most,) = eigsh(
+            stiffness, 1, mass, which="LM", v0=start, tol=_ROUGHLY, return_eigenvectors=False
+        )
+        rounding = _ROUND_OFF_FRACTION * abs(most)
     shift = -_SHIFT * rounding
     squared, vectors = eigsh(stiffness, count, mass, sigma=shift, v0=start)
     elastic = squared[squared > -shift]

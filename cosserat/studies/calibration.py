@@ -59,7 +59,7 @@ class CalibrationProcedure(Problem):
 
     kind: Literal["calibration"] = "calibration"
     meshes: Annotated[
-        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=100_001)], ...], Items(1, 100)
+        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=10_001)], ...], Items(1, 100)
     ]
     """Numbers of vertices at which to calibrate."""
     hanging_bar: RodStatics

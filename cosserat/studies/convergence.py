@@ -48,7 +48,7 @@ class Convergence(Problem):
 
     kind: Literal["convergence"] = "convergence"
     meshes: Annotated[
-        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=100_001)], ...], Items(1, 100)
+        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=10_001)], ...], Items(1, 100)
     ]
     """Numbers of vertices; odd, so that a vertex is at mid-span."""
     clamped_free: RodStatics

@@ -13,6 +13,7 @@ from cosserat.rods.problem import LOADS
 from cosserat.rods.sections.section import Homogeneous
 
 _NEAR = 1e-9
+_SLENDER = 5.0  # heights in the length of a rod that is bent far
 
 
 def check_weighed(key: str, problem: RodStatics, along: Direction, *, both_ends: bool) -> None:
@@ -38,6 +39,13 @@ def check_pulled(key: str, problem: RodStatics) -> None:
 def check_slender(key: str, problem: RodStatics) -> None:
     """Raise PydanticCustomError if a problem is not a rod without loads, held at its first vertex alone."""
     _check_simple(key, problem, "", both_ends=False)
+    length, height = problem.rod.length, problem.rod.height
+    if length < _SLENDER * height:
+        raise _refused(
+            key,
+            f"is {length:g} m long and {height:g} m high, too thick for large deflections",
+            f"let its length be {_SLENDER:g} heights or more",
+        )
 
 
 def check_coefficients(key: str, problem: RodStatics, names: tuple[str, ...]) -> None:

@@ -17,7 +17,7 @@ from cosserat.data.content import stamped
 from cosserat.data.digest import DamagedError, digest_of, seal
 from cosserat.data.locks import only_writer
 from cosserat.data.netcdf import load_case
-from cosserat.errors import ChangedResultWarning, CosseratWarning, InputError
+from cosserat.errors import ChangedResultWarning, CosseratError, CosseratWarning, InputError
 
 KINDS_OF_DAMAGE = {
     "one bit": lambda b, at: b[:at] + bytes([b[at] ^ 1]) + b[at + 1 :],
@@ -183,8 +183,10 @@ def test_a_changed_result_that_lacks_something_is_one_sentence_and_our_own_fault
             assert command != "plot" or not word or word in error[0], err
     cosserat.save(data, stored)
     monkeypatch.setattr("cosserat.figures.rod.picture", lambda _: 1 / 0)
-    with pytest.raises(ZeroDivisionError):
+    with pytest.raises(CosseratError, match="ZeroDivisionError.*a fault of cosserat") as raised:
         cosserat.plot(stored)
+    assert not isinstance(raised.value, InputError)
+    assert isinstance(raised.value.__cause__, ZeroDivisionError)
 
 
 def test_an_output_that_is_an_input_is_refused(stored, tmp_path, capsys):
