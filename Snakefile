@@ -22,7 +22,8 @@ os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get
 CASES = published()
 BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
-MEASURED = {"ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv"]}  # tracked tables of chapters
+# Tracked tables of chapters.
+MEASURED = {"ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv", "results/inputs.csv"]}
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/exact/beams.py", "cosserat/exact/elastica.py"]
 READOUTS = [

@@ -50,6 +50,22 @@ page.table(
     ("kind", "fault", "promise", "tried", "as promised"),
 )
 
+# %% [markdown]
+# ## Bad input
+#
+# The commands `python -m tests.hostile inputs`, `fuzz`, `damage` and `lines` try inputs that follow from the classes of
+# parameters, and inputs by chance. Each must end in an answer or in one sentence with the exit code 1 or 2, without a
+# traceback, a warning of another package or a file left behind, in ten seconds or with a line of progress. A part of
+# them is run by `make test`.
+
+# %% tags=["remove-input"]
+with (page.results() / "inputs.csv").open(newline="", encoding="utf-8") as stream:
+    counts = [tuple(line.values()) for line in csv.DictReader(stream)]
+page.table(counts, ("what", "seed", "tried", "as promised"))
+
+# %% [markdown]
+# ## What was found
+
 # %% tags=["remove-input"]
 failures = [(line["fault"], line["first failure"]) for line in lines if line["first failure"]]
 shown = (

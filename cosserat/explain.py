@@ -44,6 +44,7 @@ def classes_in(annotation: object) -> Choice:
 
 _MOST_FAULTS = 8  # that a sentence names
 _MOST_SAID = 400  # characters about several faults
+_MOST_MISSING = 3  # keys that are named after these faults
 
 _EXPECTED = {
     "model_type": "a table of keys",
@@ -69,9 +70,8 @@ def explain(error: ValidationError, owner: type[BaseModel], name: str) -> str:
     clauses = list(_once(_clause(fault, owner) for fault in faults[:_MOST_FAULTS]))
     lengths = itertools.accumulate(map(len, clauses))
     told = max(1, sum(length < _MOST_SAID for length in lengths))
-    missing = [_path(fault, owner) for fault in faults[told:] if fault["type"] == "missing"][
-        :_MOST_FAULTS
-    ]
+    missing = [_path(fault, owner) for fault in faults[told:] if fault["type"] == "missing"]
+    missing = missing[:_MOST_MISSING]
     others = len(faults) - told - len(missing)
     more = [f"also missing: {', '.join(map(repr, missing))}"] if missing else []
     more += [f"and {others} more"] if others else []

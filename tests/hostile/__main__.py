@@ -13,8 +13,15 @@ from pathlib import Path
 
 from . import damage, fuzz, inputs, lines, regressions
 from .judge import Outcome, faults
-from .report import Tally, followed
+from .report import Tally, followed, store
 from .worker import Worker
+
+_WHAT = {
+    "inputs": "bad inputs: every key of every kind, every command, files",
+    "fuzz": "case files changed by chance",
+    "damage": "commands on results damaged by chance",
+    "lines": "command lines by chance",
+}
 
 
 def main(arguments: list[str]) -> int:
@@ -41,6 +48,10 @@ def main(arguments: list[str]) -> int:
     sub = commands.add_parser("lines", help="command lines by chance")
     sub.add_argument("--examples", type=int, default=500)
     sub.add_argument("--seed", type=int, default=1)
+    for command in _WHAT:
+        commands.choices[command].add_argument(
+            "--write", action="store_true", help="store the counts in results/inputs.csv, for the book"
+        )
     options = parser.parse_args(arguments)
     if options.command == "damaged":
         return _write(options)
@@ -48,6 +59,8 @@ def main(arguments: list[str]) -> int:
         options
     )
     print(tally.text())
+    if options.write:
+        store(tally, _WHAT[options.command], getattr(options, "seed", ""))
     return min(tally.bad, 1)
 
 

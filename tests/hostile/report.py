@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import csv
 import re
 import sys
 import time
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TypeVar
 
 T = TypeVar("T")
+STORED = Path(__file__).parents[2] / "results" / "inputs.csv"
+_COLUMNS = ("what", "seed", "tried", "as promised")
 _SHOWN = 3
 _CONTROL = re.compile("[^\n\x20-\x7e\xa1-\u1fff\u2030-\u205f\u2070-\ud7ff]")
 
@@ -56,6 +60,21 @@ class Tally:
                 lines += [f"- {name}", *(f"    {line}" for line in reproduction.splitlines())]
             lines.append("")
         return _plain("\n".join(lines))
+
+
+def store(tally: Tally, what: str, seed: int | str) -> None:
+    """Put the counts into `results/inputs.csv`, in the place of those of the same inputs and seed."""
+    rows = {}
+    if STORED.exists():
+        with STORED.open(newline="", encoding="utf-8") as file:
+            rows = {(row["what"], row["seed"]): row for row in csv.DictReader(file)}
+    tried = sum(tally.tried.values())
+    values = (what, str(seed), tried, tried - tally.bad)
+    rows[what, str(seed)] = dict(zip(_COLUMNS, values, strict=True))
+    with STORED.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, _COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows[key] for key in sorted(rows))
 
 
 def _plain(text: str) -> str:

@@ -40,6 +40,7 @@ FILES = (
     "requirements.lock",
     "results/errata.toml",
     "results/faults.csv",
+    "results/inputs.csv",
     "results/left_out.toml",
     "results/peers.csv",
     "results/tolerances.csv",
