@@ -32,7 +32,7 @@ KEPT = (
     ("plot", "x.gif", "--animate", "x.gif"),
     ("export", "x.csv", "--to", "csv"),
     ("export", "x.csv", "-o", "linked.csv"),
-    ("export", "x.vtu", "--to", "vtk"),
+    ("export", "x.pvd", "--to", "vtk"),
     ("measure", "--table", "x.csv", "--output", "x.csv", "--cases", "."),
     ("chapter", "x.py", "--output", "x.py"),
 )
