@@ -372,11 +372,13 @@ def validated(path, cache):
     return [issue.message for issue in validate(settings).get_issues()]
 
 
+@pytest.mark.workflow  # it takes five seconds
 @pytest.mark.filterwarnings("ignore")  # of the validator's own libraries
 def test_the_archive_is_a_workflow_run_crate(archived, cache):
     assert validated(archived, cache) == []
 
 
+@pytest.mark.workflow
 @pytest.mark.filterwarnings("ignore")
 def test_the_validator_notices_a_crate_without_its_run(archived, cache, tmp_path):
     broken = tmp_path / "broken.zip"
