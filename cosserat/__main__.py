@@ -2,14 +2,15 @@
 
 import sys
 
-from cosserat.signals import Stopped, end_by_signals, ignore_signals
+from cosserat.signals import Stopped, end_by_signals, ignore_signals, uninterrupted
 
 
 def main() -> int:
     """Run the command of the command line; returns its exit status."""
     try:
         end_by_signals()
-        from cosserat import cli
+        with uninterrupted():  # an exception amid the import of a compiled library is a panic
+            from cosserat import cli
 
         return cli.main()
     except Stopped as stopped:

@@ -12,6 +12,7 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from types import FrameType
 
 SIGNALS = tuple(
@@ -51,6 +52,31 @@ def ignore_signals() -> None:
     """Let a process that has done its work, or has stopped, end undisturbed."""
     for number in SIGNALS:
         signal.signal(number, signal.SIG_IGN)
+
+
+@contextlib.contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Delay signals to end until the block has ended: inside, an exception would break a library, or leave its locks taken.
+
+    Only Python's main thread is interrupted; in other threads this does nothing.
+    """
+    usual = {number: signal.getsignal(number) for number in SIGNALS}
+    if threading.current_thread() is not threading.main_thread() or None in usual.values():
+        yield
+        return
+    waiting: list[tuple[int, FrameType | None]] = []
+    for number, handler in usual.items():
+        if callable(handler):
+            signal.signal(number, lambda *given: waiting.append(given))
+    try:
+        yield
+    finally:
+        for number, handler in usual.items():
+            signal.signal(number, handler)
+        for given in waiting[:1]:
+            handler = usual[signal.Signals(given[0])]
+            if callable(handler):
+                handler(*given)
 
 
 def _stop(number: int, frame: FrameType | None) -> None:

@@ -8,15 +8,11 @@ import glob
 import os
 import platform
 import shutil
-import signal
-import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from types import FrameType
 
 from cosserat.errors import InputError, path_of
 from cosserat.progress import size
-from cosserat.signals import SIGNALS
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
@@ -105,28 +101,3 @@ def _is_running(process: str) -> bool:
     except (PermissionError, OverflowError):
         return True
     return True
-
-
-@contextlib.contextmanager
-def uninterrupted() -> Iterator[None]:
-    """Delay signals to end until the block has ended: inside, an exception would leave xarray's locks taken for ever.
-
-    Only Python's main thread is interrupted; in other threads this does nothing.
-    """
-    usual = {number: signal.getsignal(number) for number in SIGNALS}
-    if threading.current_thread() is not threading.main_thread() or None in usual.values():
-        yield
-        return
-    waiting: list[tuple[int, FrameType | None]] = []
-    for number, handler in usual.items():
-        if callable(handler):
-            signal.signal(number, lambda *given: waiting.append(given))
-    try:
-        yield
-    finally:
-        for number, handler in usual.items():
-            signal.signal(number, handler)
-        for given in waiting[:1]:
-            handler = usual[signal.Signals(given[0])]
-            if callable(handler):
-                handler(*given)

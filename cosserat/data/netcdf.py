@@ -13,8 +13,9 @@ import xarray as xr
 from cosserat.data.content import is_as_computed
 from cosserat.data.dataset import FORMAT, INTACT, version_of
 from cosserat.data.digest import DamagedError, digest_of, is_marked, seal
-from cosserat.data.files import check_destination, uninterrupted, whole_or_absent
+from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import ChangedResultWarning, InputError, path_of
+from cosserat.signals import uninterrupted
 from cosserat.text import printable
 
 _FRAME = "frame"
