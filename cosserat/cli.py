@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from cosserat import commands
-from cosserat.errors import CosseratError, CosseratWarning, InputError, path_of
+from cosserat.errors import NO_MEMORY, CosseratError, CosseratWarning, InputError, path_of
 from cosserat.limits import GIGABYTES, HOURS
 from cosserat.parameters import nearest
 from cosserat.publications import AddCommand, Command, publications
@@ -74,7 +74,7 @@ def main(arguments: list[str] | None = None) -> int:
         _complain(str(error))
         return 2 if isinstance(error, InputError) else 1
     except MemoryError:
-        _complain("there is not enough memory; use fewer vertices, sections, elements or frames")
+        _complain(NO_MEMORY)
         return 2
     except KeyboardInterrupt as interrupt:
         stopped = interrupt if isinstance(interrupt, Stopped) else Stopped(signal.SIGINT)

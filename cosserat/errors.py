@@ -50,6 +50,9 @@ def path_of(given: object) -> Path:
     return path
 
 
+NO_MEMORY = "there is not enough memory; use fewer vertices, sections, elements or frames"
+
+
 class OverLimitError(InputError):
     """A run would take more time or space than allowed; the sentence names the limit and how to raise it."""
 

@@ -17,7 +17,14 @@ from cosserat.data.content import stamped
 from cosserat.data.dataset import statistics_of, to_dataset, warnings_of
 from cosserat.data.locks import only_writer
 from cosserat.data.variables import VARIABLES
-from cosserat.errors import CrossingError, InputError, NotConvergedError, path_of
+from cosserat.errors import (
+    NO_MEMORY,
+    CrossingError,
+    InputError,
+    NotConvergedError,
+    OverLimitError,
+    path_of,
+)
 from cosserat.limits import Limits, Watched
 from cosserat.problem import Progress, Run
 from cosserat.progress import bar
@@ -71,6 +78,8 @@ def run(
                 watched = Watched(report, allowed, name)
                 with listening(watched.hear):
                     solution = known.problem.solve(name, Run(watched, kept))
+        except MemoryError as error:
+            raise OverLimitError(f"{name}: {NO_MEMORY}") from error
         except (NotConvergedError, CrossingError) as error:
             if error.reached is not None:
                 error.dataset = to_dataset(known, error.reached)

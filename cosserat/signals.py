@@ -56,7 +56,7 @@ def ignore_signals() -> None:
 
 @contextlib.contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Delay signals to end until the block has ended: inside, an exception would break a library, or leave its locks taken.
+    """Delay signals to end until the block has ended: inside, an exception would leave a library broken or locked.
 
     Only Python's main thread is interrupted; in other threads this does nothing.
     """
