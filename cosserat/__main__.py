@@ -2,7 +2,7 @@
 
 import sys
 
-from cosserat.signals import Stopped, end_by_signals, ignore_signals, uninterrupted
+from cosserat.signals import Stopped, end_by_signals, ignore_signals, received, uninterrupted
 
 
 def main() -> int:
@@ -13,7 +13,10 @@ def main() -> int:
             from cosserat import cli
 
         return cli.main()
-    except Stopped as stopped:
+    except BaseException:  # a library may turn the exception of a signal into another one
+        if not received:
+            raise
+        stopped = Stopped(received[0])
         print(f"cosserat: {stopped}", file=sys.stderr)
         return stopped.status
     finally:

@@ -21,6 +21,8 @@ SIGNALS = tuple(
 """Signals that ask a run to end: Ctrl-C, a batch system's, and a closed terminal's."""
 _WORDS = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "its terminal was closed"}
 _GRACE = 3.0  # seconds in which a run ends by itself
+received: list[int] = []
+"""Signals to end that have come: after the first, whatever goes wrong is its doing."""
 
 
 class Stopped(KeyboardInterrupt):
@@ -80,6 +82,7 @@ def uninterrupted() -> Iterator[None]:
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
+    received.append(number)
     raise Stopped(number)
 
 

@@ -161,6 +161,8 @@ SLOW += "def main():\n    print('on', flush=True)\n    {}\n    return 0\n"
 SLOW += "cosserat.cli.main = main; sys.exit(m.main())"
 DEAF = "while True:\n        try: time.sleep(30)\n        except KeyboardInterrupt: pass"
 
+TURNED = "try: time.sleep(30)\n    except KeyboardInterrupt: raise SystemError('of a compiled function')"
+
 
 @pytest.mark.parametrize(
     ("number", "status", "words", "work"),
@@ -169,6 +171,7 @@ DEAF = "while True:\n        try: time.sleep(30)\n        except KeyboardInterru
         (signal.SIGTERM, 143, "terminated", "time.sleep(30)"),
         (signal.SIGHUP, 129, "its terminal was closed", "time.sleep(30)"),
         (signal.SIGTERM, 143, "terminated", DEAF),
+        (signal.SIGHUP, 129, "its terminal was closed", TURNED),
     ],
 )
 def test_signals_end_a_process_with_one_line_also_where_the_exception_is_swallowed(
