@@ -195,13 +195,11 @@ def _flat(table: dict[str, object], prefix: str = "") -> list[tuple[str, object]
 
 def plot(options: argparse.Namespace) -> None:
     """Draw or animate a result."""
-    from cosserat.data.files import check_destination
     from cosserat.data.netcdf import existing
     from cosserat.figures.doors import animate, plot
 
     file = existing(options.file)
     path = options.animate or options.output or file.with_suffix(".svg")
-    check_destination(path, inputs=(file,))
     if options.animate is not None:
         animate(file, path, options.frames)
     else:

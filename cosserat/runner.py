@@ -15,6 +15,7 @@ from cosserat.cases.catalogue import Case, find
 from cosserat.data.checkpoints import Parts
 from cosserat.data.content import stamped
 from cosserat.data.dataset import statistics_of, to_dataset, warnings_of
+from cosserat.data.files import check_destination
 from cosserat.data.locks import only_writer
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import (
@@ -52,8 +53,8 @@ def run(
 
     Raises
     ------
-    InputError : no case of that name, its rod is not supported, the stored parts are of another run, or another
-        process is writing the same result.
+    InputError : no case of that name, its rod is not supported, the result cannot be written, the stored parts are of
+        another run, or another process is writing the same result.
     OverLimitError : it takes more time or space than the limits allow.
     NotConvergedError, DivergedError, OutOfReachError : no solution; a motion keeps its parts up to there, and for a
         growing load the error's `dataset` is the part reached.
@@ -62,6 +63,8 @@ def run(
     if not isinstance(known, Case):
         raise InputError(f"run takes a case or the name of a published one, not {case!r}")
     path = None if result is None else path_of(result)
+    if path is not None:
+        check_destination(path)
     allowed, name = limits or Limits(), f"case '{known.name}'"
     allowed.check(known.problem.forecast, name, path)
     kept = None if path is None else _Stored(known, Parts(path))

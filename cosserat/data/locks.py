@@ -35,8 +35,6 @@ def only_writer(path: Path) -> Iterator[None]:
             f"another run is writing {path}; wait for its end, or choose another file with --output"
         ) from None
     except (OSError, NotImplementedError) as error:
-        if not path.parent.is_dir():
-            raise InputError(f"the folder {path.parent} does not exist; make it first") from None
         warnings.warn(
             f"the folder {path.parent} takes no locks ({error}); see to it that no other run writes {path.name}",
             CosseratWarning,

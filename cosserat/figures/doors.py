@@ -32,7 +32,7 @@ def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Fig
     InputError : results of this kind have no picture, or a file cannot be read or written.
     """
     if path is not None:
-        check_destination(path_of(path), *PICTURES)
+        check_destination(path_of(path), *PICTURES, inputs=_files(result))
     data = opened(result)
     kind = case_of(data).problem.kind
     if not kinds()[kind].picture:
@@ -63,7 +63,7 @@ def animate(
     InputError : results of this kind do not move, or a file cannot be read or written.
     """
     if path is not None:
-        check_destination(path_of(path), *ENDINGS)
+        check_destination(path_of(path), *ENDINGS, inputs=_files(result))
     if not 2 <= frames <= MOST_FRAMES:
         raise InputError(
             f"an animation of {shown(frames)} frames cannot be drawn; take 2 to {MOST_FRAMES}"
@@ -80,3 +80,8 @@ def animate(
         if path is not None:
             write_animation(animation, path_of(path))
     return animation
+
+
+def _files(result: xr.Dataset | str | Path) -> list[Path]:
+    """The file that a result is read from, if any."""
+    return [] if isinstance(result, xr.Dataset) else [path_of(result)]

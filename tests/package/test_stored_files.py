@@ -199,7 +199,15 @@ def test_an_output_that_is_an_input_is_refused(stored, tmp_path, capsys):
     for words in (["plot", picture], ["plot", picture, "-o", tmp_path / "b.svg"]):
         assert main(list(map(str, words))) == 2
         assert "is also read, and would be replaced" in capsys.readouterr().err
+    for draw in (cosserat.plot, cosserat.animate):
+        with pytest.raises(InputError, match="is also read, and would be replaced"):
+            draw(str(picture), picture)
     assert picture.read_bytes() == whole
+
+
+def test_a_result_in_a_folder_that_is_not_there_is_refused_before_anything_is_computed(tmp_path):
+    with pytest.raises(InputError, match=r"the folder .*none does not exist"):
+        cosserat.run("clamped_free", result=tmp_path / "none" / "x.nc")
 
 
 def test_a_run_replaces_a_result_but_no_file_of_others(stored, tmp_path, capsys):
