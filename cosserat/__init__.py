@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cosserat.figures.doors import animate, plot
     from cosserat.limits import Limits
     from cosserat.runner import modes, run
+    from cosserat.studies.door import study
 
 _HOMES = {
     "cosserat.cases.catalogue": (
@@ -49,6 +50,7 @@ _HOMES = {
         ("plot", "plot"),
     ),
     "cosserat.limits": (("Limits", "Limits"),),
+    "cosserat.studies.door": (("study", "study"),),
     "cosserat.runner": (
         ("modes", "modes"),
         ("run", "run"),
@@ -73,6 +75,7 @@ __all__ = [
     "published",
     "run",
     "save",
+    "study",
     "to_dataframe",
 ]
 

@@ -22,6 +22,8 @@ Command = Callable[[argparse.Namespace], None]
 AddCommand = Callable[[str, Command, str], argparse.ArgumentParser]
 """Adds a command by its name, its action and its help; returns its parser, for options."""
 
+STUDY = "study"
+"""The kind of a table of a case file that is a study, not a case."""
 PUBLICATIONS = ("cosserat.thesis:PUBLICATION",)
 """Place of each `Publication`, as "module:object"."""
 
@@ -91,5 +93,5 @@ def titles() -> dict[str, tuple[str, str]]:
     return {
         name: (str(table.get("title", name)), str(table.get("source", "")))
         for name, table in published_tables().items()
-        if not name.startswith("_")
+        if not name.startswith("_") and table.get("kind") != STUDY
     }

@@ -16,7 +16,7 @@ from cosserat.cases.tables import Tables, merged
 from cosserat.errors import InputError, path_of
 from cosserat.parameters import Dropped, Parameters, nearest
 from cosserat.problem import Problem
-from cosserat.publications import kinds, published_tables, titles
+from cosserat.publications import STUDY, kinds, published_tables, titles
 from cosserat.reading import read_text
 from cosserat.text import Title, checked_name, shortened, shown
 
@@ -64,7 +64,7 @@ class Case(Parameters):
         ------
         InputError : a key is unknown or a value is not valid.
         """
-        table = merged(_given(self.problem.model_dump()), changes)
+        table = merged(given(self.problem.model_dump()), changes)
         problem = type(self.problem).read(table, f"case '{shortened(str(name))}'", units_required=False)
         return Case.read({"name": name, "title": name, "problem": problem}, "case")
 
@@ -111,6 +111,10 @@ def find(name: str, file: str | Path | None = None) -> Case:
     tables = {} if file is None else _read(file)
     if file is not None and name in _names(tables):
         return _build(name, Tables(published_tables() | tables), path_of(file).parent)
+    if (published_tables() | tables).get(name, {}).get("kind") == STUDY:
+        raise InputError(
+            f"'{name}' is a study, not a case; solve it by 'cosserat study {name}', or one case of it by --member"
+        )
     place, known = ("", list(titles())) if file is None else (f" in {file}", _names(tables))
     raise InputError(f"there is no case '{shortened(name)}'{place}{nearest(name, known)}")
 
@@ -127,9 +131,22 @@ def load(file: str | Path) -> Mapping[str, Case]:
     return {name: _build(name, known, path_of(file).parent) for name in _names(tables)}
 
 
+def study_tables(file: str | Path | None = None) -> dict[str, dict[str, Any]]:
+    """The tables of the studies of a case file, or of the published ones, by name; `cosserat.studies` reads them.
+
+    Raises
+    ------
+    InputError : the file cannot be read.
+    """
+    tables = published_tables() if file is None else _read(file)
+    return {name: table for name, table in tables.items() if table.get("kind") == STUDY}
+
+
 def _names(tables: Mapping[str, Any]) -> list[str]:
-    """The names of the cases of a file, without bases of cases."""
-    return [name for name in tables if not name.startswith("_")]
+    """The names of the cases of a file, without bases of cases and studies."""
+    return [
+        name for name, table in tables.items() if not name.startswith("_") and table.get("kind") != STUDY
+    ]
 
 
 def _read(file: str | Path) -> dict[str, Any]:
@@ -248,9 +265,9 @@ def _read_problem(
     return reader(table, name, units_required=units_required, folder=folder)
 
 
-def _given(table: Mapping[str, Any]) -> dict[str, Any]:
+def given(table: Mapping[str, Any]) -> dict[str, Any]:
     """A table whose values of None are marked as dropped: another kind of table inside it may not have these keys."""
     return {
-        key: _given(value) if isinstance(value, dict) else Dropped() if value is None else value
+        key: given(value) if isinstance(value, dict) else Dropped() if value is None else value
         for key, value in table.items()
     }

@@ -179,7 +179,7 @@ def _check_readable(path: Path) -> None:
 
 def _check_format(dataset: xr.Dataset, path: Path) -> None:
     """Raise InputError for what is no result, or a result of a later format."""
-    if "parameters" not in dataset.attrs:
+    if not {"parameters", "study"} & set(dataset.attrs):
         raise InputError(
             f"{path} is no result of cosserat: it has no attribute 'parameters'; use one that cosserat wrote"
         )

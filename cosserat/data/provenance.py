@@ -32,7 +32,22 @@ _COMPUTING = (
     "rods",
     "problems",
     "peristalsis",
-    "studies",
+    *(
+        f"studies/{name}.py"
+        for name in (
+            "calibration",
+            "convergence",
+            "needs",
+            "keys",
+            "readouts",
+            "distributions",
+            "designs",
+            "study",
+            "factors",
+            "family",
+            "solving",
+        )
+    ),
     "cases",
     "data",
     "thesis/__init__.py",

@@ -1,0 +1,92 @@
+"""Studies from a case file or from Python: `cosserat.study`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from cosserat.cases.catalogue import Case, find, study_tables
+from cosserat.errors import InputError, path_of
+from cosserat.parameters import nearest
+from cosserat.problem import Progress
+from cosserat.progress import bar
+from cosserat.studies.answer import answer
+from cosserat.studies.family import Family, family
+from cosserat.studies.solving import solve_members
+from cosserat.studies.study import Study
+from cosserat.text import shortened, shown
+
+Vary = Mapping[str, Any] | Sequence[Mapping[str, Any]]
+
+
+def find_study(name: str, file: str | Path | None = None) -> Family:
+    """The study of that name: from `file` if one is given, else from the published ones.
+
+    Raises
+    ------
+    InputError : there is no such study, or it is not valid.
+    """
+    tables = study_tables(file)
+    if name not in tables:
+        place = "" if file is None else f" in {file}"
+        raise InputError(f"there is no study '{shortened(name)}'{place}{nearest(name, list(tables))}")
+    read = Study.read(tables[name], f"study '{shortened(name)}'")
+    folder = Path() if file is None else path_of(file).parent
+    return family(name, read, find(read.of, file), folder, unit_required=True)
+
+
+def study(
+    case: Case | str,
+    vary: Vary,
+    keep: Mapping[str, str] | None = None,
+    *,
+    keep_whole: Sequence[str] = (),
+    name: str = "",
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Solve a case for many values of some of its keys; the answer is one Dataset.
+
+    vary : dotted keys with lists of values, each a dimension; or a list of factors as in a case file, such as
+        [{"rod.length": [1, 2]}, {"sobol": 64, "forces.0.force": {"uniform": [0, 1]}}].  Numbers are in SI units, and
+        texts may have others.
+    keep : read-outs by name, such as {"tip": "u.E2 at last"}.  keep_whole : names of variables that are kept whole.
+    name : of the study.  progress : as of `cosserat.run`.
+
+    Raises
+    ------
+    InputError : a key, a value or a read-out is not valid.  A member without an answer is no error: see `status`.
+    """
+    base = find(case) if isinstance(case, str) else case
+    if not isinstance(base, Case):
+        raise InputError(f"study takes a case or the name of a published one, not {shown(case)}")
+    found = family_of(base, vary, keep or {}, keep_whole=keep_whole, name=name)
+    return solved(found, progress)
+
+
+def solved(found: Family, progress: Progress | None = None) -> xr.Dataset:
+    """The answer of a study, solved here and now."""
+    if progress is not None:
+        return answer(found, solve_members(found.task(), progress))
+    with bar(found.name) as report:
+        return answer(found, solve_members(found.task(), report))
+
+
+def family_of(
+    base: Case, vary: Vary, keep: Mapping[str, str], *, keep_whole: Sequence[str] = (), name: str = ""
+) -> Family:
+    """The study that `study` solves.
+
+    Raises
+    ------
+    InputError : a key, a value or a read-out is not valid.
+    """
+    name = name or f"{base.name}_study"
+    factors = (
+        [{key: values} for key, values in vary.items()] if isinstance(vary, Mapping) else list(vary)
+    )
+    table = {"of": base.name, "vary": factors, "keep": dict(keep), "keep_whole": list(keep_whole)}
+    read = Study.read(table, f"study '{shortened(name)}'", units_required=False)
+    return family(name, read, base, Path(), unit_required=False)

@@ -1,0 +1,171 @@
+"""Keys of a case by their dotted paths, such as "rod.material.young" or "forces.0.force", and other values of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic_core import PydanticCustomError
+
+from cosserat.cases.catalogue import Case, given
+from cosserat.describe.keys import Key, keys
+from cosserat.errors import InputError
+from cosserat.parameters import Count, Quantity, nearest
+from cosserat.problem import Problem
+from cosserat.text import shortened, shown
+
+MOST_PARTS = 12
+"""Most parts of a dotted path."""
+
+
+@dataclass(frozen=True)
+class VariedKey:
+    """A key of a case that a study varies.
+
+    path : dotted, the items of lists by number.  about : its unit and range, if it is a number.
+    """
+
+    path: str
+    about: Key
+
+    @property
+    def last(self) -> str:
+        """The last word of the path."""
+        return self.path.rpartition(".")[2]
+
+    @property
+    def quantity(self) -> Quantity | None:
+        """Unit and range, if it is a quantity."""
+        about = self._numbers
+        return about if isinstance(about, Quantity) else None
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is a quantity or a count."""
+        return self._numbers is not None
+
+    @property
+    def _numbers(self) -> Quantity | Count | None:
+        value = self.about.value
+        forms = [value, *value.items] if value.form == "either" else [value]
+        return next((form.about for form in forms if isinstance(form.about, Quantity | Count)), None)
+
+    @property
+    def unit(self) -> str:
+        """The SI unit, "1" for a count."""
+        return self.quantity.unit if self.quantity else "1"
+
+    def read(self, value: object, *, unit_required: bool) -> object:
+        """A value in SI units; what is no number stays as it is.
+
+        Raises
+        ------
+        PydanticCustomError : it is no such number, or out of range.
+        """
+        about = self._numbers
+        if isinstance(about, Quantity):
+            return about.read(value, unit_required=unit_required)
+        return about.check(value) if isinstance(about, Count) else value
+
+
+def varied_key(problem: Problem, path: str, name: str) -> VariedKey:
+    """The key of a problem at a path; name : of the study in errors.
+
+    Raises
+    ------
+    InputError : there is no such key.
+    """
+    parts = path.split(".")
+    if len(parts) > MOST_PARTS:
+        raise InputError(f"{name}: the key {shown(path)} has more than {MOST_PARTS} parts")
+    owner: Any = problem
+    for number, part in enumerate(parts[:-1]):
+        owner = _inside(owner, part, ".".join(parts[: number + 1]), name)
+    general = ".".join("[]" if part.isdecimal() else part for part in parts).replace(".[]", "[]")
+    known = keys(problem.kind)
+    fitting = [key for key in known if key.path == general and _is_of(key, owner)]
+    if not fitting:
+        here = [key.path for key in known if key.path.count(".") == general.count(".")]
+        raise InputError(
+            f"{name}: a case of kind '{problem.kind}' has no key {shown(path)}{nearest(general, here)}"
+        )
+    if general == "kind" or isinstance(owner, Sequence):
+        raise InputError(f"{name}: {shown(path)} cannot be varied; vary the keys inside it")
+    return VariedKey(path, fitting[0])
+
+
+def _inside(owner: Any, part: str, path: str, name: str) -> Any:
+    """What is at one part of a path in an object."""
+    if isinstance(owner, tuple):
+        if not part.isdecimal() or int(part) >= len(owner):
+            raise InputError(
+                f"{name}: {shown(path)} names no item of a list of {len(owner)}; count from 0, as in forces.0.force"
+            )
+        return owner[int(part)]
+    found = (
+        getattr(owner, part, None)
+        if isinstance(owner, BaseModel) and part in type(owner).model_fields
+        else None
+    )
+    if found is None:
+        raise InputError(
+            f"{name}: the case has no {shown(path)} to vary a key of; give it in the case first"
+        )
+    return found
+
+
+def _is_of(key: Key, owner: Any) -> bool:
+    """Whether a key is one of an object, where several classes share a path."""
+    last = key.name
+    if not isinstance(owner, BaseModel) or last not in type(owner).model_fields:
+        return False
+    return not key.when or not key.by or str(getattr(owner, key.by, key.when)) == key.when
+
+
+def table_of(problem: Problem) -> dict[str, Any]:
+    """The keys of a problem as nested tables in SI units, for `put` and `case_with`."""
+    return given(problem.model_dump())
+
+
+def put(table: Mapping[str, Any], path: Sequence[str], value: object) -> dict[str, Any]:
+    """A copy of nested tables with another value at a path; what is not on the path is shared."""
+    first, *rest = path
+    changed = dict(table)
+    changed[first] = _put_inside(changed.get(first), rest, value) if rest else value
+    return changed
+
+
+def _put_inside(inner: Any, path: Sequence[str], value: object) -> Any:
+    if isinstance(inner, Mapping):
+        return put(inner, path, value)
+    items, number = list(inner), int(path[0])
+    items[number] = _put_inside(items[number], path[1:], value) if path[1:] else value
+    return items
+
+
+def case_with(base: Case, table: Mapping[str, Any], values: Mapping[str, object], name: str) -> Case:
+    """The case with some keys changed: table : that of its problem, by `table_of`.  name : of the new case.
+
+    Raises
+    ------
+    InputError : the changed case is not valid.
+    """
+    for path, value in values.items():
+        table = put(table, path.split("."), value)
+    problem = type(base.problem).read(table, f"case '{shortened(name)}'", units_required=False)
+    return Case(name=name, title=base.title, source=base.source, problem=problem)
+
+
+def read_value(key: VariedKey, value: object, place: str, *, unit_required: bool) -> object:
+    """A value of a key; place : where it stands, in errors.
+
+    Raises
+    ------
+    InputError : it is not valid.
+    """
+    try:
+        return key.read(value, unit_required=unit_required)
+    except PydanticCustomError as error:
+        raise InputError(f"{place} {error.message()}") from None

@@ -1,0 +1,258 @@
+"""Read-outs: numbers by name that are kept of every member of a study.
+
+    "u.E2 at last"              a component at the last vertex
+    "max |kappa|"               the largest size of a variable
+    "x.E3 at 1.2 m"             between two vertices, by linear interpolation along the reference
+    "natural_frequency at 0"    the first mode
+    "kinetic_energy at 0.5 s"   between two instants, by linear interpolation
+    "max |u.E2| at last"        over what is left after a place was taken: here the instants of a motion
+
+Words before the variable: max, min, mean, norm (the root of the sum of squares), range (max less min), and final (at
+the last instant or point of a path).  Values that are the same for any member are bit-equal to its own result.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError
+
+from cosserat.data.variables import LABELS, VARIABLES
+from cosserat.errors import InputError
+from cosserat.parameters import nearest
+from cosserat.solution import Field
+from cosserat.text import shown
+from cosserat.units import to_si
+
+Array = NDArray[np.float64]
+
+_FORM = re.compile(
+    r"\s*(?:(?P<over>max|min|mean|norm|range|final)\s+)?(?P<bar>\|?)\s*(?P<name>[A-Za-z_]\w*)(?P<labels>(?:\.[\w-]+)*)"
+    r"\s*(?P<end>\|?)(?:\s+at\s+(?P<at>.{1,40}?))?\s*"
+)
+_LONGEST = 200
+_ALONG = {"vertex": "xi", "edge": "xi_edge", "section": "xi_section", "time": "time"}
+"""Dimensions with a coordinate in units, and the variable that holds it."""
+_INSTANTS = ("time", "point")
+_OVER: dict[str, Callable[[Array], Array]] = {
+    "max": lambda rows: rows.max(axis=-1),
+    "min": lambda rows: rows.min(axis=-1),
+    "mean": lambda rows: rows.mean(axis=-1),
+    "range": lambda rows: rows.max(axis=-1) - rows.min(axis=-1),
+    "norm": lambda rows: np.sqrt((rows * rows).sum(axis=-1)),
+}
+"""What is done along the last, contiguous axis: sums then have the same bits for one member and for many."""
+
+
+@dataclass(frozen=True)
+class ReadOut:
+    """One read-out.
+
+    name : of the variable in the answer.  text : as it is written.  variable : of a result.  labels : components.
+    over : what is done with the values that are left, or "" for one value.  size : whether absolute values count.
+    at : the place or the instant, as it is written; "" for none.
+    """
+
+    name: str
+    text: str
+    variable: str
+    labels: tuple[str, ...]
+    over: str
+    size: bool
+    at: str
+
+    @property
+    def units(self) -> str:
+        """The unit of its values."""
+        return VARIABLES[self.variable].units
+
+    @property
+    def long_name(self) -> str:
+        """Its meaning in words."""
+        return f"{VARIABLES[self.variable].long_name}: {self.text}"
+
+    def needs(self) -> set[str]:
+        """The variables of a result that it reads."""
+        dims = VARIABLES[self.variable].dims
+        found = {self.variable}
+        if not self.at:
+            return found
+        _, unit = _place(self.at)
+        wanted = {"m": ("vertex", "edge", "section"), "s": ("time",)}.get(unit, ())
+        return found | {_ALONG[dim] for dim in wanted if dim in dims or dim == "time"}
+
+    def of(
+        self, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]], members: int = 0
+    ) -> Array:
+        """Its value, or (members,) of them.
+
+        fields : variables of a result with their dimensions; those with `members` have a first axis more, `member`.
+
+        Raises
+        ------
+        InputError : the result has no such variable or component, or more than one value is left.
+        """
+        if self.variable not in fields:
+            raise InputError(
+                f"'{self.name}': the result has no variable '{self.variable}'{nearest(self.variable, list(fields))}"
+            )
+        dims, values = fields[self.variable]
+        dims, values = self._components(dims, values, labels)
+        if self.at:
+            dims, values = self._placed(dims, values, fields)
+        if self.over == "final":
+            dims, values = self._instant(dims, values, -1)
+        values = np.abs(values) if self.size else values
+        left = tuple(k for k, dim in enumerate(dims) if dim != "member")
+        if self.over in _OVER:
+            rows = np.moveaxis(values, dims.index("member"), 0) if "member" in dims else values[None]
+            values = _OVER[self.over](np.ascontiguousarray(rows).reshape(len(rows), -1))
+            values = values if "member" in dims else _taken(values, 0, 0)
+        elif left:
+            names = ", ".join(f"{dims[k]} ({values.shape[k]})" for k in left)
+            raise InputError(
+                f"'{self.name}': {shown(self.text)} leaves more than one value, along {names}; name a component, a "
+                "place with 'at', or max, min, mean, norm or range before it"
+            )
+        return np.asarray(values, dtype=np.float64) + np.zeros(
+            members if members and "member" not in dims else ()
+        )
+
+    def _components(
+        self, dims: tuple[str, ...], values: Array, labels: Mapping[str, Sequence[str]]
+    ) -> tuple[tuple[str, ...], Array]:
+        for label in self.labels:
+            found = [dim for dim in dims if dim in LABELS and label in labels.get(dim, ())]
+            if not found:
+                known = [word for dim in dims if dim in LABELS for word in labels.get(dim, ())]
+                raise InputError(
+                    f"'{self.name}': '{self.variable}' has no component {shown(label)}{nearest(label, known)}"
+                )
+            axis = dims.index(found[0])
+            values = _taken(values, list(labels[found[0]]).index(label), axis)
+            dims = dims[:axis] + dims[axis + 1 :]
+        return dims, values
+
+    def _placed(
+        self, dims: tuple[str, ...], values: Array, fields: Mapping[str, Field]
+    ) -> tuple[tuple[str, ...], Array]:
+        number, unit = _place(self.at)
+        if unit == "s":
+            return self._between(dims, values, "time", number, fields)
+        places = [dim for dim in dims if dim not in (*_INSTANTS, *LABELS, "member")]
+        if not places:
+            raise InputError(
+                f"'{self.name}': '{self.variable}' has no places, but {shown(self.text)} names one"
+            )
+        if unit == "m":
+            return self._between(dims, values, places[0], number, fields)
+        axis = dims.index(places[0])
+        count, index = values.shape[axis], int(number)
+        if not -count <= index < count:
+            raise InputError(
+                f"'{self.name}': there is no {places[0]} {index}; they are numbered from 0 to {count - 1}"
+            )
+        return dims[:axis] + dims[axis + 1 :], _taken(values, index, axis)
+
+    def _instant(
+        self, dims: tuple[str, ...], values: Array, index: int
+    ) -> tuple[tuple[str, ...], Array]:
+        found = [dim for dim in dims if dim in _INSTANTS]
+        if not found:
+            return dims, values
+        axis = dims.index(found[0])
+        return dims[:axis] + dims[axis + 1 :], _taken(values, index, axis)
+
+    def _between(
+        self, dims: tuple[str, ...], values: Array, dim: str, at: float, fields: Mapping[str, Field]
+    ) -> tuple[tuple[str, ...], Array]:
+        """Linear interpolation along a dimension with a coordinate."""
+        if dim not in dims or dim not in _ALONG or _ALONG[dim] not in fields:
+            raise InputError(
+                f"'{self.name}': '{self.variable}' has no {'instants' if dim == 'time' else 'places in metres'}, but "
+                f"{shown(self.text)} names one"
+            )
+        axis = dims.index(dim)
+        along, where = fields[_ALONG[dim]]
+        moved = np.moveaxis(values, axis, -1)
+        where = where if "member" in along else np.broadcast_to(where, (*values.shape[:1], where.size))
+        rows = where if "member" in dims else where[:1]
+        low, high = float(rows[:, 0].max()), float(rows[:, -1].min())
+        if not low <= at <= high * (1 + 1e-12):
+            raise InputError(
+                f"'{self.name}': {shown(self.at)} is outside the result, from {low:g} to {high:g}"
+            )
+        picked = (
+            [_interpolated(where[k], moved[k], at) for k in range(len(moved))]
+            if "member" in dims
+            else None
+        )
+        found = np.array(picked) if picked is not None else _interpolated(where[0], moved, at)
+        return dims[:axis] + dims[axis + 1 :], found
+
+
+def _taken(values: Array, index: int, axis: int) -> Array:
+    return np.asarray(values.take(index, axis=axis))
+
+
+def _interpolated(where: Array, values: Array, at: float) -> Array:
+    """Values (..., n) between places (n,)."""
+    k = int(np.clip(np.searchsorted(where, at, side="right"), 1, where.size - 1))
+    share = (at - where[k - 1]) / (where[k] - where[k - 1])
+    found: Array = (1 - share) * values[..., k - 1] + share * values[..., k]
+    return found
+
+
+def _place(text: str) -> tuple[float, str]:
+    """A place or an instant: a number and its unit, "" for the number of a vertex, edge, section or mode.
+
+    Raises
+    ------
+    PydanticCustomError : it is neither.
+    """
+    if text in ("first", "last"):
+        return (0.0, "") if text == "first" else (-1.0, "")
+    if re.fullmatch(r"\d{1,6}", text):
+        return float(text), ""
+    for unit in ("m", "s"):
+        try:
+            return to_si(text, unit, unit_required=True), unit
+        except PydanticCustomError:
+            continue
+    raise PydanticCustomError(
+        "place",
+        f"has 'at' {shown(text)}; write first, last, a number from 0, or a place or time with its unit: 1.2 m",
+    )
+
+
+def read_out(name: str, text: object, study: str) -> ReadOut:
+    """A read-out from its text; study : in errors.
+
+    Raises
+    ------
+    InputError : it is no read-out.
+    """
+    found = _FORM.fullmatch(text) if isinstance(text, str) and len(text) <= _LONGEST else None
+    if found is None or bool(found["bar"]) != bool(found["end"]):
+        raise InputError(
+            f"{study}: '{name}' is {shown(text)}; write a variable of the result, such as \"u.E2 at last\" or "
+            '"max |kappa|"'
+        )
+    variable, at = found["name"], found["at"] or ""
+    if variable not in VARIABLES:
+        raise InputError(
+            f"{study}: '{name}' reads '{variable}', which no result has{nearest(variable, list(VARIABLES))}"
+        )
+    try:
+        if at:
+            _place(at)
+    except PydanticCustomError as error:
+        raise InputError(f"{study}: '{name}' {error.message()}") from None
+    labels = tuple(part for part in found["labels"].split(".") if part)
+    return ReadOut(
+        name, str(text).strip(), variable, labels, found["over"] or "", bool(found["bar"]), at
+    )
