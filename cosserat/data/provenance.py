@@ -49,6 +49,8 @@ _COMPUTING = (
         )
     ),
     "cases",
+    "describe/keys.py",
+    "describe/__init__.py",
     "data",
     "thesis/__init__.py",
     "thesis/earthworm.py",

@@ -57,7 +57,7 @@ def study(
 
     Raises
     ------
-    InputError : a key, a value or a read-out is not valid.  A member without an answer is no error: see `status`.
+    InputError : a key, a value or a read-out is not valid.  A member without an answer is no error: its `status` in the answer says so.
     """
     base = find(case) if isinstance(case, str) else case
     if not isinstance(base, Case):
