@@ -36,6 +36,23 @@ a case of your own, in my.toml, may start from a published one:
   rod.length = "10 m"
 
   cosserat run long_beam --file my.toml"""
+_STUDY = """\
+a study in my.toml:
+  [cantilevers]
+  kind = "study"
+  of = "elastica"                                  a case, of this file or published
+  keep.tip = "u.E2 at last"                        a read-out of each member
+  [[cantilevers.vary]]
+  rod.section.height = ["7 mm", "8 mm", "9 mm"]    a dimension of the answer
+  [[cantilevers.vary]]
+  sobol = 64                                       points: one dimension, 'member'
+  forces.0.force = { uniform = ["0.5 N", "4.7 N"] }
+
+  cosserat study cantilevers --file my.toml        writes cantilevers.nc
+  cosserat run cantilevers --member 17 --file my.toml
+
+What is solved is kept in the folder STUDY.study beside the answer: a study that was stopped goes on by the same
+command, and one that was extended solves only what is new.  The exit status is 1 if some members have no answer."""
 _EXPORT = """\
 CSV: one tidy table.
   A row is one place of the body at one instant: the column 'place' says vertex, edge or section, and
@@ -193,6 +210,9 @@ def _add_commands(add: AddCommand) -> None:
         "--file", type=Path, help="TOML file that holds the case (default: the published ones)"
     )
     sub.add_argument(
+        "--member", type=int, metavar="NUMBER", help="solve one member of the study of this name instead"
+    )
+    sub.add_argument(
         "-o",
         "--output",
         type=Path,
@@ -216,8 +236,48 @@ def _add_commands(add: AddCommand) -> None:
         help="largest result that may be computed (default: %(default)g)",
     )
 
+    _add_study(add)
     _add_results(add)
     _add_listings(add)
+
+
+def _add_study(add: AddCommand) -> None:
+    """Add the command for studies."""
+    sub = add("study", commands.study, "solve a case for many values of its keys, as one netCDF file")
+    sub.epilog = _STUDY
+    sub.add_argument("study", help="name of a study in a case file, or of a published one")
+    sub.add_argument(
+        "--file", type=Path, help="TOML file that holds the study (default: the published ones)"
+    )
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        help="netCDF file to write, or a folder for STUDY.nc (default: this folder)",
+    )
+    sub.add_argument(
+        "--cores", type=int, metavar="N", help="let Snakemake solve it in batches on so many cores"
+    )
+    sub.add_argument(
+        "--profile",
+        metavar="FOLDER",
+        help="let Snakemake solve it by this profile, such as profiles/slurm",
+    )
+    sub.add_argument(
+        "--hours",
+        type=float,
+        default=HOURS,
+        help="longest time that it may take on this machine, as estimated (default: %(default)g)",
+    )
+    ways = sub.add_mutually_exclusive_group()
+    for name, words in (
+        ("plan", "only divide the study into batches, and tell how many"),
+        ("status", "only tell how far it is"),
+        ("partial", "only write what is solved so far; other members have the status 'not_yet'"),
+        ("cancel", "cancel the jobs of the study that wait or run on a cluster"),
+        ("sweep", "delete stored batches that the study no longer uses"),
+    ):
+        ways.add_argument(f"--{name}", action="store_true", help=words)
 
 
 def _add_results(add: AddCommand) -> None:

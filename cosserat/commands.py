@@ -49,7 +49,11 @@ def run(options: argparse.Namespace) -> None:
     """Solve cases and write their files."""
     from cosserat.cases.catalogue import find, parse
 
-    if options.case != "-":
+    if options.member is not None:
+        from cosserat.studies.door import find_study
+
+        cases = [find_study(options.case, options.file).case(options.member)]
+    elif options.case != "-":
         cases = [find(options.case, options.file)]
     elif options.file is not None:
         raise InputError("'-' reads the case from standard input, so '--file' has no use; leave it out")
@@ -132,6 +136,13 @@ def _what_is_left(stopped: CosseratError, path: Path, *, keep_last: bool) -> str
     if isinstance(stopped, OverLimitError):
         return f"; the computed part is in {kept}, and the run goes on from there"
     return f"; the computed part is in {kept}; remove that folder before you change the case"
+
+
+def study(options: argparse.Namespace) -> None:
+    """Solve a study."""
+    from cosserat.studies.command import study as solve
+
+    solve(options)
 
 
 def describe(options: argparse.Namespace) -> None:

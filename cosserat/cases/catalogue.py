@@ -142,6 +142,16 @@ def study_tables(file: str | Path | None = None) -> dict[str, dict[str, Any]]:
     return {name: table for name, table in tables.items() if table.get("kind") == STUDY}
 
 
+def names_in(file: str | Path) -> list[str]:
+    """The names of the cases of a file.
+
+    Raises
+    ------
+    InputError : the file cannot be read.
+    """
+    return _names(_read(file))
+
+
 def _names(tables: Mapping[str, Any]) -> list[str]:
     """The names of the cases of a file, without bases of cases and studies."""
     return [

@@ -8,11 +8,12 @@ from typing import Any
 
 import xarray as xr
 
-from cosserat.cases.catalogue import Case, find, study_tables
+from cosserat.cases.catalogue import Case, find, names_in, study_tables
 from cosserat.errors import InputError, path_of
 from cosserat.parameters import nearest
 from cosserat.problem import Progress
 from cosserat.progress import bar
+from cosserat.publications import titles
 from cosserat.studies.answer import answer
 from cosserat.studies.family import Family, family
 from cosserat.studies.solving import solve_members
@@ -35,7 +36,8 @@ def find_study(name: str, file: str | Path | None = None) -> Family:
         raise InputError(f"there is no study '{shortened(name)}'{place}{nearest(name, list(tables))}")
     read = Study.read(tables[name], f"study '{shortened(name)}'")
     folder = Path() if file is None else path_of(file).parent
-    return family(name, read, find(read.of, file), folder, unit_required=True)
+    where = None if read.of in titles() and (file is None or read.of not in names_in(file)) else file
+    return family(name, read, find(read.of, where), folder, unit_required=True)
 
 
 def study(
@@ -57,7 +59,8 @@ def study(
 
     Raises
     ------
-    InputError : a key, a value or a read-out is not valid.  A member without an answer is no error: its `status` in the answer says so.
+    InputError : a key, a value or a read-out is not valid.  A member without an answer is no error; the answer's
+        variable "status" says so.
     """
     base = find(case) if isinstance(case, str) else case
     if not isinstance(base, Case):

@@ -87,7 +87,7 @@ def varied_key(problem: Problem, path: str, name: str) -> VariedKey:
     known = keys(problem.kind)
     fitting = [key for key in known if key.path == general and _is_of(key, owner)]
     if not fitting:
-        here = [key.path for key in known if key.path.count(".") == general.count(".")]
+        here = [key.path for key in known if key.path.rpartition(".")[0] == general.rpartition(".")[0]]
         raise InputError(
             f"{name}: a case of kind '{problem.kind}' has no key {shown(path)}{nearest(general, here)}"
         )

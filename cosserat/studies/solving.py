@@ -37,7 +37,7 @@ STATUS = (
     "fault",
     "not_yet",
 )
-"""Meanings of `status`, in the order of its values; from the third on there is no answer."""
+"""Meanings of the variable "status", in the order of its values; from the third on there is no answer."""
 _NO_STATE = (CrossingError, DivergedError, OutOfReachError, UnstableError)
 _LONGEST_REASON = 400
 

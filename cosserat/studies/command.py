@@ -1,0 +1,189 @@
+"""What `cosserat study` does: plan, solve here or by Snakemake, gather, and tell how it went."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from cosserat.errors import CosseratError, InputError
+from cosserat.limits import Limits
+from cosserat.problem import Forecast
+from cosserat.progress import bar, duration
+from cosserat.studies.family import Family
+from cosserat.studies.plan import (
+    answer_file,
+    folder_of,
+    gathered,
+    left,
+    members_of,
+    plan,
+    sweep,
+)
+from cosserat.studies.stored import BATCHES, Plan, read_task, write_solved
+
+WORKFLOW = Path(__file__).with_name("study.smk")
+_HERE_SECONDS = 30.0
+"""Work that one process does here and now, where nothing else is asked for."""
+
+
+class FailedMembersError(CosseratError):
+    """The answer of a study is whole, but some of its members have none."""
+
+
+def study(options: argparse.Namespace) -> None:
+    """Solve a study and write its answer, or tell or change how it stands.
+
+    Raises
+    ------
+    InputError : the study is not valid.
+    FailedMembersError : some members have no answer.
+    OverLimitError : it would take longer than allowed.
+    """
+    from cosserat.data.files import check_destination
+    from cosserat.data.locks import only_writer
+    from cosserat.data.netcdf import check_replaceable
+    from cosserat.studies.door import find_study
+
+    found = find_study(options.study, options.file)
+    path = _destination(options.output, found.name)
+    check_destination(path, ".nc", inputs=() if options.file is None else (options.file,))
+    check_replaceable(path)
+    folder = folder_of(path)
+    if folder.exists() and not folder.is_dir():
+        raise InputError(
+            f"{folder} is a file, where the parts of the study go; move it or choose another --output"
+        )
+    if options.status:
+        _tell(found, folder, plan(found, folder))
+        return
+    with only_writer(path):
+        made = plan(found, folder)
+        if options.sweep:
+            print(f"{found.name}: {sweep(folder, made)} batches deleted that the study does not use")
+        if options.plan or options.sweep:
+            _tell(found, folder, made)
+            return
+        written = not options.partial and _solve(options, found, folder, path, made)
+        _report(found, folder, path, partial=options.partial, written=written)
+
+
+def _destination(given: Path | None, name: str) -> Path:
+    path = Path() if given is None else given
+    return path / f"{name}.nc" if os.path.isdir(path) else path
+
+
+def _solve(options: argparse.Namespace, found: Family, folder: Path, path: Path, made: Plan) -> bool:
+    """Solve what is left, here or by Snakemake; returns whether the answer is written too."""
+    names = left(folder, made)
+    if not names:
+        return False
+    seconds = made.seconds * sum(members_of(folder, name) for name in names)
+    by_snakemake = bool(options.profile or options.cores)
+    if not by_snakemake and seconds > _HERE_SECONDS:
+        by_snakemake = importlib.util.find_spec("snakemake") is not None
+    if not options.profile:
+        cores = (options.cores or os.cpu_count() or 1) if by_snakemake else 1
+        limits = Limits.read({"hours": options.hours}, "limits")
+        limits.check(
+            Forecast(seconds / cores, 0.0, f"{found.size} members", "vary fewer values"),
+            f"study '{found.name}'",
+            path,
+        )
+    if by_snakemake:
+        _by_snakemake(options, folder, path, len(names), seconds)
+    else:
+        _here(found, folder, names)
+    return by_snakemake
+
+
+def _here(found: Family, folder: Path, names: list[str]) -> None:
+    """Solve batches one after the other in this process; each is stored as soon as it is done."""
+    from cosserat.studies.solving import solve_members
+
+    sizes = [members_of(folder, name) for name in names]
+    with bar(found.name) as report:
+        for number, name in enumerate(names):
+            begin, share = sum(sizes[:number]) / sum(sizes), sizes[number] / sum(sizes)
+            task = read_task(folder / BATCHES / f"{name}.npz")
+
+            def tell(fraction: float, words: str, begin: float = begin, share: float = share) -> None:
+                report(begin + share * fraction, words)
+
+            write_solved(answer_file(folder, name), task, solve_members(task, tell))
+
+
+def _by_snakemake(
+    options: argparse.Namespace, folder: Path, path: Path, batches: int, seconds: float
+) -> None:
+    """Let Snakemake solve the batches and gather the answer.
+
+    Only this process works in the folder, so a lock that Snakemake finds there is one of a killed run.
+    """
+    if importlib.util.find_spec("snakemake") is None:
+        raise InputError(
+            "'--cores' and '--profile' need Snakemake: pip install snakemake; or leave them out"
+        )
+    command = [
+        *(sys.executable, "-m", "snakemake", "--snakefile", str(WORKFLOW), "--directory", str(folder)),
+        *("--config", f"answer={path.resolve()}"),
+        *(
+            "--nolock",
+            "--rerun-incomplete",
+            "--keep-going",
+            "--rerun-triggers",
+            "mtime",
+            "--quiet",
+            "rules",
+        ),
+    ]
+    if options.profile:
+        command += ["--profile", str(Path(options.profile).resolve())]
+    if options.cores or not options.profile:
+        command += ["--cores", str(options.cores or "all")]
+    left_to_do = f"{_counted(batches)} left, about {duration(seconds)} of work"
+    print(f"{left_to_do}; Snakemake's log is in {folder / '.snakemake' / 'log'}", file=sys.stderr)
+    environment = os.environ | {"OMP_NUM_THREADS": "1", "PYTHONPATH": _import_path()}
+    done = subprocess.run(command, check=False, env=environment)
+    if done.returncode:
+        raise CosseratError(
+            f"Snakemake ended with status {done.returncode}; what is solved is in {folder}: run the same command again"
+        )
+
+
+def _counted(batches: int) -> str:
+    return f"{batches} batch" + "es" * (batches != 1)
+
+
+def _import_path() -> str:
+    """Where this package is, for processes in another folder."""
+    own = str(Path(__file__).resolve().parents[2])
+    return os.pathsep.join(filter(None, [own, os.environ.get("PYTHONPATH")]))
+
+
+def _report(found: Family, folder: Path, path: Path, *, partial: bool, written: bool) -> None:
+    """Write the answer, unless Snakemake has, and tell how it went."""
+    from cosserat.data.netcdf import load, save
+    from cosserat.studies.answer import answer, counts, failed
+
+    data = load(path, own=True) if written else answer(*gathered(folder, partial=partial))
+    if not written:
+        save(data, path)
+    print(f"{found.name}: {counts(data)}; wrote {path}")
+    if failed(data):
+        raise FailedMembersError(
+            f"{failed(data)} of {found.size} members have no answer; 'status' and 'reason' in {path} say why"
+        )
+
+
+def _tell(found: Family, folder: Path, made: Plan) -> None:
+    """Print how a study stands."""
+    names = left(folder, made)
+    members = sum(members_of(folder, name) for name in names)
+    work = f", about {duration(made.seconds * members)} of work" if members and made.seconds else ""
+    shape = " x ".join(f"{size} {dim}" for dim, size in zip(found.dims(), found.shape, strict=True))
+    print(f"{found.name}: {found.size} members ({shape}) in {_counted(len(made.batches))} in {folder}")
+    print(f"left: {members} members in {_counted(len(names))}{work}")

@@ -1,0 +1,218 @@
+"""A study in batches: which members are solved already, which are left, and the answer from all of them."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.errors import InputError
+from cosserat.solution import Field
+from cosserat.studies.family import Family, Task
+from cosserat.studies.solving import Solved, solve_members
+from cosserat.studies.stored import (
+    BATCHES,
+    Plan,
+    read_arrays,
+    read_family,
+    read_plan,
+    read_solved,
+    write_plan,
+    write_task,
+)
+
+Digests = NDArray[np.bytes_]
+BATCH_SECONDS = 60.0
+"""Time that a batch should take: the start of a process is then 2 % of it, and a kill loses no more."""
+MOST = 1 << 16
+"""Most members of a batch."""
+_SMALL = 5.0  # seconds of work that are one batch
+_TRIED, _TRYING = 16, 0.5  # members and seconds for the estimate
+_BATCHES = 8  # batches at least, of a study that takes long
+
+
+def folder_of(answer: Path) -> Path:
+    """The folder of a study's parts, beside its answer."""
+    return answer.with_name(f"{answer.name.removesuffix('.nc')}.study")
+
+
+def plan(found: Family, folder: Path) -> Plan:
+    """The batches of a study, stored in its folder; an earlier plan of the same study is taken as it is.
+
+    Members that a stored batch has solved are not planned again.
+
+    Raises
+    ------
+    InputError : the folder cannot be written.
+    """
+    task = found.task()
+    digests = task.digests()
+    asked = hashlib.blake2b(digests.tobytes() + task.about.encode(), digest_size=16).hexdigest()
+    known = read_plan(folder)
+    if (
+        known is not None
+        and known.study == asked
+        and all(_task_file(folder, name).exists() for name in known.batches)
+    ):
+        return known
+    try:
+        (folder / BATCHES).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            f"cannot make the folder {folder}: {error.strerror}; choose another with --output"
+        ) from None
+    wanted, first = np.unique(digests, return_index=True)
+    old, missing = _stored_already(folder, wanted)
+    members = np.sort(first[missing])
+    seconds = estimate(task) if members.size else 0.0
+    names = [*old, *_new_batches(folder, task, digests, members, seconds)]
+    made = Plan(asked, tuple(names), seconds)
+    write_plan(folder, made, found)
+    return made
+
+
+def _stored_already(folder: Path, wanted: Digests) -> tuple[list[str], NDArray[np.bool_]]:
+    """The solved batches that hold wanted members, and which members no batch holds."""
+    missing, names = np.ones(wanted.size, dtype=np.bool_), []
+    for path in sorted((folder / BATCHES).glob("*.nc")):
+        file = path.with_suffix(".npz")
+        if not file.exists():
+            continue
+        at = np.isin(wanted, read_arrays(file)["digests"]) & missing
+        if at.any():
+            names.append(path.stem)
+            missing &= ~at
+    return names, missing
+
+
+def _new_batches(
+    folder: Path, task: Task, digests: Digests, members: NDArray[np.int64], seconds: float
+) -> Iterator[str]:
+    size = batch_size(members.size, seconds)
+    for begin in range(0, members.size, size):
+        picked = members[begin : begin + size]
+        own = digests[picked]
+        name = hashlib.blake2b(own.tobytes() + task.about.encode(), digest_size=12).hexdigest()
+        if not _task_file(folder, name).exists():
+            write_task(_task_file(folder, name), task.part(picked), own)
+        yield name
+
+
+def batch_size(members: int, seconds: float) -> int:
+    """How many members a batch has, a power of two."""
+    if members * seconds <= _SMALL:
+        return max(1, min(members, MOST))
+    by_time = 1 << max(0, min(16, int(math.log2(BATCH_SECONDS / seconds))))
+    by_count = 1 << max(0, math.ceil(math.log2(members / _BATCHES)))
+    return min(by_time, by_count, MOST)
+
+
+def estimate(task: Task) -> float:
+    """Seconds that one member takes, from a few of them."""
+    picked = np.unique(np.linspace(0, task.size - 1, min(task.size, _TRIED)).astype(np.int64))
+    solve_members(task.part(picked[:1]))  # the first one loads what is compiled
+    began, done = time.perf_counter(), 0
+    for part in (picked[:1], picked[1:4], picked[4:]):
+        if part.size and time.perf_counter() - began < _TRYING:
+            solve_members(task.part(part))
+            done += part.size
+    return (time.perf_counter() - began) / done
+
+
+def _task_file(folder: Path, name: str) -> Path:
+    return folder / BATCHES / f"{name}.npz"
+
+
+def answer_file(folder: Path, name: str) -> Path:
+    """The file with the answers of a batch."""
+    return folder / BATCHES / f"{name}.nc"
+
+
+def left(folder: Path, made: Plan) -> list[str]:
+    """The batches that are not solved yet."""
+    return [name for name in made.batches if not answer_file(folder, name).exists()]
+
+
+def members_of(folder: Path, name: str) -> int:
+    """The number of members of a batch."""
+    return len(read_arrays(_task_file(folder, name))["digests"])
+
+
+def gathered(folder: Path, *, partial: bool = False) -> tuple[Family, Solved]:
+    """The study in a folder and the answers of its members.
+
+    partial : members whose batch is not solved yet have the status "not_yet"; if not, that is an error.
+
+    Raises
+    ------
+    InputError : a batch is missing or damaged.
+    """
+    made, found = read_family(folder)
+    task = found.task()
+    wanted, inverse = np.unique(task.digests(), return_inverse=True)
+    whole = Solved.nothing(task, wanted.size)
+    for name in made.batches:
+        if not answer_file(folder, name).exists():
+            if partial:
+                continue
+            raise InputError(
+                f"the batch {answer_file(folder, name)} is missing; run the same command again"
+            )
+        own = read_arrays(_task_file(folder, name))["digests"]
+        at = np.searchsorted(wanted, own)
+        at[at == wanted.size] = 0
+        _put(whole, read_solved(answer_file(folder, name)), np.flatnonzero(wanted[at] == own), at)
+    return found, _spread(whole, inverse)
+
+
+def _put(whole: Solved, part: Solved, rows: NDArray[np.int64], at: NDArray[np.int64]) -> None:
+    """Put some rows of a batch at their places."""
+    to = at[rows]
+    for name, values in part.values.items():
+        whole.values[name][to] = values[rows]
+    for name, (dims, values) in part.whole.items():
+        if name not in whole.whole:
+            whole.whole[name] = (dims, np.full((whole.status.size, *values.shape[1:]), np.nan))
+        stored = whole.whole[name][1]
+        if stored.shape[1:] != values.shape[1:]:
+            raise InputError(
+                f"'{name}' has the shape {values.shape[1:]} in some members and {stored.shape[1:]} in others; keep "
+                "read-outs of it in place of 'keep_whole'"
+            )
+        stored[to] = values[rows]
+    whole.beside |= part.beside
+    whole.labels |= part.labels
+    for name in ("status", "reason", "iterations"):
+        getattr(whole, name)[to] = getattr(part, name)[rows]
+
+
+def _spread(unique: Solved, inverse: NDArray[np.int64]) -> Solved:
+    """The answers of all members from those of different ones."""
+
+    def field(given: Field) -> Field:
+        return given[0], given[1][inverse]
+
+    return Solved(
+        {name: values[inverse] for name, values in unique.values.items()},
+        {name: field(given) for name, given in unique.whole.items()},
+        unique.beside,
+        unique.labels,
+        unique.status[inverse],
+        unique.reason[inverse],
+        unique.iterations[inverse],
+    )
+
+
+def sweep(folder: Path, made: Plan) -> int:
+    """Delete batches that the plan does not use; returns how many."""
+    used, gone = set(made.batches), set()
+    for path in (folder / BATCHES).glob("*.n*"):
+        if path.suffix in (".nc", ".npz") and path.stem not in used:
+            path.unlink()
+            gone.add(path.stem)
+    return len(gone)

@@ -1,0 +1,226 @@
+"""Files of a study in its folder: what is planned, and batches of members before and after they are solved.
+
+    NAME.study/plan.json            the study, and the names of its batches
+    NAME.study/members.npz          the values of the keys of its factors
+    NAME.study/batches/DIGEST.npz   members to solve; the name says which, with the case and the code
+    NAME.study/batches/DIGEST.nc    their answers
+
+Nothing in the files of a batch depends on its place in the study, so a study that is extended or changed back finds
+them again.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from cosserat.cases.catalogue import parse
+from cosserat.data.content import stamped
+from cosserat.data.files import whole_or_absent
+from cosserat.data.netcdf import load, save
+from cosserat.data.provenance import source
+from cosserat.errors import InputError
+from cosserat.studies.factors import Columns, Values
+from cosserat.studies.family import Family, Task, parameters_of
+from cosserat.studies.keys import varied_key
+from cosserat.studies.readouts import read_out
+from cosserat.studies.solving import Solved
+from cosserat.studies.study import Study
+
+PLAN, MEMBERS, BATCHES = "plan.json", "members.npz", "batches"
+_FORMAT = 1
+_TEXT = "json:"  # prefix of the name of an array of JSON texts
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The batches of a study.
+
+    study : digest of what is asked.  batches : names, old ones first.  seconds : estimate for one member.
+    """
+
+    study: str
+    batches: tuple[str, ...]
+    seconds: float
+    format: int = _FORMAT
+    about: Mapping[str, Any] = field(default_factory=dict)
+
+
+def write_arrays(path: Path, arrays: Mapping[str, Values]) -> None:
+    """Write arrays, whole or not at all; columns of other things than numbers become JSON texts."""
+    plain = {}
+    for name, values in arrays.items():
+        if values.dtype.kind == "O":
+            plain[_TEXT + name] = np.array([json.dumps(item, sort_keys=True) for item in values])
+        else:
+            plain[name] = values
+    buffer = io.BytesIO()
+    np.savez(buffer, allow_pickle=False, **plain)
+    with whole_or_absent(path, buffer.tell()) as temporary:
+        temporary.write_bytes(buffer.getvalue())
+
+
+def read_arrays(path: Path) -> dict[str, Values]:
+    """What `write_arrays` wrote.
+
+    Raises
+    ------
+    InputError : the file is missing or damaged.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            found = {name: stored[name] for name in stored.files}
+    except (OSError, ValueError, zipfile.BadZipFile, EOFError) as error:
+        raise InputError(f"cannot read {path} ({error}); delete it and plan the study again") from None
+    return {name.removeprefix(_TEXT): _unpacked(name, values) for name, values in found.items()}
+
+
+def _unpacked(name: str, values: Values) -> Values:
+    if not name.startswith(_TEXT):
+        return values
+    column = np.empty(len(values), dtype=object)
+    column[:] = [json.loads(str(item)) for item in values]
+    return column
+
+
+def write_plan(folder: Path, plan: Plan, found: Family) -> None:
+    """Store a plan with its study."""
+    arrays = {
+        f"value {i} {k}": one for i, f in enumerate(found.factors) for k, one in enumerate(f.values)
+    }
+    arrays |= {
+        f"about {i} {name}": one for i, f in enumerate(found.factors) for name, one in f.about.items()
+    }
+    write_arrays(folder / MEMBERS, arrays)
+    told = {
+        "format": plan.format,
+        "study": plan.study,
+        "batches": plan.batches,
+        "seconds": plan.seconds,
+        "about": parameters_of(found),
+        "factors": [
+            {"dim": f.dim, "keys": [key.path for key in f.keys], "names": f.names, "design": f.design}
+            for f in found.factors
+        ],
+    }
+    with whole_or_absent(folder / PLAN) as temporary:
+        temporary.write_text(json.dumps(told, sort_keys=True), encoding="utf-8")
+
+
+def read_plan(folder: Path) -> Plan | None:
+    """The plan in a folder; None if there is none of this version.
+
+    Raises
+    ------
+    InputError : it is damaged.
+    """
+    try:
+        told = json.loads((folder / PLAN).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"cannot read {folder / PLAN} ({error}); delete it and plan the study again"
+        ) from None
+    if not isinstance(told, dict) or told.get("format") != _FORMAT:
+        return None
+    return Plan(told["study"], tuple(told["batches"]), told["seconds"], _FORMAT, told)
+
+
+def read_family(folder: Path) -> tuple[Plan, Family]:
+    """The plan in a folder and its study.
+
+    Raises
+    ------
+    InputError : there is no plan, or it is damaged.
+    """
+    plan = read_plan(folder)
+    if plan is None:
+        raise InputError(f"{folder} holds no plan of a study; plan it by 'cosserat study NAME --plan'")
+    about, arrays = plan.about["about"], read_arrays(folder / MEMBERS)
+    base = parse(json.dumps(about["case"]))
+    called = f"study '{about['name']}'"
+    factors = []
+    for number, told in enumerate(plan.about["factors"]):
+        keys = tuple(varied_key(base.problem, path, called) for path in told["keys"])
+        values = tuple(arrays[f"value {number} {k}"] for k in range(len(keys)))
+        begins = f"about {number} "
+        own = {name.removeprefix(begins): one for name, one in arrays.items() if name.startswith(begins)}
+        factors.append(Columns(told["dim"], keys, values, tuple(told["names"]), own, told["design"]))
+    read = Study.read(about["study"], called, units_required=False)
+    keep = tuple(read_out(name, text, called) for name, text in read.keep.items())
+    return plan, Family(about["name"], read, base, tuple(factors), keep)
+
+
+def write_task(path: Path, task: Task, digests: NDArray[np.bytes_]) -> None:
+    """Store the members of a batch."""
+    columns = {f"value {k}": column for k, column in enumerate(task.columns)}
+    write_arrays(path, columns | {"digests": digests, "about": np.array(task.about)})
+
+
+def read_task(path: Path) -> Task:
+    """The members of a batch.
+
+    Raises
+    ------
+    InputError : the file is missing or damaged, or was planned by another version of the code.
+    """
+    arrays = read_arrays(path)
+    about = json.loads(str(arrays["about"]))
+    if about["source"] != source():
+        raise InputError(
+            f"{path} was planned by {about['source']}, and this is {source()}; plan the study again"
+        )
+    keep = tuple(read_out(name, text, "the batch") for name, text in about["keep"].items())
+    columns = tuple(arrays[f"value {k}"] for k in range(len(about["keys"])))
+    return Task(
+        parse(json.dumps(about["base"])), tuple(about["keys"]), columns, keep, tuple(about["keep_whole"])
+    )
+
+
+def write_solved(path: Path, task: Task, solved: Solved) -> None:
+    """Store the answers of a batch, whole or not at all."""
+    variables: dict[str, Any] = {
+        "status": (("member",), solved.status),
+        "reason": (("member",), solved.reason),
+        "iterations": (("member",), solved.iterations),
+    }
+    variables |= {f"value_{name}": (("member",), values) for name, values in solved.values.items()}
+    variables |= {f"whole_{name}": field for name, field in solved.whole.items()}
+    variables |= {f"beside_{name}": field for name, field in solved.beside.items()}
+    variables |= {f"labels_{dim}": ((dim,), list(words)) for dim, words in solved.labels.items()}
+    dataset = xr.Dataset(variables, attrs={"study": task.about, "source": source()})
+    save(stamped(dataset), path)
+
+
+def read_solved(path: Path) -> Solved:
+    """The answers of a batch.
+
+    Raises
+    ------
+    InputError : the file is missing, damaged or changed.
+    """
+    stored = load(path, own=True)
+    parts: dict[str, dict[str, Any]] = {"value": {}, "whole": {}, "beside": {}, "labels": {}}
+    for key, variable in stored.variables.items():
+        kind, _, name = str(key).partition("_")
+        if kind in parts:
+            parts[kind][name] = (tuple(map(str, variable.dims)), variable.to_numpy())
+    return Solved(
+        {name: values for name, (_, values) in parts["value"].items()},
+        parts["whole"],
+        parts["beside"],
+        {dim: tuple(map(str, words)) for dim, (_, words) in parts["labels"].items()},
+        stored["status"].to_numpy(),
+        stored["reason"].to_numpy().astype(object),
+        stored["iterations"].to_numpy(),
+    )
