@@ -49,6 +49,9 @@ class Kind:
 
 _ROD, _CRAWLER = "cosserat.export.mesh:rod", "cosserat.export.mesh:crawler"
 
+STUDY_CLASS = "cosserat.studies.study:Study"
+"""Class of a study, which is a table of a case file and no problem."""
+
 KINDS = {
     "rod statics": Kind(
         "cosserat.problems.static:RodStatics", "cosserat.figures.rod:picture", mesh=_ROD

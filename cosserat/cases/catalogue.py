@@ -111,7 +111,7 @@ def find(name: str, file: str | Path | None = None) -> Case:
     tables = {} if file is None else _read(file)
     if file is not None and name in _names(tables):
         return _build(name, Tables(published_tables() | tables), path_of(file).parent)
-    if (published_tables() | tables).get(name, {}).get("kind") == STUDY:
+    if _is_study((published_tables() | tables).get(name, {})):
         raise InputError(
             f"'{name}' is a study, not a case; solve it by 'cosserat study {name}', or one case of it by --member"
         )
@@ -139,7 +139,13 @@ def study_tables(file: str | Path | None = None) -> dict[str, dict[str, Any]]:
     InputError : the file cannot be read.
     """
     tables = published_tables() if file is None else _read(file)
-    return {name: table for name, table in tables.items() if table.get("kind") == STUDY}
+    known = Tables(published_tables() | tables)
+    names = [name for name, table in tables.items() if _is_study(table) and not name.startswith("_")]
+    return {name: known.inherited(name) | _titles(tables[name]) for name in names}
+
+
+def _titles(table: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: table[key] for key in ("title", "source") if key in table}
 
 
 def names_in(file: str | Path) -> list[str]:
@@ -154,9 +160,11 @@ def names_in(file: str | Path) -> list[str]:
 
 def _names(tables: Mapping[str, Any]) -> list[str]:
     """The names of the cases of a file, without bases of cases and studies."""
-    return [
-        name for name, table in tables.items() if not name.startswith("_") and table.get("kind") != STUDY
-    ]
+    return [name for name, table in tables.items() if not name.startswith("_") and not _is_study(table)]
+
+
+def _is_study(table: Mapping[str, Any]) -> bool:
+    return table.get("kind") == STUDY or "vary" in table
 
 
 def _read(file: str | Path) -> dict[str, Any]:

@@ -6,6 +6,7 @@ The text of `cosserat describe`, the schemas for editors and the page of the boo
 from __future__ import annotations
 
 import functools
+import pkgutil
 import types
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -17,6 +18,7 @@ from pydantic.fields import FieldInfo
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
 from cosserat.explain import docstrings
+from cosserat.kinds import STUDY_CLASS
 from cosserat.parameters import (
     Count,
     Items,
@@ -27,11 +29,24 @@ from cosserat.parameters import (
     nearest,
 )
 from cosserat.problem import Problem
-from cosserat.publications import kinds
+from cosserat.publications import STUDY, kinds
 from cosserat.tables import ShortForm
 from cosserat.text import shortened
 
-Form = Literal["quantity", "count", "word", "name", "text", "truth", "table", "list", "row", "either"]
+Form = Literal[
+    "quantity",
+    "count",
+    "number",
+    "word",
+    "name",
+    "names",
+    "text",
+    "truth",
+    "table",
+    "list",
+    "row",
+    "either",
+]
 
 
 @dataclass(frozen=True)
@@ -124,15 +139,22 @@ def keys(kind: str) -> tuple[Key, ...]:
     ------
     InputError : there is no such kind.
     """
-    if kind not in kinds():
-        raise InputError(f"there is no kind '{shortened(kind)}'{nearest(kind, list(kinds()))}")
-    found = list(_keys(kinds()[kind].problem_class(), "", "", "kind"))
+    if kind not in described():
+        raise InputError(f"there is no kind '{shortened(kind)}'{nearest(kind, list(described()))}")
+    found = list(_keys(described()[kind], "", "", "kind"))
     return tuple(sorted(found, key=lambda key: key.path != "kind"))
 
 
 def title(kind: str) -> str:
     """Description of a kind: the first paragraph of its class."""
-    return _paragraph(kinds()[kind].problem_class())
+    return _paragraph(described()[kind])
+
+
+@functools.cache
+def described() -> Mapping[str, type[BaseModel]]:
+    """The classes of all that a case file may hold, by kind: problems and studies."""
+    classes: dict[str, type[BaseModel]] = {name: kind.problem_class() for name, kind in kinds().items()}
+    return classes | {STUDY: pkgutil.resolve_name(STUDY_CLASS)}
 
 
 @functools.cache
@@ -218,7 +240,10 @@ def _value(annotation: Any) -> Value | None:
         return None
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return Value("table", tables=(annotation,))
-    return Value({str: "text", bool: "truth"}[annotation])  # type: ignore[arg-type]
+    return Value(_PLAIN[origin or annotation])
+
+
+_PLAIN: Mapping[type, Form] = {str: "text", bool: "truth", float: "number", dict: "names"}
 
 
 def _list_or_row(parts: tuple[Any, ...], about: list[Any]) -> Value:
@@ -244,5 +269,7 @@ def _written(default: Any, value: Value) -> str:
         return str(default).lower()
     if isinstance(default, str):
         return f'"{default}"'
+    if default == {}:
+        return "{}"
     assert isinstance(default, int) or default == ()
     return "[]" if default == () else str(default)

@@ -12,7 +12,7 @@ import tomllib
 from collections.abc import Iterable
 from typing import Any
 
-from cosserat.describe.keys import LIKE, Key, Value, common_keys, keys, title
+from cosserat.describe.keys import LIKE, Key, Value, common_keys, described, keys, title
 from cosserat.describe.spellings import accepted, refused
 from cosserat.describe.text import need, thesis, type_of
 from cosserat.parameters import Count, Items, Quantity
@@ -52,7 +52,7 @@ def merged() -> Schema:
 
 def _shared(*, whole: bool) -> Schema:
     """Texts by their unit, and the problems that are parts of others."""
-    every = [key for kind in kinds() for key in keys(kind)]
+    every = [key for kind in described() for key in keys(kind)]
     about = [item.about for key in every for item in _scalars(key.value)]
     texts = {
         _word(what_is_in(unit)): {
@@ -94,7 +94,7 @@ def _case_of_any_kind() -> Schema:
 
     So an editor shows a key of several kinds once, and a fault in its place.
     """
-    cases = {kind: _case(kind, whole=False)["properties"] for kind in kinds()}
+    cases = {kind: _case(kind, whole=False)["properties"] for kind in described()}
     names = dict.fromkeys(name for nodes in cases.values() for name in nodes)
     alike = {name: [node for node in cases.values() if name in node] for name in names}
     properties = {
@@ -156,13 +156,19 @@ def _node(key: Key, found: tuple[Key, ...], *, whole: bool, like: bool = False) 
     elif value.form == "list" and value.items[0].tables:  # an inherited list is replaced as a whole
         form = {
             "type": "array",
-            "items": _table(found, inside, key.when, whole=True),
+            "items": _table(found, inside, key.when, whole=True) | _extra(value),
             **_lengths(value),
         }
     else:
         form = _form(value)
     droppable = not (whole or key.required or key.path in ("kind", LIKE.name) or "none" in value.words)
     return shown | (_or_none(form) if droppable else form)
+
+
+def _extra(value: Value) -> Schema:
+    """Leave for other keys in the tables of a list, if their class has it."""
+    allowed = any(table.model_config.get("extra") == "allow" for table in value.items[0].tables)
+    return {"additionalProperties": True} if allowed else {}
 
 
 def _or_none(form: Schema) -> Schema:
@@ -201,6 +207,8 @@ def _form(value: Value) -> Schema:
             ]
         },
         "text": {"type": "string"},
+        "names": {"type": "object", "additionalProperties": {"type": "string"}},
+        "number": {"type": "number"},
         "truth": {"type": "boolean"},
         "list": {
             "type": "array",

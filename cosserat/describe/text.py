@@ -5,11 +5,10 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from cosserat.describe.keys import Key, Value, common_keys, keys, title
+from cosserat.describe.keys import Key, Value, common_keys, described, keys, title
 from cosserat.errors import InputError
 from cosserat.explain import cited
 from cosserat.parameters import Count, Items, Quantity, nearest
-from cosserat.publications import kinds
 from cosserat.text import shortened
 from cosserat.units import what_is_in
 
@@ -19,8 +18,8 @@ WIDTH = 100
 
 def list_of_kinds() -> str:
     """Every kind with its description, a line each, and the keys of every case."""
-    width = max(map(len, kinds()))
-    lines = [f"{kind:<{width}}  {title(kind)}" for kind in kinds()]
+    width = max(map(len, described()))
+    lines = [f"{kind:<{width}}  {title(kind)}" for kind in described()]
     return "\n".join(
         [
             *lines,
@@ -43,7 +42,7 @@ def description(words: Sequence[str]) -> str:
     if not words:
         return list_of_kinds()
     kind, inner = " ".join(words), " ".join(words[:-1])
-    return list_of_keys(inner, words[-1]) if inner in kinds() else list_of_keys(kind)
+    return list_of_keys(inner, words[-1]) if inner in described() else list_of_keys(kind)
 
 
 def list_of_keys(kind: str, under: str = "") -> str:
@@ -131,6 +130,8 @@ def _type(value: Value) -> str:
     words = {
         "count": "a whole number",
         "name": "the name of a case, or a list of names",
+        "names": "a table of names, each with a text",
+        "number": "a number",
         "text": "a text",
         "truth": "true or false",
         "table": "a table",

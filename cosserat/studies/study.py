@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Items, Parameters
@@ -100,7 +100,7 @@ class Study(Parameters):
     """Name of the case that is varied."""
     vary: Annotated[tuple[Factor, ...], Items(1, 20)]
     """The factors; their members multiply, and the first is the slowest."""
-    keep: Annotated[dict[str, str], Field(default_factory=dict)]
+    keep: dict[str, str] = {}  # noqa: RUF012 - pydantic copies it
     """Read-outs by name: a variable of the result, such as "u.E2 at last" or "max |kappa|"."""
     keep_whole: Annotated[tuple[str, ...], Items(0, 50)] = ()
     """Variables of the result that are kept whole."""
