@@ -259,6 +259,12 @@ def _add_study(add: AddCommand) -> None:
         "--cores", type=int, metavar="N", help="let Snakemake solve it in batches on so many cores"
     )
     sub.add_argument(
+        "--batch",
+        type=int,
+        metavar="MEMBERS",
+        help="members that one job solves, when a study is first planned (default: what takes about a minute)",
+    )
+    sub.add_argument(
         "--profile",
         metavar="FOLDER",
         help="let Snakemake solve it by this profile, such as profiles/slurm",

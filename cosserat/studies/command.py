@@ -58,10 +58,10 @@ def study(options: argparse.Namespace) -> None:
             f"{folder} is a file, where the parts of the study go; move it or choose another --output"
         )
     if options.status:
-        _tell(found, folder, plan(found, folder))
+        _tell(found, folder, plan(found, folder, options.batch))
         return
     with only_writer(path):
-        made = plan(found, folder)
+        made = plan(found, folder, options.batch)
         if options.sweep:
             print(f"{found.name}: {sweep(folder, made)} batches deleted that the study does not use")
         if options.plan or options.sweep:

@@ -31,6 +31,8 @@ BATCH_SECONDS = 60.0
 """Time that a batch should take: the start of a process is then 2 % of it, and a kill loses no more."""
 MOST = 1 << 16
 """Most members of a batch."""
+MOST_BATCHES = 10_000
+"""Most batches of a study: a graph of more jobs takes Snakemake minutes and gigabytes."""
 _SMALL = 5.0  # seconds of work that are one batch
 _TRIED, _TRYING = 16, 0.5  # members and seconds for the estimate
 _BATCHES = 8  # batches at least, of a study that takes long
@@ -41,15 +43,19 @@ def folder_of(answer: Path) -> Path:
     return answer.with_name(f"{answer.name.removesuffix('.nc')}.study")
 
 
-def plan(found: Family, folder: Path) -> Plan:
+def plan(found: Family, folder: Path, size: int | None = None) -> Plan:
     """The batches of a study, stored in its folder; an earlier plan of the same study is taken as it is.
 
     Members that a stored batch has solved are not planned again.
 
+    size : members of a batch; by default as many as take `BATCH_SECONDS`.
+
     Raises
     ------
-    InputError : the folder cannot be written.
+    InputError : the folder cannot be written, or there would be too many batches.
     """
+    if size is not None and not 1 <= size <= MOST:
+        raise InputError(f"--batch is {size}; a batch has 1 to {MOST} members")
     task = found.task()
     digests = task.digests()
     asked = hashlib.blake2b(digests.tobytes() + task.about.encode(), digest_size=16).hexdigest()
@@ -70,7 +76,13 @@ def plan(found: Family, folder: Path) -> Plan:
     old, missing = _stored_already(folder, wanted)
     members = np.sort(first[missing])
     seconds = estimate(task) if members.size else 0.0
-    names = [*old, *_new_batches(folder, task, digests, members, seconds)]
+    size = batch_size(members.size, seconds) if size is None else size
+    if members.size / size > MOST_BATCHES:
+        raise InputError(
+            f"{members.size} members in batches of {size} are more than {MOST_BATCHES} jobs, too many for a scheduler; "
+            "take a larger --batch"
+        )
+    names = [*old, *_new_batches(folder, task, digests, members, size)]
     made = Plan(asked, tuple(names), seconds)
     write_plan(folder, made, found)
     return made
@@ -91,9 +103,8 @@ def _stored_already(folder: Path, wanted: Digests) -> tuple[list[str], NDArray[n
 
 
 def _new_batches(
-    folder: Path, task: Task, digests: Digests, members: NDArray[np.int64], seconds: float
+    folder: Path, task: Task, digests: Digests, members: NDArray[np.int64], size: int
 ) -> Iterator[str]:
-    size = batch_size(members.size, seconds)
     for begin in range(0, members.size, size):
         picked = members[begin : begin + size]
         own = digests[picked]
