@@ -6,23 +6,25 @@
     "natural_frequency at 0"    the first mode
     "kinetic_energy at 0.5 s"   between two instants, by linear interpolation
     "max |u.E2| at last"        over what is left after a place was taken: here the instants of a motion
+    "load_factor where |u.E2| at last reaches 5 cm"    the first time, by linear interpolation between instants
 
-Words before the variable: max, min, mean, norm (the root of the sum of squares), range (max less min), and final (at
-the last instant or point of a path).  Values that are the same for any member are bit-equal to its own result.
+Words before the variable: max, min, mean, norm (the root of the sum of squares), range (max less min), final (at the
+last instant or point of a path) and change (from the first one to the last).  The value of a member of a study is
+bit-equal to that of its own result.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
 from cosserat.data.variables import LABELS, VARIABLES
-from cosserat.errors import InputError
+from cosserat.errors import InputError, OutOfReachError
 from cosserat.parameters import nearest
 from cosserat.solution import Field
 from cosserat.text import shown
@@ -31,9 +33,11 @@ from cosserat.units import to_si
 Array = NDArray[np.float64]
 
 _FORM = re.compile(
-    r"\s*(?:(?P<over>max|min|mean|norm|range|final)\s+)?(?P<bar>\|?)\s*(?P<name>[A-Za-z_]\w*)(?P<labels>(?:\.[\w-]+)*)"
+    r"\s*(?:(?P<over>max|min|mean|norm|range|final|change)\s+)?(?P<bar>\|?)\s*(?P<name>[A-Za-z_]\w*)(?P<labels>(?:\.[\w-]+)*)"
     r"\s*(?P<end>\|?)(?:\s+at\s+(?P<at>.{1,40}?))?\s*"
 )
+_REACHES = re.compile(r"(?P<value>.+?)\s+where\s+(?P<inner>.+?)\s+reaches\s+(?P<level>.+)")
+_PINT = re.compile(r"([A-Za-z]+)(-?\d+)")
 _LONGEST = 200
 _ALONG = {"vertex": "xi", "edge": "xi_edge", "section": "xi_section", "time": "time"}
 """Dimensions with a coordinate in units, and the variable that holds it."""
@@ -55,6 +59,7 @@ class ReadOut:
     name : of the variable in the answer.  text : as it is written.  variable : of a result.  labels : components.
     over : what is done with the values that are left, or "" for one value.  size : whether absolute values count.
     at : the place or the instant, as it is written; "" for none.
+    where, level : another read-out, and the value that it reaches at the instant of this one; None for none.
     """
 
     name: str
@@ -64,6 +69,8 @@ class ReadOut:
     over: str
     size: bool
     at: str
+    where: ReadOut | None = None
+    level: float = 0.0
 
     @property
     def units(self) -> str:
@@ -78,7 +85,7 @@ class ReadOut:
     def needs(self) -> set[str]:
         """The variables of a result that it reads."""
         dims = VARIABLES[self.variable].dims
-        found = {self.variable}
+        found = {self.variable} if self.where is None else {self.variable} | self.where.needs()
         if not self.at:
             return found
         _, unit = _place(self.at)
@@ -104,8 +111,9 @@ class ReadOut:
         dims, values = self._components(dims, values, labels)
         if self.at:
             dims, values = self._placed(dims, values, fields)
-        if self.over == "final":
-            dims, values = self._instant(dims, values, -1)
+        if self.where is not None:
+            return np.asarray(self._where(self._of_instants(dims, values), fields, labels))
+        dims, values = self._ends(dims, values)
         values = np.abs(values) if self.size else values
         left = tuple(k for k, dim in enumerate(dims) if dim != "member")
         if self.over in _OVER:
@@ -121,6 +129,55 @@ class ReadOut:
         return np.asarray(values, dtype=np.float64) + np.zeros(
             members if members and "member" not in dims else ()
         )
+
+    def _where(
+        self, values: Array, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]]
+    ) -> float:
+        """The value at the instant where the other read-out first reaches its level."""
+        assert self.where is not None
+        dims, other = fields[self.where.variable]
+        dims, other = self.where._components(dims, other, labels)
+        if self.where.at:
+            dims, other = self.where._placed(dims, other, fields)
+        over = self.where._of_instants(dims, np.abs(other) if self.where.size else other) - self.level
+        if over.shape != values.shape:
+            raise InputError(
+                f"'{self.name}': {shown(self.text)} needs two values along the same instants"
+            )
+        passed = np.flatnonzero((over[:-1] < 0) != (over[1:] < 0))
+        if not passed.size:
+            raise OutOfReachError(
+                f"'{self.name}': {shown(self.where.text)} does not reach {self.level:g}; it goes from "
+                f"{over.min() + self.level:g} to {over.max() + self.level:g}"
+            )
+        k = int(passed[0])
+        share = over[k] / (over[k] - over[k + 1])
+        return float((1 - share) * values[k] + share * values[k + 1])
+
+    def _of_instants(self, dims: tuple[str, ...], values: Array) -> Array:
+        """Values along the instants alone, (n,)."""
+        found = [dim for dim in dims if dim in _INSTANTS]
+        if not found:
+            raise InputError(
+                f"'{self.name}': '{self.variable}' has no instants at which something is reached"
+            )
+        rows = np.moveaxis(values, dims.index(found[0]), 0).reshape(
+            values.shape[dims.index(found[0])], -1
+        )
+        if rows.shape[1] == 1:
+            return rows[:, 0]
+        if self.over not in _OVER:
+            raise InputError(
+                f"'{self.name}': {shown(self.text)} leaves more than one value at an instant"
+            )
+        return _OVER[self.over](np.ascontiguousarray(rows))
+
+    def _ends(self, dims: tuple[str, ...], values: Array) -> tuple[tuple[str, ...], Array]:
+        """What is asked for at the last instant."""
+        if self.over not in ("final", "change"):
+            return dims, values
+        left, last = self._instant(dims, values, -1)
+        return left, last if self.over == "final" else last - self._instant(dims, values, 0)[1]
 
     def _components(
         self, dims: tuple[str, ...], values: Array, labels: Mapping[str, Sequence[str]]
@@ -236,6 +293,11 @@ def read_out(name: str, text: object, study: str) -> ReadOut:
     ------
     InputError : it is no read-out.
     """
+    reaches = (
+        _REACHES.fullmatch(text.strip()) if isinstance(text, str) and len(text) <= _LONGEST else None
+    )
+    if reaches is not None:
+        return _reaching(name, reaches, study)
     found = _FORM.fullmatch(text) if isinstance(text, str) and len(text) <= _LONGEST else None
     if found is None or bool(found["bar"]) != bool(found["end"]):
         raise InputError(
@@ -256,3 +318,14 @@ def read_out(name: str, text: object, study: str) -> ReadOut:
     return ReadOut(
         name, str(text).strip(), variable, labels, found["over"] or "", bool(found["bar"]), at
     )
+
+
+def _reaching(name: str, found: re.Match[str], study: str) -> ReadOut:
+    """The read-out of a value where another one reaches a level."""
+    own, other = read_out(name, found["value"], study), read_out(name, found["inner"], study)
+    unit = _PINT.sub(r"\1^\2", other.units).replace(" ", "*")
+    try:
+        level = to_si(found["level"], unit, unit_required=True)
+    except PydanticCustomError as error:
+        raise InputError(f"{study}: '{name}' reaches a level that {error.message()}") from None
+    return replace(own, text=found[0].strip(), where=other, level=level)

@@ -17,7 +17,7 @@ PUBLICATION = Publication(
         "worm calibration": Kind("cosserat.thesis.worm_calibration:WormCalibration"),
     },
     folder="cosserat.thesis.cases",
-    cases=("chapter2.toml", "chapter3.toml"),
+    cases=("chapter2.toml", "chapter3.toml", "studies.toml"),
     variables="cosserat.thesis.variables:VARIABLES",
     commands="cosserat.thesis.commands:add_commands",
 )

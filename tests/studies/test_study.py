@@ -374,3 +374,43 @@ def test_the_answer_is_clean_cf(grid, tmp_path):
     assert frame.shape[0] == 6
     assert float(read["tip"].interp(height=0.0085)[0]) > 0
     assert command.WORKFLOW.exists()
+
+
+def test_a_value_where_another_one_reaches_a_level():
+    from cosserat.errors import OutOfReachError
+    from cosserat.studies.readouts import read_out
+
+    fields = {
+        "load_factor": (("point",), np.array([0.0, 0.5, 1.0])),
+        "u": (
+            ("point", "vertex", "axis"),
+            np.array([[[0, 0], [0, 0]], [[0, 0], [0, 1]], [[0, 0], [0, -4]]]) * 1.0,
+        ),
+    }
+    labels = {"axis": ("E3", "E2")}
+
+    def value(text):
+        return float(read_out("it", text, "s").of(fields, labels))
+
+    assert value("load_factor where |u.E2| at last reaches 25 cm") == 0.125
+    assert value("load_factor where max |u| reaches 2 m") == pytest.approx(0.5 + 0.5 / 3)
+    assert value("change u.E2 at last") == -4
+    assert value("final |u.E2| at last") == 4
+    with pytest.raises(OutOfReachError, match="does not reach 5"):
+        value("load_factor where |u.E2| at last reaches 5 m")
+
+
+def test_imperfect_columns_have_the_strength_of_perry_and_robertson():
+    """The stress of a bow between hinges is P/A (1 + e c / r^2 / (1 - P/P_E)); a section of an edge sees a little less."""
+    found = find_study("column_strength")
+    members = np.arange(0, 128, 16)
+    task = found.task(members)
+    from cosserat.studies.solving import solve_members
+
+    strength = solve_members(task).values["strength"]
+    bow, young, height = (task.columns[task.keys.index(key)] for key in task.keys)
+    width = found.base.problem.rod.width
+    euler = np.pi**2 * young * height**2 / 12
+    middle = (2e5 + (1 + 6 * bow / height) * euler) / 2
+    exact = middle - np.sqrt(middle**2 - 2e5 * euler)
+    np.testing.assert_allclose(strength * 5.55 / (width * height), exact, rtol=6e-3)
