@@ -9,6 +9,7 @@ from snakemake.utils import min_version
 
 from cosserat.cases.catalogue import published
 from cosserat.data.provenance import computing_sources
+from cosserat.studies.door import find_study, published_studies
 from cosserat.thesis.figures.catalogue import FIGURES
 
 min_version("9.0")
@@ -21,6 +22,7 @@ os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get
 
 CASES = published()
 BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
+STUDIES = published_studies()
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 # Tracked tables of chapters.
 MEASURED = {"ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv", "results/inputs.csv"]}
@@ -78,6 +80,7 @@ shell.prefix(f"set -euo pipefail; {HOLD}")
 
 wildcard_constraints:
     case="|".join(CASES),
+    study="|".join(STUDIES),
     chapter="|".join(CHAPTERS),
 
 
@@ -108,6 +111,24 @@ for batch, names in batches().items():
             f"results/benchmarks/simulate/{batch}.tsv"
         shell:
             "printf '%s\\n' {params.cases:q} | python -m cosserat run - --output results/cases > {log} 2>&1"
+
+
+rule study:
+    input:
+        SOLVER,
+        package("studies"),
+        ancient("cosserat/thesis/cases/studies.toml"),
+    output:
+        "results/studies/{study}.nc",
+    params:
+        # what is asked, so that a changed study is solved again; its batches are kept beside the answer
+        asked=lambda wildcards: find_study(wildcards.study).asked,
+    log:
+        "results/logs/study/{study}.log",
+    benchmark:
+        "results/benchmarks/study/{study}.tsv"
+    shell:
+        "python -m cosserat study {wildcards.study} --output {output} > {log} 2>&1"
 
 
 rule measure:
@@ -150,6 +171,7 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
             FORMULAS,
             READOUTS,
             cases=sorted({f"results/cases/{case}.nc" for name in drawn for case in FIGURES[name].cases}),
+            studies=sorted({f"results/studies/{study}.nc" for name in drawn for study in FIGURES[name].studies}),
             table=["results/tolerances.csv"] if any(FIGURES[name].rows for name in drawn) else [],
         output:
             *(
@@ -181,6 +203,7 @@ rule chapter:
         "results/left_out.toml",
         expand("results/cases/{case}.nc", case=CASES),
         expand("results/figures/{figure}.svg", figure=FIGURES),
+        expand("results/studies/{study}.nc", study=STUDIES),
         measured=lambda wildcards: [name for name in MEASURED.get(wildcards.chapter, []) if os.path.exists(name)],
         source="chapters/{chapter}.py",
     output:

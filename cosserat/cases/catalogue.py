@@ -119,6 +119,24 @@ def find(name: str, file: str | Path | None = None) -> Case:
     raise InputError(f"there is no case '{shortened(name)}'{place}{nearest(name, known)}")
 
 
+def find_base(name: str, file: str | Path | None = None) -> Case:
+    """What a study varies: a case of `file`, a published one, or a base of cases whose name begins with '_'.
+
+    Raises
+    ------
+    InputError : there is none of that name, or it is not valid.
+    """
+    own = {} if file is None else _read(file)
+    tables = published_tables() | own
+    known = [other for other, table in tables.items() if not _is_study(table)]
+    if name not in known:
+        raise InputError(
+            f"there is no case '{shortened(name)}' for a study to vary{nearest(name, known)}"
+        )
+    folder = path_of(file).parent if file is not None and name in own else None
+    return _build(name, Tables(tables), folder)
+
+
 def load(file: str | Path) -> Mapping[str, Case]:
     """All cases of a TOML file, by name; a case may be like a published one.
 
@@ -146,16 +164,6 @@ def study_tables(file: str | Path | None = None) -> dict[str, dict[str, Any]]:
 
 def _titles(table: Mapping[str, Any]) -> dict[str, Any]:
     return {key: table[key] for key in ("title", "source") if key in table}
-
-
-def names_in(file: str | Path) -> list[str]:
-    """The names of the cases of a file.
-
-    Raises
-    ------
-    InputError : the file cannot be read.
-    """
-    return _names(_read(file))
 
 
 def _names(tables: Mapping[str, Any]) -> list[str]:
@@ -267,7 +275,13 @@ def _build(name: str, known: Tables, folder: Path | None = None) -> Case:
     title, source = (own.get(key, "") for key in ("title", "source"))  # a title is not inherited
     called = f"case '{shortened(name)}'"
     problem = _read_problem(table, called, units_required=True, folder=folder)
-    about = {"name": name, "title": name if title == "" else title, "source": source, "problem": problem}
+    plain = name.lstrip("_")  # of a base
+    about = {
+        "name": plain,
+        "title": plain if title == "" else title,
+        "source": source,
+        "problem": problem,
+    }
     return Case.read(about, called)
 
 

@@ -15,7 +15,7 @@ from cosserat.data.provenance import environment, source
 from cosserat.data.variables import LABELS, VARIABLES
 from cosserat.publications import reference
 from cosserat.studies.factors import Columns
-from cosserat.studies.family import Family, parameters_of
+from cosserat.studies.family import Family
 from cosserat.studies.keys import VariedKey
 from cosserat.studies.solving import NOT_CONVERGED, STATUS, WARNED, Solved
 
@@ -59,7 +59,7 @@ def answer(found: Family, solved: Solved) -> xr.Dataset:
         "references": reference(),
         "comment": found.study.source or "a study of the user",
         "source": source(),
-        "study": json.dumps(parameters_of(found), sort_keys=True),
+        "study": found.asked,
         "environment": json.dumps(environment(), sort_keys=True),
     }
     return stamped(dataset)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from cosserat.cases.catalogue import Case, find, names_in, study_tables
+from cosserat.cases.catalogue import Case, find, find_base, parse, study_tables
 from cosserat.errors import InputError, path_of
 from cosserat.parameters import nearest
 from cosserat.problem import Progress
 from cosserat.progress import bar
-from cosserat.publications import titles
 from cosserat.studies.answer import answer
 from cosserat.studies.family import Family, family
 from cosserat.studies.solving import solve_members
@@ -36,8 +36,26 @@ def find_study(name: str, file: str | Path | None = None) -> Family:
         raise InputError(f"there is no study '{shortened(name)}'{place}{nearest(name, list(tables))}")
     read = Study.read(tables[name], f"study '{shortened(name)}'")
     folder = Path() if file is None else path_of(file).parent
-    where = None if read.of in titles() and (file is None or read.of not in names_in(file)) else file
-    return family(name, read, find(read.of, where), folder, unit_required=True)
+    return family(name, read, find_base(read.of, file), folder, unit_required=True)
+
+
+def case_of_study(answer: xr.Dataset) -> Case:
+    """The case that a study varies, from its answer.
+
+    Raises
+    ------
+    InputError : the Dataset is no answer of a study.
+    """
+    try:
+        told = json.loads(str(answer.attrs["study"]))["case"]
+    except (KeyError, ValueError, TypeError):
+        raise InputError("the Dataset is no answer of a study; use one that cosserat wrote") from None
+    return parse(json.dumps(told))
+
+
+def published_studies() -> list[str]:
+    """The names of the published studies."""
+    return list(study_tables())
 
 
 def study(

@@ -116,6 +116,11 @@ class Family:
         return self.study.title or self.name
 
     @property
+    def asked(self) -> str:
+        """The case and the study as JSON."""
+        return json.dumps(parameters_of(self), sort_keys=True)
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """The numbers of members of the factors."""
         return tuple(factor.size for factor in self.factors)

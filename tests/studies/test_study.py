@@ -401,7 +401,7 @@ def test_a_value_where_another_one_reaches_a_level():
 
 
 def test_imperfect_columns_have_the_strength_of_perry_and_robertson():
-    """The stress of a bow between hinges is P/A (1 + e c / r^2 / (1 - P/P_E)); a section of an edge sees a little less."""
+    """The stress of a bow between hinges is P/A (1 + e c / r^2 / (1 - P/P_E)); edges see a little less."""
     found = find_study("column_strength")
     members = np.arange(0, 128, 16)
     task = found.task(members)

@@ -45,6 +45,11 @@ def data(case: str) -> xr.Dataset:
     return load(results() / "cases" / f"{case}.nc")
 
 
+def study(name: str) -> xr.Dataset:
+    """The stored answer of a published study."""
+    return load(results() / "studies" / f"{name}.nc")
+
+
 def figure(name: str, caption: str) -> HTML:
     """A drawn figure with its number and a caption."""
     picture = base64.b64encode((results() / "figures" / f"{name}.svg").read_bytes()).decode()

@@ -26,6 +26,7 @@ class Entry:
     """One figure: its title, the module of `cosserat.thesis.figures` that draws it, and the cases it needs.
 
     rows : rows of the results table whose published numbers it shows beside the cases.
+    studies : published studies that it needs.
     round_off : whether it draws round-off, which is another one on each kind of processor.
     """
 
@@ -34,6 +35,7 @@ class Entry:
     cases: tuple[str, ...]
     rows: tuple[str, ...] = ()
     round_off: bool = False
+    studies: tuple[str, ...] = ()
 
 
 FIGURES: dict[str, Entry] = {
@@ -111,6 +113,13 @@ FIGURES: dict[str, Entry] = {
     "fig_tumbling": Entry("A tumbling rod", "consistent", ("tumbling",), round_off=True),
     "fig_conventions": Entry("Frames and signs", "conventions", ()),
     "fig_modes": Entry("The lowest modes of the vibrating beam", "motion", ("vibration_c4_20",)),
+    "fig_worm_stride": Entry("Which inputs decide the stride", "studies", (), studies=("worm_stride",)),
+    "fig_calibration_reach": Entry(
+        "How far the published calibration reaches", "studies", (), studies=("calibration_reach",)
+    ),
+    "fig_column_strength": Entry(
+        "The strength of imperfect columns", "studies", (), studies=("column_strength",)
+    ),
     "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
     "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),
 }
@@ -139,16 +148,20 @@ def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figu
 def draw_to(name: str, folder: Path, path: Path, table: Path = TABLE) -> None:
     """Draw a figure from the files `<case>.nc` of a folder and the results table, and write it as SVG.
 
+    Studies are in the folder `studies` beside the one of the cases.
+
     Raises
     ------
     InputError : no figure of that name, or a file is missing or unreadable.
     """
     from cosserat.data.files import check_destination
-    from cosserat.data.netcdf import load_case
+    from cosserat.data.netcdf import load, load_case
     from cosserat.figures.style import write
 
     check_destination(path, ".svg")
-    data = {case: load_case(folder, case) for case in entry(name).cases}
+    found = entry(name)
+    data = {case: load_case(folder, case) for case in found.cases}
+    data |= {study: load(folder.parent / "studies" / f"{study}.nc", own=True) for study in found.studies}
     write(draw(name, data, table), path)
 
 
