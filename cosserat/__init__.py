@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cosserat.figures.doors import animate, plot
     from cosserat.limits import Limits
     from cosserat.runner import modes, run
+    from cosserat.studies.analysis.indices import indices
     from cosserat.studies.door import study
 
 _HOMES = {
@@ -50,6 +51,7 @@ _HOMES = {
         ("plot", "plot"),
     ),
     "cosserat.limits": (("Limits", "Limits"),),
+    "cosserat.studies.analysis.indices": (("indices", "indices"),),
     "cosserat.studies.door": (("study", "study"),),
     "cosserat.runner": (
         ("modes", "modes"),
@@ -68,6 +70,7 @@ __all__ = [
     "animate",
     "case",
     "case_of",
+    "indices",
     "load",
     "load_cases",
     "modes",
