@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from cosserat.figures.doors import animate, plot
     from cosserat.limits import Limits
     from cosserat.runner import modes, run
+    from cosserat.studies.analysis.estimates import estimate_error
+    from cosserat.studies.analysis.indices import indices
+    from cosserat.studies.analysis.orders import orders
     from cosserat.studies.door import study
 
 _HOMES = {
@@ -50,6 +53,9 @@ _HOMES = {
         ("plot", "plot"),
     ),
     "cosserat.limits": (("Limits", "Limits"),),
+    "cosserat.studies.analysis.estimates": (("estimate_error", "estimate_error"),),
+    "cosserat.studies.analysis.indices": (("indices", "indices"),),
+    "cosserat.studies.analysis.orders": (("orders", "orders"),),
     "cosserat.studies.door": (("study", "study"),),
     "cosserat.runner": (
         ("modes", "modes"),
@@ -68,9 +74,12 @@ __all__ = [
     "animate",
     "case",
     "case_of",
+    "estimate_error",
+    "indices",
     "load",
     "load_cases",
     "modes",
+    "orders",
     "plot",
     "published",
     "run",

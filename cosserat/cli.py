@@ -236,6 +236,14 @@ def _add_commands(add: AddCommand) -> None:
         help="largest result that may be computed (default: %(default)g)",
     )
 
+    sub.add_argument(
+        "--estimate-error",
+        nargs="*",
+        metavar="READ-OUT",
+        help="also solve the case on coarser and finer meshes within the same --hours, and print the estimated error "
+        "of read-outs such as 'u.E2 at last' or 'max |kappa|' (default: some that the result has)",
+    )
+
     _add_study(add)
     _add_results(add)
     _add_listings(add)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -65,9 +66,42 @@ def run(options: argparse.Namespace) -> None:
     folder = Path() if options.output is None else options.output
     if len(cases) > 1 and not os.path.isdir(folder):
         raise InputError(f"{folder} is not a folder; write several cases to an existing folder")
+    wanted = _wanted(cases, options.estimate_error)
     for case in cases:
         path = folder / f"{case.name}.nc" if os.path.isdir(folder) else folder
-        _run_case(case, path, limits, file=options.file, keep_last=options.keep_last)
+        began = time.monotonic()
+        dataset = _run_case(case, path, limits, file=options.file, keep_last=options.keep_last)
+        if wanted is not None:
+            hours = max(limits.hours - (time.monotonic() - began) / 3600, 1e-9)
+            _print_errors(case, dataset, wanted, limits.replace(hours=hours))
+
+
+def _wanted(cases: list[Case], read_outs: list[str] | None) -> dict[str, str] | None:
+    """The read-outs whose errors are estimated, by any names; None if none are, before anything is solved.
+
+    Raises
+    ------
+    InputError : a case has no mesh, or a read-out is none.
+    """
+    if read_outs is None:
+        return None
+    from cosserat.studies.analysis.estimates import what_to_estimate
+
+    wanted = {f"value_{number}": text for number, text in enumerate(read_outs)}
+    for case in cases:
+        what_to_estimate(case, wanted)
+    return wanted
+
+
+def _print_errors(case: Case, dataset: xr.Dataset, wanted: dict[str, str], limits: Limits) -> None:
+    """Estimate the errors of a result and print them."""
+    from cosserat.data.dataset import warnings_of
+    from cosserat.studies.analysis.estimates import estimate_error, lines
+
+    found = estimate_error(case, wanted, limits=limits, result=dataset)
+    print("\n".join(map(printable, lines(found))))
+    for warning in warnings_of(found):
+        print(f"warning: {printable(warning)}", file=sys.stderr)
 
 
 def _standard_input() -> str:
@@ -90,8 +124,10 @@ def _standard_input() -> str:
     return given
 
 
-def _run_case(case: Case, path: Path, limits: Limits, *, file: Path | None, keep_last: bool) -> None:
-    """Solve one case, write its file and report the effort."""
+def _run_case(
+    case: Case, path: Path, limits: Limits, *, file: Path | None, keep_last: bool
+) -> xr.Dataset:
+    """Solve one case, write its file and report the effort; returns the result."""
     from cosserat.data.checkpoints import Parts
     from cosserat.data.dataset import effort, warnings_of
     from cosserat.data.files import check_destination
@@ -118,6 +154,7 @@ def _run_case(case: Case, path: Path, limits: Limits, *, file: Path | None, keep
     print(f"{case.name}: {effort(dataset)}; wrote {path}")
     for warning in warnings_of(dataset):
         print(f"warning: {printable(warning)}", file=sys.stderr)
+    return dataset
 
 
 def _what_is_left(stopped: CosseratError, path: Path, *, keep_last: bool) -> str:

@@ -65,7 +65,7 @@ def saltelli(count: int, keys: int, seed: int) -> Points:
 
 
 def morris(count: int, keys: int, seed: int) -> Points:
-    """`count` trajectories, each changes one key after the other by 2/3 (Morris 1991), on four levels.
+    """`count` trajectories, each changes one key after the other by two of four levels (Morris 1991).
 
     The levels are the middles of four equal intervals of probability, so that a normal distribution has them too.
     """

@@ -88,18 +88,18 @@ def fig_calibration_reach(data: Data) -> Figure:
 def reach(answer: xr.Dataset) -> xr.DataArray:
     """The tip's sag over that of a clamped-free Timoshenko beam, eq. (3.5.3)."""
     problem = case_of_study(answer).problem_as(RodStatics)
-    assert problem.gravity is not None
-    fall = problem.gravity.g
+    material, gravity = problem.rod.material, problem.gravity
+    assert material is not None
+    assert gravity is not None
 
     def exact(length: float, poisson: float) -> float:
-        rod = problem.rod.replace(length=length, material=problem.rod.material.replace(poisson=poisson))
-        curve = beams.clamped_free_displacement(
-            beam_of(problem.replace(rod=rod)), problem.gravity.g, np.array([length])
-        )
-        return float(curve[0])
+        rod = problem.rod.replace(length=length, material=material.replace(poisson=poisson))
+        beam = beam_of(problem.replace(rod=rod))
+        return float(beams.clamped_free_displacement(beam, gravity.g, np.array([length]))[0])
 
     sag = xr.apply_ufunc(np.vectorize(exact), answer["length"], answer["poisson"])
-    return answer["sag"] / sag
+    ratio: xr.DataArray = answer["sag"] / sag
+    return ratio
 
 
 def fig_column_strength(data: Data) -> Figure:
