@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 
 from cosserat.exact import beams
@@ -43,7 +44,8 @@ def fig_worm_stride(data: Data) -> Figure:
     left.set_yticks(places, [_KEYS[name] for name in names])
     left.invert_yaxis()
     left.set(xlabel="Sobol's index [1]", title="(a) share of the variance")
-    left.legend(fontsize=7, loc="lower right")
+    left.set_xlim(right=1.05)
+    left.legend(fontsize=7, loc="upper right")
     order = np.argsort(-found["total"].to_numpy())[:2]
     base = answer.isel(member=answer["matrix"].to_numpy() < 2)
     for ax, k, letter in ((middle, order[0], "b"), (right, order[1], "c")):
@@ -80,6 +82,8 @@ def fig_calibration_reach(data: Data) -> Figure:
         )
     for ax, title in zip(axes, (r"(a) $\nu$ = 0.2", "(b) N = 20, that of the calibration"), strict=True):
         ax.axhline(1, color=BODY, zorder=1)
+        ax.set_xticks(slender, [f"{value:g}" for value in slender.to_numpy()], minor=False)
+        ax.xaxis.set_minor_locator(NullLocator())
         ax.set(xlabel="length over height [1]", ylabel="sag over the beam's [1]", title=title)
         ax.legend(fontsize=7)
     return figure
