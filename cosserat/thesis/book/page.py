@@ -11,6 +11,7 @@ import re
 import textwrap
 from collections.abc import Sequence
 from html import escape
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +49,24 @@ def data(case: str) -> xr.Dataset:
 def study(name: str) -> xr.Dataset:
     """The stored answer of a published study."""
     return load(results() / "studies" / f"{name}.nc")
+
+
+def written(name: str) -> Markdown:
+    """A published study as its case file has it, with the base of its case.
+
+    Raises
+    ------
+    InputError : there is no such study.
+    """
+    text = (resources.files("cosserat.thesis.cases") / "studies.toml").read_text(encoding="utf-8")
+    tables = re.split(r"^(?=\[\w)", text, flags=re.MULTILINE)[1:]  # each with what follows it
+    own = [part for part in tables if re.match(rf"\[{re.escape(name)}\]", part)]
+    if not own:
+        raise InputError(f"there is no study '{name}'")
+    base = re.search(r'^of = "(\w+)"', own[0], flags=re.MULTILINE)
+    bases = [part for part in tables if base and part.startswith(f"[{base[1]}]")]
+    code = "\n\n".join(part.strip() for part in [*bases, *own])
+    return Markdown(f"```toml\n{code}\n```")
 
 
 def figure(name: str, caption: str) -> HTML:
