@@ -37,7 +37,12 @@ def blocks(language):
     return [text for found, text in BLOCKS if found == language]
 
 
-TABLES = [(name, text) for text in blocks("toml") for name in tomllib.loads(text)]
+TABLES = [
+    (name, text)
+    for text in blocks("toml")
+    for name, table in tomllib.loads(text).items()
+    if table.get("kind") != "study"  # which the shell lines solve
+]
 LINES = [line.split("  #")[0].strip() for text in blocks("sh") for line in text.splitlines()]
 
 
