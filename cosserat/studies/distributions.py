@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
-from scipy.special import ndtr, ndtri
 
 from cosserat.errors import InputError
 from cosserat.studies.keys import VariedKey
@@ -43,18 +42,30 @@ class Distribution:
         return replace(self, numbers=(self.numbers[0], deviation))
 
 
+def _ndtr(x: Array | float) -> Array:
+    from scipy.special import ndtr  # takes 0.2 s: only to draw members
+
+    return np.asarray(ndtr(x))
+
+
+def _ndtri(p: Array) -> Array:
+    from scipy.special import ndtri
+
+    return np.asarray(ndtri(p))
+
+
 def _truncated(numbers: tuple[float, ...], probabilities: Array) -> Array:
     mean, deviation, low, high = numbers
     if low > mean:  # the other tail, where probabilities near one would lose their digits
         return np.asarray(-_truncated((-mean, deviation, -high, -low), 1 - probabilities))
-    below, above = (ndtr((bound - mean) / deviation) for bound in (low, high))
-    return np.asarray(mean + deviation * ndtri(below + (above - below) * probabilities)).clip(low, high)
+    below, above = (_ndtr((bound - mean) / deviation) for bound in (low, high))
+    return np.asarray(mean + deviation * _ndtri(below + (above - below) * probabilities)).clip(low, high)
 
 
 _VALUES: Mapping[str, Callable[[tuple[float, ...], Array], Array]] = {
     "uniform": lambda numbers, p: numbers[0] + (numbers[1] - numbers[0]) * p,
     "log_uniform": lambda numbers, p: numbers[0] * np.exp(np.log(numbers[1] / numbers[0]) * p),
-    "normal": lambda numbers, p: numbers[0] + numbers[1] * ndtri(p),
+    "normal": lambda numbers, p: numbers[0] + numbers[1] * _ndtri(p),
     "truncated": _truncated,
 }
 
@@ -115,6 +126,6 @@ def correlated(probabilities: Array, correlation: Array) -> Array:
     numpy.linalg.LinAlgError : the correlation is not positive definite.
     """
     factor = np.linalg.cholesky(correlation)
-    normal = ndtri(probabilities)
+    normal = _ndtri(probabilities)
     mixed = sum((normal[:, k, None] * factor.T[k] for k in range(len(factor))), np.zeros_like(normal))
-    return np.asarray(ndtr(mixed))
+    return np.asarray(_ndtr(mixed))
