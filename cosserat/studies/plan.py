@@ -34,7 +34,7 @@ MOST = 1 << 16
 MOST_BATCHES = 10_000
 """Most batches of a study: a graph of more jobs takes Snakemake minutes and gigabytes."""
 _SMALL = 5.0  # seconds of work that are one batch
-_TRIED, _TRYING = 16, 0.5  # members and seconds for the estimate
+_TRIED, _TRYING = 4096, 0.1  # members and seconds for the estimate
 _BATCHES = 8  # batches at least, of a study that takes long
 
 
@@ -124,15 +124,18 @@ def batch_size(members: int, seconds: float) -> int:
 
 
 def estimate(task: Task) -> float:
-    """Seconds that one member takes, from a few of them."""
-    picked = np.unique(np.linspace(0, task.size - 1, min(task.size, _TRIED)).astype(np.int64))
-    solve_members(task.part(picked[:1]))  # the first one loads what is compiled
-    began, done = time.perf_counter(), 0
-    for part in (picked[:1], picked[1:4], picked[4:]):
-        if part.size and time.perf_counter() - began < _TRYING:
-            solve_members(task.part(part))
-            done += part.size
-    return (time.perf_counter() - began) / done
+    """Seconds that one member takes, from ever more of them: many together may take far less than one alone."""
+    solve_members(task.part(slice(0, 1)))  # the first one loads what is compiled
+    count, seconds = 1, np.inf
+    while True:
+        picked = np.unique(np.linspace(0, task.size - 1, min(task.size, count)).astype(np.int64))
+        began = time.perf_counter()
+        solve_members(task.part(picked))
+        passed = time.perf_counter() - began
+        seconds = min(seconds, passed / picked.size)
+        if passed > _TRYING or picked.size >= min(task.size, _TRIED):
+            return float(seconds)
+        count *= 4
 
 
 def _task_file(folder: Path, name: str) -> Path:
