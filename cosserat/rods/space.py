@@ -9,8 +9,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.kinematics import Kinematics, lengths, rotated, rotation_rates, stretch_rates
+from cosserat.rods.kinematics import (
+    PLANAR,
+    Kinematics,
+    lengths,
+    rotated,
+    rotation_rates,
+    stretch_rates,
+)
+from cosserat.rods.space_kernel import planar
 from cosserat.solvers.banded import Mask, Vector
+from cosserat.solvers.system import CompiledSpace
 
 Array = NDArray[np.float64]
 _MAX_ROTATION = 1.0  # of a director in one step [rad]
@@ -34,6 +43,15 @@ class RodSpace:
     def dimension(self) -> int:
         """Dimension of the space of positions and directors."""
         return self.kinematics.dimension
+
+    @cached_property
+    def compiled(self) -> CompiledSpace | None:
+        """That of a planar rod."""
+        if self.kinematics != PLANAR:
+            return None
+        none = np.zeros_like(self.at_rest)
+        parts = 2 * (none.size // self.kinematics.per_vertex) - 1
+        return CompiledSpace(planar, self.at_rest if self.displacements else none, parts)
 
     @cached_property
     def reference(self) -> Vector:

@@ -1,0 +1,485 @@
+"""Equilibria of many like bodies as their loads grow, in one compiled loop; a single body is an array of one.
+
+The body is one potential under dead loads, its constrained degrees of freedom (DOFs) stay where they are, and its path
+is stable and predictable.  Wherever the loop is in doubt, because the Hessian is not positive, a prediction fails, or
+Newton's method does not converge, it leaves the body to `solvers.incremental`.  It factorises by itself: the bits of an
+answer must depend neither on the kernels of a library of linear algebra nor on the other bodies of the array.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+from numba import types as numba_types
+from numpy.typing import NDArray
+
+from cosserat.solvers.potential import ENERGY, GRADIENT, HESSIAN, KERNEL
+
+Vector = NDArray[np.float64]
+Fields = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+types: Any = numba_types  # which says nothing of its own types
+
+FRACTION, RATES, PREDICTED = range(3)
+"""Tasks of the kernel of a configuration space."""
+SPACE_KERNEL = types.float64(
+    types.int64,
+    types.float64[::1],
+    types.float64[::1],
+    types.float64[::1],
+    types.boolean[::1],
+    types.float64[:, ::1],
+)
+"""A compiled `cosserat.solvers.system.ConfigurationSpace`: (task, placed, q, change, constrained, rates) -> number.
+
+placed : (n,) added to q.  FRACTION : the result of `max_step_fraction` for a step `change`.  RATES : overwrites `rates`.
+PREDICTED : overwrites `change` by the DOFs after the motions `rates`; constrained ones stay those of q.
+"""
+
+REACHED, LEFT = range(2)
+"""Whether the loop has reached the full load, or left the body to others."""
+PREDICTION_TOLERANCE = 0.3
+"""Largest prediction error, as a fraction of the increment."""
+NEGLIGIBLE_ROTATION = 1e-5
+"""Rotation below which an increment needs no prediction [rad]."""
+MAX_ROTATION = 0.7
+"""Largest rotation of a part in an increment [rad]."""
+MAX_ROUND_OFF_FRACTION = 1e-3
+"""Largest round-off of forces, as a fraction of the loads; more makes an answer worthless."""
+_STALL_FACTOR = 16.0  # a residual that stops falling below this multiple of round-off is round-off
+_MAX_CUTBACKS = 4  # rejected increments before a body is left
+_STRAIGHT = 1e-4  # rotation or stretch below which a step is a straight line
+_SETTLED = 1e-1  # last correction of an increment before the last one, as a fraction of the increment
+_STIFFENING = 0.9  # ratio of the rates at two points below which a body stiffens
+_EPS = float(np.finfo(float).eps)
+
+
+class Members(NamedTuple):
+    """Bodies that differ in numbers alone.
+
+    constants : (M, bytes) of the potential.  origin : (M, n) added to the DOFs by the potential.
+    placed : (M, n) added to the DOFs by the configuration space.  scale, start : (M, n) as in
+    `cosserat.solvers.system`.  dead : (M, n) the loads [N].  sizes : (M, 2) the largest of all loads and their sum [N].
+    """
+
+    constants: NDArray[np.uint8]
+    origin: Fields
+    placed: Fields
+    scale: Fields
+    start: Fields
+    dead: Fields
+    sizes: Fields
+
+
+class Limits(NamedTuple):
+    """Settings of the loop: tolerance, most iterations, longest increment; numbers of terms and of parts.
+
+    width : of the bands, as many zeros.
+    """
+
+    tolerance: float
+    max_iterations: int
+    longest: float
+    terms: int
+    parts: int
+    width: tuple[int, ...]
+
+
+class Answers(NamedTuple):
+    """What the loop overwrites.
+
+    q, reaction : (M, n) [m, N].  forces : (M, 3) residual, tolerance and rounding [N].  counts : (M, 2) iterations and
+    cutbacks.  status : (M,) whether each is solved.
+    """
+
+    q: Fields
+    reaction: Fields
+    forces: Fields
+    counts: NDArray[np.int64]
+    status: NDArray[np.int64]
+
+    @classmethod
+    def empty(cls, members: int, dofs: int) -> Answers:
+        """Of bodies that nobody has looked at."""
+        return cls(
+            np.zeros((members, dofs)),
+            np.zeros((members, dofs)),
+            np.zeros((members, 3)),
+            np.zeros((members, 2), dtype=np.int64),
+            np.full(members, LEFT),
+        )
+
+
+class _Body(NamedTuple):
+    """One of them, with its kernels and work space; see above."""
+
+    kernel: Any
+    space: Any
+    data: NDArray[np.uint8]
+    origin: Vector
+    placed: Vector
+    scale: Vector
+    dead: Vector
+    held: Mask
+    load: float
+    total: float
+    at: Vector
+    gradient: Vector
+    room: Vector
+    width: Any
+    band: Fields
+    skew: Fields
+    terms: Vector
+    none: Vector
+
+
+@njit(cache=True)
+def balance(gradient: Vector, constrained: Mask, forces: Vector) -> tuple[float, float]:
+    """Overwrite what is unbalanced; the largest of it, not a number where one is not, and of the reactions."""
+    residual = reaction = 0.0
+    for i in range(gradient.size):
+        forces[i] = 0.0 if constrained[i] else -gradient[i]
+        size = abs(gradient[i])
+        if constrained[i]:
+            reaction = max(reaction, size)
+        elif size > residual or np.isnan(size):
+            residual = size
+    return residual, reaction
+
+
+@njit(cache=True)
+def stalled(residual: float, last: float, rounding: float) -> bool:
+    """Whether the residual no longer falls and is of the order of the estimated round-off."""
+    return residual > last / 2 and residual <= _STALL_FACTOR * rounding
+
+
+@njit(cache=True)
+def largest_product(band: Fields, x: Vector, scale: Vector, work: Vector) -> float:
+    """The largest entry of |H| max(|x|, scale); work : (n,) is overwritten."""
+    n, width = band.shape
+    work[:] = 0.0
+    for j in range(n):
+        size = max(abs(x[j]), scale[j])
+        total = work[j] + abs(band[j, 0]) * size
+        for k in range(1, min(width, n - j)):
+            entry = abs(band[j, k])
+            work[j + k] += entry * size
+            total += entry * max(abs(x[j + k]), scale[j + k])
+        work[j] = total
+    largest = 0.0
+    for j in range(n):
+        largest = max(largest, work[j])
+    return largest
+
+
+@njit(cache=True, error_model="numpy")
+def factorise(band: Fields, held: Mask, width: tuple[int, ...]) -> bool:
+    """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive.
+
+    Constrained DOFs are uncoupled and have the diagonal 1.
+
+    band : (n + w, w), zero beyond the matrix.  width : w numbers, so that compiled code knows how many there are.
+    """
+    for j in range(held.size):
+        for k in range(1, len(width)):
+            if held[j] or (j + k < held.size and held[j + k]):
+                band[j, k] = 0.0
+        if held[j]:
+            band[j, 0] = 1.0
+    for j in range(held.size):
+        row = band[j]
+        if not row[0] > 0.0:
+            return False
+        row[0] = 1 / np.sqrt(row[0])
+        for k in range(1, len(width)):
+            row[k] *= row[0]
+        for k in range(1, len(width)):
+            below, factor = band[j + k], row[k]
+            for m in range(k, len(width)):
+                below[m - k] -= factor * row[m]
+    return True
+
+
+@njit(cache=True)
+def substitute(factor: Fields, width: tuple[int, ...], x: Vector, room: Vector) -> None:
+    """Overwrite a right-hand side (n,) with the solution; room : (n + w,) is overwritten."""
+    n = x.size
+    room[:n] = x
+    room[n:] = 0.0
+    for j in range(n):
+        room[j] *= factor[j, 0]
+        for k in range(1, len(width)):
+            room[j + k] -= factor[j, k] * room[j]
+    room[n:] = 0.0
+    for j in range(n - 1, -1, -1):
+        total = room[j]
+        for k in range(1, len(width)):
+            total -= factor[j, k] * room[j + k]
+        room[j] = total * factor[j, 0]
+    x[:] = room[:n]
+
+
+@njit(cache=True)
+def _assemble(body: _Body, q: Vector, factor: float, task: int) -> float:
+    """Overwrite the gradient, and the Hessian if that is the task; the energy of the body."""
+    for i in range(q.size):
+        body.at[i] = q[i] + body.origin[i]
+        body.gradient[i] = 0.0
+    if task == HESSIAN:
+        body.band[:, :] = 0.0
+    energy = body.kernel(
+        body.at,
+        body.none,
+        body.data,
+        body.none,
+        body.skew,
+        task,
+        body.gradient,
+        body.band[: q.size] if task == HESSIAN else body.skew,
+        body.skew,
+        body.terms,
+    )
+    for i in range(q.size):
+        body.gradient[i] -= factor * body.dead[i]
+    return energy
+
+
+@njit(cache=True)
+def _load_rates(body: _Body, q: Vector, velocity: Vector, rates: Fields) -> None:
+    """Overwrite the rates with the load factor at q, where the Hessian has been factorised."""
+    for i in range(q.size):
+        velocity[i] = 0.0 if body.held[i] else body.dead[i]
+    substitute(body.band, body.width, velocity, body.room)
+    body.space(RATES, body.placed, q, velocity, body.held, rates)
+
+
+@njit(cache=True)
+def _reach(
+    body: _Body,
+    limits: Limits,
+    q: Vector,
+    goal: float,
+    size: float,
+    step: Vector,
+    rates: Fields,
+    ahead: Fields,
+    reaction: Vector,
+    forces: Vector,
+) -> tuple[bool, int]:
+    """Newton's method from q at a load factor; q, reaction and forces are overwritten: whether it converges, its steps.
+
+    size : largest rotation or stretch of the increment.  Before the last increment q need not satisfy the balance
+    to the end: there is no more than a small part of the increment to correct.
+    """
+    n, last, count, load = q.size, np.inf, 0, abs(goal) * body.load
+    for _ in range(limits.max_iterations + 1):
+        energy = _assemble(body, q, goal, HESSIAN)
+        if not np.isfinite(energy):
+            return False, count
+        residual, support = balance(body.gradient, body.held, step)
+        rounding = _EPS * largest_product(body.band[:n], q, body.scale, body.at)
+        scale = max(load, support)
+        tolerance = max(limits.tolerance * scale, rounding)
+        if rounding > MAX_ROUND_OFF_FRACTION * max(scale, body.total):
+            return False, count
+        if not factorise(body.band, body.held, body.width):
+            return False, count
+        substitute(body.band, body.width, step, body.room)
+        if goal == 1.0 and (residual <= tolerance or stalled(residual, last, rounding)):
+            forces[0], forces[1], forces[2] = residual, tolerance, rounding
+            for i in range(n):
+                reaction[i] = body.gradient[i] if body.held[i] else 0.0
+                step[i] += q[i]
+            _assemble(body, step, goal, GRADIENT)
+            nearer, _ = balance(body.gradient, body.held, body.at)
+            if nearer <= max(residual, rounding):
+                forces[0] = nearer
+                for i in range(n):
+                    q[i] = step[i]
+                    reaction[i] = body.gradient[i] if body.held[i] else 0.0
+            return True, count
+        last = residual
+        share = min(1.0, body.space(FRACTION, body.placed, q, step, body.held, rates))
+        body.space(RATES, body.placed, q, step, body.held, rates)
+        fastest = _largest(rates)
+        if not np.isfinite(fastest):
+            return False, count
+        settled = goal < 1.0 and fastest <= _SETTLED * size
+        if settled:
+            _load_rates(body, q, body.at, ahead)
+        if fastest > _STRAIGHT:
+            for row in rates:
+                for k in range(row.size):
+                    row[k] *= share
+            body.space(PREDICTED, body.placed, q, step, body.held, rates)
+            q[:] = step
+        else:
+            for i in range(n):
+                q[i] += step[i]
+        count += 1
+        if settled:
+            return True, count
+    return False, count
+
+
+@njit(cache=True)
+def _largest(values: Fields) -> float:
+    """The largest size of some numbers."""
+    largest = 0.0
+    for row in values:
+        for value in row:
+            if not abs(value) <= largest:
+                largest = abs(value)
+    return largest
+
+
+@njit(cache=True, error_model="numpy")
+def _extrapolate(
+    rates: Fields, earlier: Fields, before: float, point: float, goal: float, moved: Fields
+) -> None:
+    """Overwrite the motion from one load factor to another by the rates there and, if it is not negative, before.
+
+    derived: a body that stiffens as it turns towards its load has rates like 1 / (c + factor).  With the logarithm of
+    c + factor as the parameter they change least; c makes them the same at both points in the mean.  Otherwise the
+    parameter is the factor.
+    """
+    first = goal - point
+    second, share = 0.0, 1.0
+    if before >= 0.0:
+        both = square = 0.0
+        for i in range(rates.shape[0]):
+            for k in range(rates.shape[1]):
+                both += rates[i, k] * earlier[i, k]
+                square += earlier[i, k] * earlier[i, k]
+        second = first * first / 2 / (point - before)
+        share = both / square
+        if 0.0 < share < _STIFFENING:
+            c = (point * share - before) / (1 - share)
+            first = (c + point) * np.log((c + goal) / (c + point))
+            second = first * first / (c + point) / 2 / -np.log(share)
+        else:
+            share = 1.0
+    for i in range(rates.shape[0]):
+        for k in range(rates.shape[1]):
+            moved[i, k] = first * rates[i, k] + second * (rates[i, k] - share * earlier[i, k])
+
+
+@njit(cache=True)
+def _start(body: _Body, limits: Limits, q: Vector, step: Vector) -> bool:
+    """Whether the body is at rest without loads, stable, and its loads above round-off; the Hessian is factorised."""
+    energy = _assemble(body, q, 0.0, HESSIAN)
+    residual, _ = balance(body.gradient, body.held, step)
+    rounding = _EPS * largest_product(body.band[: q.size], q, body.scale, body.at)
+    sound = np.isfinite(energy) and residual <= _STALL_FACTOR * rounding and body.load > 0.0
+    if not sound or rounding > MAX_ROUND_OFF_FRACTION * body.total:
+        return False
+    return factorise(body.band, body.held, body.width)
+
+
+@njit(cache=True)
+def _climb(
+    body: _Body,
+    limits: Limits,
+    q: Vector,
+    reaction: Vector,
+    forces: Vector,
+    counts: NDArray[np.int64],
+    vectors: Fields,
+    parts: NDArray[np.float64],
+) -> int:
+    """One body from its start q as its loads grow; everything but the body and the limits is overwritten."""
+    n, point, increment, before = q.size, 0.0, limits.longest, -1.0
+    velocity, new, step = vectors[0], vectors[1], vectors[2]
+    rates, earlier, ahead, moved, turned = parts[0], parts[1], parts[2], parts[-2], parts[-1]
+    if not _start(body, limits, q, step):
+        return LEFT
+    _load_rates(body, q, velocity, rates)
+    while point < 1.0:
+        fastest = _largest(rates)
+        while True:
+            increment = min(increment, limits.longest)
+            if fastest > 0.0:
+                increment = min(increment, MAX_ROTATION / fastest)
+            goal = point + increment if point + 1.001 * increment < 1.0 else 1.0
+            length = goal - point
+            _extrapolate(rates, earlier, before, point, goal, moved)
+            body.space(PREDICTED, body.placed, q, new, body.held, moved)
+            size = max(_largest(moved), NEGLIGIBLE_ROTATION)
+            good, steps = _reach(body, limits, new, goal, size, step, turned, ahead, reaction, forces)
+            counts[0] += steps
+            off = np.inf
+            if good:
+                for i in range(n):
+                    velocity[i], step[i] = (q[i] + new[i]) / 2, new[i] - q[i]
+                body.space(RATES, body.placed, velocity, step, body.held, turned)
+                size = max(_largest(turned), NEGLIGIBLE_ROTATION)
+                for i in range(rates.shape[0]):
+                    for k in range(rates.shape[1]):
+                        moved[i, k] -= turned[i, k]
+                off = _largest(moved) / size
+            if off <= PREDICTION_TOLERANCE:
+                break
+            counts[1] += 1
+            if counts[1] >= _MAX_CUTBACKS:
+                return LEFT
+            increment = length / 2
+        before, point = point, goal
+        earlier[:, :] = rates
+        rates[:, :] = ahead
+        q[:] = new
+        increment *= min(2.0, max(0.5, np.sqrt(PREDICTION_TOLERANCE / 2 / max(off, 1e-3))))
+    return REACHED
+
+
+@njit(cache=True, nogil=True)
+def climb_all(
+    kernel: Any, space: Any, members: Members, held: Mask, limits: Limits, answers: Answers
+) -> int:
+    """Find the equilibria of all bodies under their full loads; how many were reached.
+
+    kernel : `solvers.potential.KERNEL`.  space : `SPACE_KERNEL`.  held : (n,) the constrained DOFs.
+    """
+    count, n = members.dead.shape
+    vectors, parts = np.zeros((3, n)), np.zeros((5, limits.parts, 2))
+    width = limits.width
+    at, gradient, room = np.empty(n), np.empty(n), np.empty(n + len(width))
+    band = np.zeros((n + len(width), len(width)))
+    skew, terms, none = np.empty((0, 1)), np.empty(limits.terms), np.empty(0)
+    reached = 0
+    for m in range(count):
+        body = _Body(
+            kernel,
+            space,
+            members.constants[m],
+            members.origin[m],
+            members.placed[m],
+            members.scale[m],
+            members.dead[m],
+            held,
+            members.sizes[m, 0],
+            members.sizes[m, 1],
+            at,
+            gradient,
+            room,
+            width,
+            band,
+            skew,
+            terms,
+            none,
+        )
+        answers.q[m] = members.start[m]
+        answers.counts[m] = 0
+        answers.status[m] = _climb(
+            body,
+            limits,
+            answers.q[m],
+            answers.reaction[m],
+            answers.forces[m],
+            answers.counts[m],
+            vectors,
+            parts,
+        )
+        reached += answers.status[m] == REACHED
+    return reached
