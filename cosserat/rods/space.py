@@ -19,10 +19,12 @@ from cosserat.rods.kinematics import (
 )
 from cosserat.rods.space_kernel import planar
 from cosserat.solvers.banded import Mask, Vector
+from cosserat.solvers.climb import FRACTION, PREDICTED, RATES
 from cosserat.solvers.system import CompiledSpace
 
 Array = NDArray[np.float64]
 _MAX_ROTATION = 1.0  # of a director in one step [rad]
+_NO_MASK, _NO_RATES = np.empty(0, dtype=np.bool_), np.empty((0, 2))
 
 
 @dataclass(frozen=True)
@@ -79,6 +81,9 @@ class RodSpace:
 
     def max_step_fraction(self, q: Vector, step: Vector) -> float:
         """Largest fraction of a step that changes no director by more than its length, one radian."""
+        if self.compiled is not None:
+            kernel, placed, _ = self.compiled
+            return kernel(FRACTION, placed, q, step, _NO_MASK, _NO_RATES)
         d = self.kinematics.split(self.placed(q))[:, 1:]
         change = self.kinematics.split(step)[:, 1:]
         fastest = float((lengths(change) / lengths(d)).max())
@@ -93,6 +98,11 @@ class RodSpace:
 
     def rates(self, q: Vector, change: Vector) -> Array:
         """How fast edges and directors rotate [rad] and stretch as the DOFs change, (parts, 2) in the plane."""
+        if self.compiled is not None:
+            kernel, placed, parts = self.compiled
+            found = np.empty((parts, 2))
+            kernel(RATES, placed, q, change, _NO_MASK, found)
+            return found
         vectors, rates = self.kinematics.parts(self.placed(q)), self.kinematics.parts(change)
         return np.column_stack([rotation_rates(vectors, rates), stretch_rates(vectors, rates)])
 
@@ -103,6 +113,11 @@ class RodSpace:
 
         Rotated edges miss the supports; the gap is distributed along the rod between them.
         """
+        if self.compiled is not None:
+            kernel, given, _ = self.compiled
+            new = prescribe(q)
+            kernel(PREDICTED, given, q, new, constrained, moved)
+            return new
         placed = self.placed(q)
         at, vectors = self.kinematics.split(placed), self.kinematics.parts(placed)
         vectors = rotated((1 + moved[:, -1:]) * vectors, moved[:, :-1])

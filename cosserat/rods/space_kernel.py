@@ -60,11 +60,11 @@ def _fraction(placed: Array, q: Array, step: Array) -> float:
 
 @njit(cache=True)
 def _predict(placed: Array, q: Array, moved: Array, constrained: Mask, new: Array) -> None:
-    """Overwrite the DOFs after rotations and stretches of edges and directors; constrained ones stay those of q.
+    """Overwrite the DOFs after rotations and stretches of edges and directors, except constrained ones.
 
     Rotated edges miss the supports; the gap is distributed along the rod between them.
     """
-    vertices = q.size // 4
+    vertices, goal = q.size // 4, new.copy()
     x, y = placed[0] + q[0], placed[1] + q[1]
     for number in range(2 * vertices - 1):
         a, b = _part(placed, q, number, vertices)
@@ -81,21 +81,21 @@ def _predict(placed: Array, q: Array, moved: Array, constrained: Mask, new: Arra
     last = 4 * vertices - 4
     new[last], new[last + 1] = x - placed[last], y - placed[last + 1]
     for axis in range(2):
-        _close(q, constrained, new, axis)
+        _close(goal, constrained, new, axis)
     for i in range(q.size):
         if constrained[i]:
-            new[i] = q[i]
+            new[i] = goal[i]
 
 
 @njit(cache=True)
-def _close(q: Array, constrained: Mask, new: Array, axis: int) -> None:
-    """Move the vertices along one axis so that the supported ones are where they are in q."""
-    vertices, before, gap = q.size // 4, -1, 0.0
+def _close(goal: Array, constrained: Mask, new: Array, axis: int) -> None:
+    """Move the vertices along one axis so that the supported ones are at their goal."""
+    vertices, before, gap = goal.size // 4, -1, 0.0
     for vertex in range(vertices):
         i = 4 * vertex + axis
         if not constrained[i]:
             continue
-        missing = q[i] - new[i]
+        missing = goal[i] - new[i]
         for K in range(before + 1, vertex + 1):
             share = 1.0 if before < 0 else (K - before) / (vertex - before)
             new[4 * K + axis] += gap + share * (missing - gap)
@@ -105,9 +105,7 @@ def _close(q: Array, constrained: Mask, new: Array, axis: int) -> None:
 
 
 @njit(cache=True)
-def planar(
-    task: int, placed: Array, q: Array, change: Array, constrained: Mask, rates: Array
-) -> float:
+def planar(task: int, placed: Array, q: Array, change: Array, constrained: Mask, rates: Array) -> float:
     """The space of a planar rod with one director; arguments as in `solvers.climb.SPACE_KERNEL`."""
     if task == FRACTION:
         return _fraction(placed, q, change)

@@ -15,7 +15,7 @@ from numba import njit
 from numba import types as numba_types
 from numpy.typing import NDArray
 
-from cosserat.solvers.potential import ENERGY, GRADIENT, HESSIAN, KERNEL
+from cosserat.solvers.potential import GRADIENT, HESSIAN
 
 Vector = NDArray[np.float64]
 Fields = NDArray[np.float64]
@@ -34,8 +34,9 @@ SPACE_KERNEL = types.float64(
 )
 """A compiled `cosserat.solvers.system.ConfigurationSpace`: (task, placed, q, change, constrained, rates) -> number.
 
-placed : (n,) added to q.  FRACTION : the result of `max_step_fraction` for a step `change`.  RATES : overwrites `rates`.
-PREDICTED : overwrites `change` by the DOFs after the motions `rates`; constrained ones stay those of q.
+placed : (n,) added to q.  FRACTION : the result of `max_step_fraction` for a step `change`.
+RATES : overwrites `rates`.  PREDICTED : overwrites `change` by the DOFs after the motions `rates`; the constrained ones
+stay as they are in `change`.
 """
 
 REACHED, LEFT = range(2)
@@ -229,7 +230,7 @@ def _assemble(body: _Body, q: Vector, factor: float, task: int) -> float:
         body.gradient[i] = 0.0
     if task == HESSIAN:
         body.band[:, :] = 0.0
-    energy = body.kernel(
+    energy: float = body.kernel(
         body.at,
         body.none,
         body.data,
@@ -265,63 +266,79 @@ def _reach(
     step: Vector,
     rates: Fields,
     ahead: Fields,
-    reaction: Vector,
-    forces: Vector,
+    answer: tuple[Vector, Vector],
 ) -> tuple[bool, int]:
-    """Newton's method from q at a load factor; q, reaction and forces are overwritten: whether it converges, its steps.
+    """Newton's method from q, which is overwritten, at a load factor: whether it converges, and its steps.
 
-    size : largest rotation or stretch of the increment.  Before the last increment q need not satisfy the balance
-    to the end: there is no more than a small part of the increment to correct.
+    size : largest rotation or stretch of the increment.  Before the last one q need not satisfy the balance to the
+    end, as long as little of the increment is left to correct.
+    ahead : is overwritten by the rates with the load factor.  answer : at the last one reaction and forces.
     """
-    n, last, count, load = q.size, np.inf, 0, abs(goal) * body.load
-    for _ in range(limits.max_iterations + 1):
+    last, load = np.inf, abs(goal) * body.load
+    for count in range(limits.max_iterations + 1):
         energy = _assemble(body, q, goal, HESSIAN)
-        if not np.isfinite(energy):
-            return False, count
         residual, support = balance(body.gradient, body.held, step)
-        rounding = _EPS * largest_product(body.band[:n], q, body.scale, body.at)
+        rounding = _EPS * largest_product(body.band[: q.size], q, body.scale, body.at)
         scale = max(load, support)
         tolerance = max(limits.tolerance * scale, rounding)
-        if rounding > MAX_ROUND_OFF_FRACTION * max(scale, body.total):
-            return False, count
-        if not factorise(body.band, body.held, body.width):
+        sound = np.isfinite(energy) and rounding <= MAX_ROUND_OFF_FRACTION * max(scale, body.total)
+        if not sound or not factorise(body.band, body.held, body.width):
             return False, count
         substitute(body.band, body.width, step, body.room)
         if goal == 1.0 and (residual <= tolerance or stalled(residual, last, rounding)):
-            forces[0], forces[1], forces[2] = residual, tolerance, rounding
-            for i in range(n):
-                reaction[i] = body.gradient[i] if body.held[i] else 0.0
-                step[i] += q[i]
-            _assemble(body, step, goal, GRADIENT)
-            nearer, _ = balance(body.gradient, body.held, body.at)
-            if nearer <= max(residual, rounding):
-                forces[0] = nearer
-                for i in range(n):
-                    q[i] = step[i]
-                    reaction[i] = body.gradient[i] if body.held[i] else 0.0
+            answer[1][0], answer[1][1], answer[1][2] = residual, tolerance, rounding
+            _polish(body, q, step, answer)
             return True, count
         last = residual
-        share = min(1.0, body.space(FRACTION, body.placed, q, step, body.held, rates))
         body.space(RATES, body.placed, q, step, body.held, rates)
         fastest = _largest(rates)
-        if not np.isfinite(fastest):
-            return False, count
         settled = goal < 1.0 and fastest <= _SETTLED * size
         if settled:
             _load_rates(body, q, body.at, ahead)
-        if fastest > _STRAIGHT:
-            for row in rates:
-                for k in range(row.size):
-                    row[k] *= share
-            body.space(PREDICTED, body.placed, q, step, body.held, rates)
-            q[:] = step
-        else:
-            for i in range(n):
-                q[i] += step[i]
-        count += 1
+        if not np.isfinite(fastest) or count == limits.max_iterations:
+            return False, count
+        _move(body, q, step, rates, fastest)
         if settled:
-            return True, count
-    return False, count
+            return True, count + 1
+    return False, limits.max_iterations
+
+
+@njit(cache=True)
+def _polish(body: _Body, q: Vector, step: Vector, answer: tuple[Vector, Vector]) -> None:
+    """Keep the balance at q, or after one more step, if the residual is smaller there or is round-off."""
+    reaction, forces = answer
+    _react(body, reaction)
+    for i in range(q.size):
+        step[i] += q[i]
+    _assemble(body, step, 1.0, GRADIENT)
+    nearer, _ = balance(body.gradient, body.held, body.at)
+    if nearer <= max(forces[0], forces[2]):
+        forces[0] = nearer
+        q[:] = step
+        _react(body, reaction)
+
+
+@njit(cache=True)
+def _react(body: _Body, reaction: Vector) -> None:
+    """Overwrite the forces of the constrained DOFs, from the gradient assembled last."""
+    for i in range(reaction.size):
+        reaction[i] = body.gradient[i] if body.held[i] else 0.0
+
+
+@njit(cache=True)
+def _move(body: _Body, q: Vector, step: Vector, rates: Fields, fastest: float) -> None:
+    """Move q by a step: the parts rotate and stretch by its rates, so that a rotation does not stretch them."""
+    if fastest <= _STRAIGHT:
+        for i in range(q.size):
+            q[i] += step[i]
+        return
+    share = min(1.0, body.space(FRACTION, body.placed, q, step, body.held, rates))
+    for row in rates:
+        for k in range(row.size):
+            row[k] *= share
+    step[:] = q
+    body.space(PREDICTED, body.placed, q, step, body.held, rates)
+    q[:] = step
 
 
 @njit(cache=True)
@@ -367,7 +384,7 @@ def _extrapolate(
 
 
 @njit(cache=True)
-def _start(body: _Body, limits: Limits, q: Vector, step: Vector) -> bool:
+def _start(body: _Body, q: Vector, step: Vector) -> bool:
     """Whether the body is at rest without loads, stable, and its loads above round-off; the Hessian is factorised."""
     energy = _assemble(body, q, 0.0, HESSIAN)
     residual, _ = balance(body.gradient, body.held, step)
@@ -379,52 +396,54 @@ def _start(body: _Body, limits: Limits, q: Vector, step: Vector) -> bool:
 
 
 @njit(cache=True)
+def _stray(
+    body: _Body, q: Vector, new: Vector, moved: Fields, work: tuple[Vector, Vector, Fields]
+) -> float:
+    """Error of a predicted motion `moved` from q to new, as a fraction of the motion; moved is overwritten."""
+    middle, step, turned = work
+    for i in range(q.size):
+        middle[i], step[i] = (q[i] + new[i]) / 2, new[i] - q[i]
+    body.space(RATES, body.placed, middle, step, body.held, turned)
+    for i in range(moved.shape[0]):
+        for k in range(moved.shape[1]):
+            moved[i, k] -= turned[i, k]
+    return _largest(moved) / max(_largest(turned), NEGLIGIBLE_ROTATION)
+
+
+@njit(cache=True)
 def _climb(
     body: _Body,
     limits: Limits,
     q: Vector,
-    reaction: Vector,
-    forces: Vector,
+    answer: tuple[Vector, Vector],
     counts: NDArray[np.int64],
     vectors: Fields,
     parts: NDArray[np.float64],
 ) -> int:
     """One body from its start q as its loads grow; everything but the body and the limits is overwritten."""
-    n, point, increment, before = q.size, 0.0, limits.longest, -1.0
-    velocity, new, step = vectors[0], vectors[1], vectors[2]
+    point, increment, before = 0.0, limits.longest, -1.0
+    middle, new, step = vectors[0], vectors[1], vectors[2]
     rates, earlier, ahead, moved, turned = parts[0], parts[1], parts[2], parts[-2], parts[-1]
-    if not _start(body, limits, q, step):
+    if not _start(body, q, step):
         return LEFT
-    _load_rates(body, q, velocity, rates)
+    _load_rates(body, q, middle, rates)
     while point < 1.0:
         fastest = _largest(rates)
-        while True:
-            increment = min(increment, limits.longest)
-            if fastest > 0.0:
-                increment = min(increment, MAX_ROTATION / fastest)
-            goal = point + increment if point + 1.001 * increment < 1.0 else 1.0
-            length = goal - point
-            _extrapolate(rates, earlier, before, point, goal, moved)
-            body.space(PREDICTED, body.placed, q, new, body.held, moved)
-            size = max(_largest(moved), NEGLIGIBLE_ROTATION)
-            good, steps = _reach(body, limits, new, goal, size, step, turned, ahead, reaction, forces)
-            counts[0] += steps
-            off = np.inf
-            if good:
-                for i in range(n):
-                    velocity[i], step[i] = (q[i] + new[i]) / 2, new[i] - q[i]
-                body.space(RATES, body.placed, velocity, step, body.held, turned)
-                size = max(_largest(turned), NEGLIGIBLE_ROTATION)
-                for i in range(rates.shape[0]):
-                    for k in range(rates.shape[1]):
-                        moved[i, k] -= turned[i, k]
-                off = _largest(moved) / size
-            if off <= PREDICTION_TOLERANCE:
-                break
+        increment = min(increment, limits.longest, MAX_ROTATION / fastest if fastest > 0.0 else np.inf)
+        goal = point + increment if point + 1.001 * increment < 1.0 else 1.0
+        _extrapolate(rates, earlier, before, point, goal, moved)
+        new[:] = q
+        body.space(PREDICTED, body.placed, q, new, body.held, moved)
+        size = max(_largest(moved), NEGLIGIBLE_ROTATION)
+        good, steps = _reach(body, limits, new, goal, size, step, turned, ahead, answer)
+        counts[0] += steps
+        off = _stray(body, q, new, moved, (middle, step, turned)) if good else np.inf
+        if not off <= PREDICTION_TOLERANCE:
             counts[1] += 1
             if counts[1] >= _MAX_CUTBACKS:
                 return LEFT
-            increment = length / 2
+            increment = (goal - point) / 2
+            continue
         before, point = point, goal
         earlier[:, :] = rates
         rates[:, :] = ahead
@@ -475,8 +494,7 @@ def climb_all(
             body,
             limits,
             answers.q[m],
-            answers.reaction[m],
-            answers.forces[m],
+            (answers.reaction[m], answers.forces[m]),
             answers.counts[m],
             vectors,
             parts,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 from numba import types as numba_types
-from numba.experimental.function_type import _get_wrapper_address
+from numba.experimental import function_type
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Mask, Vector
@@ -28,6 +28,7 @@ from cosserat.solvers.potential import KERNEL
 from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
+address: Any = function_type._get_wrapper_address  # what a compiled function would look up at every call
 types: Any = numba_types  # which says nothing of its own types
 
 
@@ -48,11 +49,11 @@ def _compiled(width: int) -> Callable[..., int]:
 
 
 class _Address:
-    """The code of a compiled function.  Numba would look it up at every call, which takes longer than a solve."""
+    """The code of a compiled function; to look it up at every call would take longer than a solve."""
 
     def __init__(self, function: Callable[..., float], signature: Any) -> None:
         self.function = function  # which owns the code
-        self.number = _get_wrapper_address(function, signature)
+        self.number: int = address(function, signature)
 
     def __wrapper_address__(self) -> int:
         """Where it is."""
