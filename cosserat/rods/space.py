@@ -65,10 +65,11 @@ class RodSpace:
         """Lengths of edges and directors, and additions to the DOFs: stretches are rounded as fractions of them."""
         sizes = np.empty_like(self.kinematics.split(self.at_rest))
         length = lengths(self.kinematics.parts(self.at_rest))
-        count = sizes.shape[0] - 1
-        sizes[:-1, 0], sizes[-1, 0] = length[:count, None], length[count - 1]
-        sizes[:, 1:] = length[count:].reshape(count + 1, -1, 1)
-        scale: Vector = np.maximum(sizes.ravel(), np.abs(self.rounded))
+        count, directors = sizes.shape[-3] - 1, sizes[..., 1:, 0].shape
+        sizes[..., :-1, 0, :] = length[..., :count, None]
+        sizes[..., -1, 0, :] = length[..., count - 1, None]
+        sizes[..., 1:, :] = length[..., count:].reshape(directors)[..., None]
+        scale: Vector = np.maximum(sizes.reshape(self.at_rest.shape), np.abs(self.rounded))
         return scale
 
     def placed(self, q: Vector) -> Vector:
