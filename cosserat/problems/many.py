@@ -21,17 +21,17 @@ from cosserat.rods.elasticity import INCOMPRESSIBLE
 from cosserat.rods.energies import energy_named
 from cosserat.rods.loads.dead import DeadLoad, Gravity
 from cosserat.rods.loads.load import LoadedRod
+from cosserat.rods.places import equal_mesh
 from cosserat.rods.problem import LOADS
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import coarse, surface_stretch
 from cosserat.rods.rod import Rod
-from cosserat.rods.places import equal_mesh
 from cosserat.rods.sections.plain import Circle, Ellipse, Rectangle, Square
 from cosserat.rods.space import RodSpace
 from cosserat.solution import Field
 from cosserat.solvers.banded import Mask
-from cosserat.solvers.climb import REACHED, Answers, Members
 from cosserat.solvers.many import Family, member
+from cosserat.solvers.members import REACHED, Answers, Members
 from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
@@ -56,7 +56,7 @@ class Many:
 
     fields : by name, as in `cosserat.problems.static.equilibrium_solution`, with the dimension "member" before those
     of one state.  statistics : by name, (M,).  labels : as there.
-    solved : (M,) which members are; the others are left to `RodStatics.solve`, which finds them or says why not.
+    solved : (M,) which members are; each of the others is left to its own problem, which solves it or says why not.
     warnings : sentences by the number of a member.
     """
 
@@ -86,9 +86,7 @@ def solve_many(
     return _joined(parts)
 
 
-def _family(
-    problem: RodStatics, columns: Mapping[str, Array]
-) -> tuple[Family, MechanicalSystem] | None:
+def _family(problem: RodStatics, columns: Mapping[str, Array]) -> tuple[Family, MechanicalSystem] | None:
     """What all members have in common, and one of them; None if the compiled loop or these formulas do not fit."""
     if not all(_fits(problem, key, columns) for key in columns):
         return None
@@ -110,7 +108,7 @@ def _fits(problem: RodStatics, key: str, columns: Mapping[str, Array]) -> bool:
     rod = problem.rod
     if quantity_of(problem, key) is None or type(rod.section) not in _SECTIONS:
         return False
-    if problem.gravity is not None and not key.startswith("rod.material.") or key in OF_MASS:
+    if (problem.gravity is not None and not key.startswith("rod.material.")) or key in OF_MASS:
         return problem.gravity is None
     if rod.energy != "consistent" or rod.stations or not rod.rest.straight or problem.imperfection:
         return False
@@ -196,11 +194,13 @@ def members_of(
     count = next(iter(columns.values())).size
     one = member(system)
     geometry, rod = problem.geometry, problem.rod
-    every = Members(*(np.repeat(values, count, axis=0) for values in one))
+    every = Members._make(np.repeat(values, count, axis=0) for values in one)
     if any(key in OF_BODY for key in columns):
         rod = varied.rod
         lengths = np.broadcast_to(np.asarray(rod.length), (count, 1))[:, 0]
-        geometry = rod.geometry(equal_mesh(rod.vertices, lengths) if _is_equal(problem) else _rows(problem, count))
+        geometry = rod.geometry(
+            equal_mesh(rod.vertices, lengths) if _is_equal(problem) else _rows(problem, count)
+        )
         energy = energy_named(rod.energy).potential(rod, geometry, displacements=True)
         space = RodSpace(rod.kinematics, geometry.q, True, np.zeros_like(geometry.q))
         every = every._replace(

@@ -19,7 +19,7 @@ from cosserat.rods.kinematics import (
 )
 from cosserat.rods.space_kernel import planar
 from cosserat.solvers.banded import Mask, Vector
-from cosserat.solvers.climb import FRACTION, PREDICTED, RATES
+from cosserat.solvers.members import FRACTION, PREDICTED, RATES
 from cosserat.solvers.system import CompiledSpace
 
 Array = NDArray[np.float64]

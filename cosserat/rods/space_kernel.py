@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from cosserat.solvers.climb import FRACTION, PREDICTED, RATES
+from cosserat.solvers.members import FRACTION, PREDICTED, RATES
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -106,7 +106,7 @@ def _close(goal: Array, constrained: Mask, new: Array, axis: int) -> None:
 
 @njit(cache=True)
 def planar(task: int, placed: Array, q: Array, change: Array, constrained: Mask, rates: Array) -> float:
-    """The space of a planar rod with one director; arguments as in `solvers.climb.SPACE_KERNEL`."""
+    """The space of a planar rod with one director; arguments as in `solvers.members.SPACE_KERNEL`."""
     if task == FRACTION:
         return _fraction(placed, q, change)
     if task == RATES:

@@ -8,39 +8,29 @@ answer must depend neither on the kernels of a library of linear algebra nor on 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numba import njit
-from numba import types as numba_types
 from numpy.typing import NDArray
 
+from cosserat.solvers.members import (
+    FRACTION,
+    LEFT,
+    PREDICTED,
+    RATES,
+    REACHED,
+    Answers,
+    Body,
+    Limits,
+    Members,
+)
 from cosserat.solvers.potential import GRADIENT, HESSIAN
 
 Vector = NDArray[np.float64]
 Fields = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-types: Any = numba_types  # which says nothing of its own types
 
-FRACTION, RATES, PREDICTED = range(3)
-"""Tasks of the kernel of a configuration space."""
-SPACE_KERNEL = types.float64(
-    types.int64,
-    types.float64[::1],
-    types.float64[::1],
-    types.float64[::1],
-    types.boolean[::1],
-    types.float64[:, ::1],
-)
-"""A compiled `cosserat.solvers.system.ConfigurationSpace`: (task, placed, q, change, constrained, rates) -> number.
-
-placed : (n,) added to q.  FRACTION : the result of `max_step_fraction` for a step `change`.
-RATES : overwrites `rates`.  PREDICTED : overwrites `change` by the DOFs after the motions `rates`; the constrained ones
-stay as they are in `change`.
-"""
-
-REACHED, LEFT = range(2)
-"""Whether the loop has reached the full load, or left the body to others."""
 PREDICTION_TOLERANCE = 0.3
 """Largest prediction error, as a fraction of the increment."""
 NEGLIGIBLE_ROTATION = 1e-5
@@ -54,86 +44,9 @@ _MAX_CUTBACKS = 4  # rejected increments before a body is left
 _STRAIGHT = 1e-4  # rotation or stretch below which a step is a straight line
 _SETTLED = 1e-1  # last correction of an increment before the last one, as a fraction of the increment
 _STIFFENING = 0.9  # ratio of the rates at two points below which a body stiffens
+_UNROLLED = (0,) * 8
+"""As many zeros as the width of the most common band: code for just this width is twice as fast."""
 _EPS = float(np.finfo(float).eps)
-
-
-class Members(NamedTuple):
-    """Bodies that differ in numbers alone.
-
-    constants : (M, bytes) of the potential.  origin : (M, n) added to the DOFs by the potential.
-    placed : (M, n) added to the DOFs by the configuration space.  scale, start : (M, n) as in
-    `cosserat.solvers.system`.  dead : (M, n) the loads [N].  sizes : (M, 2) the largest of all loads and their sum [N].
-    """
-
-    constants: NDArray[np.uint8]
-    origin: Fields
-    placed: Fields
-    scale: Fields
-    start: Fields
-    dead: Fields
-    sizes: Fields
-
-
-class Limits(NamedTuple):
-    """Settings of the loop: tolerance, most iterations, longest increment; numbers of terms and of parts.
-
-    width : of the bands, as many zeros.
-    """
-
-    tolerance: float
-    max_iterations: int
-    longest: float
-    terms: int
-    parts: int
-    width: tuple[int, ...]
-
-
-class Answers(NamedTuple):
-    """What the loop overwrites.
-
-    q, reaction : (M, n) [m, N].  forces : (M, 3) residual, tolerance and rounding [N].  counts : (M, 2) iterations and
-    cutbacks.  status : (M,) whether each is solved.
-    """
-
-    q: Fields
-    reaction: Fields
-    forces: Fields
-    counts: NDArray[np.int64]
-    status: NDArray[np.int64]
-
-    @classmethod
-    def empty(cls, members: int, dofs: int) -> Answers:
-        """Of bodies that nobody has looked at."""
-        return cls(
-            np.zeros((members, dofs)),
-            np.zeros((members, dofs)),
-            np.zeros((members, 3)),
-            np.zeros((members, 2), dtype=np.int64),
-            np.full(members, LEFT),
-        )
-
-
-class _Body(NamedTuple):
-    """One of them, with its kernels and work space; see above."""
-
-    kernel: Any
-    space: Any
-    data: NDArray[np.uint8]
-    origin: Vector
-    placed: Vector
-    scale: Vector
-    dead: Vector
-    held: Mask
-    load: float
-    total: float
-    at: Vector
-    gradient: Vector
-    room: Vector
-    width: Any
-    band: Fields
-    skew: Fields
-    terms: Vector
-    none: Vector
 
 
 @njit(cache=True)
@@ -176,20 +89,29 @@ def largest_product(band: Fields, x: Vector, scale: Vector, work: Vector) -> flo
 
 
 @njit(cache=True, error_model="numpy")
-def factorise(band: Fields, held: Mask, width: tuple[int, ...]) -> bool:
+def factorise(band: Fields, held: Mask) -> bool:
     """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive.
 
     Constrained DOFs are uncoupled and have the diagonal 1.
 
-    band : (n + w, w), zero beyond the matrix.  width : w numbers, so that compiled code knows how many there are.
+    band : (n + w, w), zero beyond the matrix.
     """
+    width = band.shape[1]
     for j in range(held.size):
-        for k in range(1, len(width)):
+        for k in range(1, width):
             if held[j] or (j + k < held.size and held[j + k]):
                 band[j, k] = 0.0
         if held[j]:
             band[j, 0] = 1.0
-    for j in range(held.size):
+    if width == len(_UNROLLED):
+        return _eliminate(band, held.size, _UNROLLED)
+    return _eliminate(band, held.size, range(width))
+
+
+@njit(cache=True, error_model="numpy")
+def _eliminate(band: Fields, n: int, width: Any) -> bool:
+    """The factorisation itself; width : something of this length, which compiled code may know."""
+    for j in range(n):
         row = band[j]
         if not row[0] > 0.0:
             return False
@@ -204,10 +126,19 @@ def factorise(band: Fields, held: Mask, width: tuple[int, ...]) -> bool:
 
 
 @njit(cache=True)
-def substitute(factor: Fields, width: tuple[int, ...], x: Vector, room: Vector) -> None:
+def substitute(factor: Fields, x: Vector, room: Vector) -> None:
     """Overwrite a right-hand side (n,) with the solution; room : (n + w,) is overwritten."""
-    n = x.size
-    room[:n] = x
+    room[: x.size] = x
+    if factor.shape[1] == len(_UNROLLED):
+        _solve(factor, x.size, _UNROLLED, room)
+    else:
+        _solve(factor, x.size, range(factor.shape[1]), room)
+    x[:] = room[: x.size]
+
+
+@njit(cache=True)
+def _solve(factor: Fields, n: int, width: Any, room: Vector) -> None:
+    """Overwrite the first n numbers of a right-hand side (n + w,) with the solution."""
     room[n:] = 0.0
     for j in range(n):
         room[j] *= factor[j, 0]
@@ -219,11 +150,10 @@ def substitute(factor: Fields, width: tuple[int, ...], x: Vector, room: Vector) 
         for k in range(1, len(width)):
             total -= factor[j, k] * room[j + k]
         room[j] = total * factor[j, 0]
-    x[:] = room[:n]
 
 
 @njit(cache=True)
-def _assemble(body: _Body, q: Vector, factor: float, task: int) -> float:
+def _assemble(body: Body, q: Vector, factor: float, task: int) -> float:
     """Overwrite the gradient, and the Hessian if that is the task; the energy of the body."""
     for i in range(q.size):
         body.at[i] = q[i] + body.origin[i]
@@ -248,17 +178,17 @@ def _assemble(body: _Body, q: Vector, factor: float, task: int) -> float:
 
 
 @njit(cache=True)
-def _load_rates(body: _Body, q: Vector, velocity: Vector, rates: Fields) -> None:
+def _load_rates(body: Body, q: Vector, velocity: Vector, rates: Fields) -> None:
     """Overwrite the rates with the load factor at q, where the Hessian has been factorised."""
     for i in range(q.size):
         velocity[i] = 0.0 if body.held[i] else body.dead[i]
-    substitute(body.band, body.width, velocity, body.room)
+    substitute(body.band, velocity, body.room)
     body.space(RATES, body.placed, q, velocity, body.held, rates)
 
 
 @njit(cache=True)
 def _reach(
-    body: _Body,
+    body: Body,
     limits: Limits,
     q: Vector,
     goal: float,
@@ -274,6 +204,7 @@ def _reach(
     end, as long as little of the increment is left to correct.
     ahead : is overwritten by the rates with the load factor.  answer : at the last one reaction and forces.
     """
+    reaction, forces = answer
     last, load = np.inf, abs(goal) * body.load
     for count in range(limits.max_iterations + 1):
         energy = _assemble(body, q, goal, HESSIAN)
@@ -282,12 +213,12 @@ def _reach(
         scale = max(load, support)
         tolerance = max(limits.tolerance * scale, rounding)
         sound = np.isfinite(energy) and rounding <= MAX_ROUND_OFF_FRACTION * max(scale, body.total)
-        if not sound or not factorise(body.band, body.held, body.width):
+        if not sound or not factorise(body.band, body.held):
             return False, count
-        substitute(body.band, body.width, step, body.room)
+        substitute(body.band, step, body.room)
         if goal == 1.0 and (residual <= tolerance or stalled(residual, last, rounding)):
-            answer[1][0], answer[1][1], answer[1][2] = residual, tolerance, rounding
-            _polish(body, q, step, answer)
+            forces[0], forces[1], forces[-1] = residual, tolerance, rounding
+            _polish(body, q, step, reaction, forces)
             return True, count
         last = residual
         body.space(RATES, body.placed, q, step, body.held, rates)
@@ -304,29 +235,28 @@ def _reach(
 
 
 @njit(cache=True)
-def _polish(body: _Body, q: Vector, step: Vector, answer: tuple[Vector, Vector]) -> None:
+def _polish(body: Body, q: Vector, step: Vector, reaction: Vector, forces: Vector) -> None:
     """Keep the balance at q, or after one more step, if the residual is smaller there or is round-off."""
-    reaction, forces = answer
     _react(body, reaction)
     for i in range(q.size):
         step[i] += q[i]
     _assemble(body, step, 1.0, GRADIENT)
     nearer, _ = balance(body.gradient, body.held, body.at)
-    if nearer <= max(forces[0], forces[2]):
+    if nearer <= max(forces[0], forces[-1]):
         forces[0] = nearer
         q[:] = step
         _react(body, reaction)
 
 
 @njit(cache=True)
-def _react(body: _Body, reaction: Vector) -> None:
+def _react(body: Body, reaction: Vector) -> None:
     """Overwrite the forces of the constrained DOFs, from the gradient assembled last."""
     for i in range(reaction.size):
         reaction[i] = body.gradient[i] if body.held[i] else 0.0
 
 
 @njit(cache=True)
-def _move(body: _Body, q: Vector, step: Vector, rates: Fields, fastest: float) -> None:
+def _move(body: Body, q: Vector, step: Vector, rates: Fields, fastest: float) -> None:
     """Move q by a step: the parts rotate and stretch by its rates, so that a rotation does not stretch them."""
     if fastest <= _STRAIGHT:
         for i in range(q.size):
@@ -384,7 +314,7 @@ def _extrapolate(
 
 
 @njit(cache=True)
-def _start(body: _Body, q: Vector, step: Vector) -> bool:
+def _start(body: Body, q: Vector, step: Vector) -> bool:
     """Whether the body is at rest without loads, stable, and its loads above round-off; the Hessian is factorised."""
     energy = _assemble(body, q, 0.0, HESSIAN)
     residual, _ = balance(body.gradient, body.held, step)
@@ -392,12 +322,12 @@ def _start(body: _Body, q: Vector, step: Vector) -> bool:
     sound = np.isfinite(energy) and residual <= _STALL_FACTOR * rounding and body.load > 0.0
     if not sound or rounding > MAX_ROUND_OFF_FRACTION * body.total:
         return False
-    return factorise(body.band, body.held, body.width)
+    return factorise(body.band, body.held)
 
 
 @njit(cache=True)
 def _stray(
-    body: _Body, q: Vector, new: Vector, moved: Fields, work: tuple[Vector, Vector, Fields]
+    body: Body, q: Vector, new: Vector, moved: Fields, work: tuple[Vector, Vector, Fields]
 ) -> float:
     """Error of a predicted motion `moved` from q to new, as a fraction of the motion; moved is overwritten."""
     middle, step, turned = work
@@ -412,18 +342,18 @@ def _stray(
 
 @njit(cache=True)
 def _climb(
-    body: _Body,
+    body: Body,
     limits: Limits,
     q: Vector,
     answer: tuple[Vector, Vector],
     counts: NDArray[np.int64],
-    vectors: Fields,
-    parts: NDArray[np.float64],
+    vectors: tuple[Vector, Vector, Vector],
+    parts: tuple[Fields, Fields, Fields, Fields, Fields],
 ) -> int:
     """One body from its start q as its loads grow; everything but the body and the limits is overwritten."""
     point, increment, before = 0.0, limits.longest, -1.0
-    middle, new, step = vectors[0], vectors[1], vectors[2]
-    rates, earlier, ahead, moved, turned = parts[0], parts[1], parts[2], parts[-2], parts[-1]
+    middle, new, step = vectors
+    rates, earlier, ahead, moved, turned = parts
     if not _start(body, q, step):
         return LEFT
     _load_rates(body, q, middle, rates)
@@ -458,17 +388,19 @@ def climb_all(
 ) -> int:
     """Find the equilibria of all bodies under their full loads; how many were reached.
 
-    kernel : `solvers.potential.KERNEL`.  space : `SPACE_KERNEL`.  held : (n,) the constrained DOFs.
+    kernel : `solvers.potential.KERNEL`.  space : `solvers.members.SPACE_KERNEL`.  held : (n,) the constrained DOFs.
     """
     count, n = members.dead.shape
-    vectors, parts = np.zeros((3, n)), np.zeros((5, limits.parts, 2))
-    width = limits.width
-    at, gradient, room = np.empty(n), np.empty(n), np.empty(n + len(width))
-    band = np.zeros((n + len(width), len(width)))
+    vectors = np.zeros(n), np.zeros(n), np.zeros(n)
+    shape = limits.parts, 2
+    pairs = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+    parts = (*pairs, np.zeros(shape), np.zeros(shape))
+    at, gradient, room = np.empty(n), np.empty(n), np.empty(n + limits.width)
+    band = np.zeros((n + limits.width, limits.width))
     skew, terms, none = np.empty((0, 1)), np.empty(limits.terms), np.empty(0)
     reached = 0
     for m in range(count):
-        body = _Body(
+        body = Body(
             kernel,
             space,
             members.constants[m],
@@ -482,7 +414,6 @@ def climb_all(
             at,
             gradient,
             room,
-            width,
             band,
             skew,
             terms,

@@ -13,17 +13,11 @@ from numba import types as numba_types
 from numba.experimental import function_type
 from numpy.typing import NDArray
 
-from cosserat.solvers.banded import Mask, Vector
-from cosserat.solvers.climb import (
-    REACHED,
-    SPACE_KERNEL,
-    Answers,
-    Limits,
-    Members,
-    climb_all,
-)
+from cosserat.solvers.banded import Mask
+from cosserat.solvers.climb import climb_all
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.heartbeat import beat
+from cosserat.solvers.members import REACHED, SPACE_KERNEL, Answers, Limits, Members
 from cosserat.solvers.potential import KERNEL
 from cosserat.solvers.system import MechanicalSystem
 
@@ -33,13 +27,11 @@ types: Any = numba_types  # which says nothing of its own types
 
 
 @functools.cache
-def _compiled(width: int) -> Callable[..., int]:
-    """The loop for bands of a width, loaded only where it is needed; called directly, as `solvers.implicit` does."""
+def _compiled() -> Callable[..., int]:
+    """The loop, loaded only where it is needed; called directly, as `solvers.implicit` does."""
     matrix, whole = types.float64[:, ::1], types.int64
-    members = types.NamedTuple((types.uint8[:, ::1], *(matrix,) * 6), Members)
-    limits = types.NamedTuple(
-        (types.float64, whole, types.float64, whole, whole, types.UniTuple(whole, width)), Limits
-    )
+    members = types.NamedTuple((types.uint8[:, ::1], *(matrix,) * (len(Members._fields) - 1)), Members)
+    limits = types.NamedTuple((types.float64, whole, types.float64, whole, whole, whole), Limits)
     answers = types.NamedTuple((matrix, matrix, matrix, types.int64[:, ::1], types.int64[::1]), Answers)
     kernels = types.FunctionType(KERNEL), types.FunctionType(SPACE_KERNEL)
     signature = types.int64(*kernels, members, types.boolean[::1], limits, answers)
@@ -71,7 +63,7 @@ class Family:
     """What bodies that differ in numbers alone have in common.
 
     kernel : of their potential, see `solvers.potential.KERNEL`.  terms : how many parts its energy has.
-    half_bandwidth : of its Hessian.  space : `solvers.climb.SPACE_KERNEL`.  parts : number of the parts that it turns.
+    half_bandwidth : of its Hessian.  space : `solvers.members.SPACE_KERNEL`.  parts : how many it turns.
     constrained : (n,) the DOFs that stay where they are.  settings : of Newton's method.
     """
 
@@ -115,10 +107,9 @@ class Family:
             longest,
             self.terms,
             self.parts,
-            (0,) * (self.half_bandwidth + 1),
+            self.half_bandwidth + 1,
         )
-        loop = _compiled(self.half_bandwidth + 1)
-        loop(*_addresses(self.kernel, self.space), members, self.constrained, limits, answers)
+        _compiled()(*_addresses(self.kernel, self.space), members, self.constrained, limits, answers)
         return answers
 
 
@@ -147,21 +138,12 @@ def climbed(solver: EquilibriumSolver) -> Equilibrium | None:
     found = family.solve(member(system))
     if found.status[0] != REACHED:
         return None
-    residual, solver.tolerance, rounding = found.forces[0].tolist()
-    iterations, cutbacks = found.counts[0].tolist()
-    solver.residual = residual
+    (forces,), (counts,) = found.forces.tolist(), found.counts.tolist()
+    (q,), (reaction,) = found.q, found.reaction
+    solver.residual, solver.tolerance, rounding = forces
+    iterations, cutbacks = counts
     solver.iterations += iterations
     solver.cutbacks += cutbacks
     beat(1.0, solver.iterations)
-    q: Vector = found.q[0]
-    return Equilibrium(
-        q,
-        1.0,
-        system.history,
-        found.reaction[0],
-        solver.iterations,
-        residual,
-        solver.tolerance,
-        rounding,
-        0,
-    )
+    about = (solver.iterations, solver.residual, solver.tolerance, rounding)
+    return Equilibrium(q, 1.0, system.history, reaction, *about, negative=0)

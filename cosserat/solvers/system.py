@@ -59,7 +59,7 @@ class Constraints(Protocol):
 class CompiledSpace(NamedTuple):
     """A configuration space for compiled code.
 
-    kernel : `solvers.climb.SPACE_KERNEL`.  placed : (n,) its second argument.  parts : number of parts that turn.
+    kernel : `solvers.members.SPACE_KERNEL`.  placed : (n,) its second argument.  parts : number of parts that turn.
     """
 
     kernel: Callable[..., float]

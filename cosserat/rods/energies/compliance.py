@@ -76,8 +76,8 @@ def stiffnesses(
         both, higher = axial + volume, s.height - first_height
         ratios = [1 / both, axial / both, volume / both, axial * volume / both]
         inverses = [1 / shear, 1 / bending, 1 / gradient]
-        sums = [*ratios, *inverses, higher / bending, higher * higher / bending, higher]
-        sums = np.stack(np.broadcast_arrays(*sums))
+        every = [*ratios, *inverses, higher / bending, higher * higher / bending, higher]
+        sums = np.stack(np.broadcast_arrays(*every))
         return np.concatenate([sums, s.height * sums]) if lifted else sums
 
     def across(s: Scales, _: Array) -> Array:

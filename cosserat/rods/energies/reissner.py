@@ -118,11 +118,11 @@ def potential(
         directors, or one for all; edges run between area centres, and the second moment is about them.
     displacements : DOFs are displacements; on fine meshes their round-off is far less than that of positions.
     """
-    rod = np.zeros(geometry.X.shape[:-1], VERTEX)
-    edge_shape = rod[..., 1:].shape
-    rod["low"][..., :-1], rod["high"][..., :-1] = np.full((2, *edge_shape), offsets)
-    e, angles = centre_edges(rod, geometry.X, geometry.D), unwrapped_angles(geometry.D)
+    angles = unwrapped_angles(geometry.D)
     turn = np.diff(angles)
+    rod = np.zeros(angles.shape, VERTEX)
+    rod["low"][..., :-1], rod["high"][..., :-1] = np.full((2, *turn.shape), offsets)
+    e = centre_edges(rod, geometry.X, geometry.D)
     b = angles[..., :-1] + turn / 2
     s, c = np.sin(b), np.cos(b)
     edges = {
@@ -149,7 +149,7 @@ def potential(
         constants=rod,
         terms=TERMS,
         half_bandwidth=7,  # two neighbouring vertices
-        strains=(rod.shape[-1], 4),
+        strains=(angles.shape[-1], 4),
     )
 
 
