@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeGuard
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
@@ -101,6 +103,17 @@ class Quantity:
             shown_number = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
             raise PydanticCustomError("range", f"is {shown_number}; it must be {fault}")
         return number
+
+    def holds(self, values: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Which of many numbers in the SI unit are in the range, as `checked` has it for one."""
+        size = np.abs(values)
+        found = (values > self.above) & (values < self.below)
+        if self.at_least is not None:
+            found &= values >= self.at_least
+        found &= (self.least <= values) & (values <= self.most)
+        if self.least <= 0:
+            found &= (size == 0) | (size >= NOTHING)
+        return found
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

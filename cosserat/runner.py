@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import contextlib
+import functools
+import sys
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.checkpoints import Parts
@@ -73,7 +75,7 @@ def run(
     shown = bar(known.name) if progress is None else contextlib.nullcontext(progress)
     with (
         contextlib.nullcontext() if path is None else only_writer(path),
-        threadpool_limits(1),  # more threads of linear algebra change the last digits
+        _one_thread(len(sys.modules)).limit(limits=1),  # more threads change the last digits
         _numerical_warnings() as caught,
     ):
         try:
@@ -89,6 +91,12 @@ def run(
             raise
         dataset = to_dataset(known, solution)
     return _with_warnings(dataset, caught)
+
+
+@functools.lru_cache(maxsize=1)
+def _one_thread(modules: int) -> ThreadpoolController:
+    """The libraries of linear algebra in this process; modules : how many are loaded, for more may bring another one."""
+    return ThreadpoolController()
 
 
 @contextlib.contextmanager

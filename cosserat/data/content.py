@@ -35,7 +35,13 @@ def _digest(data: xr.Dataset) -> str:
 
 def stamped(data: xr.Dataset) -> xr.Dataset:
     """A Dataset with its digest: what the package computed, or a part of it that the package took."""
-    return data.assign_attrs({_STAMP: _digest(data)})
+    return stamp(data.assign_attrs())
+
+
+def stamp(data: xr.Dataset) -> xr.Dataset:
+    """A Dataset that has just been made, which gets its digest itself: a copy would take longer."""
+    data.attrs[_STAMP] = _digest(data)
+    return data
 
 
 def is_as_computed(data: xr.Dataset) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, parse
-from cosserat.data.content import stamped
+from cosserat.data.content import stamp, stamped
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import CosseratError, InputError
@@ -88,7 +88,7 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
         dataset.attrs["warnings"] = "\n".join(solution.warnings)
     if derived:
         dataset.attrs["derived"] = " ".join(name for name in VARIABLES if name in derived)
-    return stamped(dataset)
+    return stamp(dataset)
 
 
 def _completed(solution: Solution) -> tuple[Solution, set[str]]:

@@ -83,5 +83,12 @@ def source() -> str:
 
 def environment() -> dict[str, str]:
     """Versions that may change the last digits of a result."""
-    versions = {name: importlib.metadata.version(name) for name in ("numpy", "scipy", "numba")}
-    return {"python": platform.python_version(), **versions}
+    return dict(_versions())
+
+
+@functools.cache
+def _versions() -> tuple[tuple[str, str], ...]:
+    """The versions of this process; to look them up takes milliseconds."""
+    names = ("numpy", "scipy", "numba")
+    found = [(name, importlib.metadata.version(name)) for name in names]
+    return ("python", platform.python_version()), *found

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -15,9 +16,10 @@ from cosserat.problems.outputs import energies, of_equilibria, outputs
 from cosserat.problems.posed import PosedProblem
 from cosserat.rods.holding import free_motions
 from cosserat.rods.problem import RodProblem
-from cosserat.rods.reference import Geometry, strains
+from cosserat.rods.reference import Geometry, Strains, strains
 from cosserat.rods.resolution import check_crossing, coarse
-from cosserat.solution import Field, Solution
+from cosserat.rods.rod import Rod
+from cosserat.solution import Solution
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.loading import coupled_energy
 from cosserat.solvers.modes import Modes, modes
@@ -88,6 +90,59 @@ class RodStatics(PosedProblem):
             raise
 
 
+class State:
+    """A displaced rod, or several at once: axes before the others, of all arrays, are of several rods.
+
+    q, load, reaction : (..., n) displacements [m], forces of the loads and of the supports [N].
+    """
+
+    def __init__(self, rod: Rod, geometry: Geometry, q: Array, load: Array, reaction: Array) -> None:
+        self.rod, self.geometry, self.q, self.load, self.reaction = rod, geometry, q, load, reaction
+
+    @cached_property
+    def moved(self) -> Array:
+        """Displacements of positions and directors, (..., N, 2, 2) [m]."""
+        return self.rod.kinematics.split(self.q)
+
+    @cached_property
+    def vectors(self) -> Array:
+        """Positions and directors, (..., N, 2, 2) [m]."""
+        return self.rod.vectors(self.geometry, self.q)
+
+    @cached_property
+    def measured(self) -> Strains:
+        """The strain measures."""
+        return strains(self.geometry, self.vectors[..., 0, :], self.vectors[..., 1, :])
+
+    def of_vertices(self, values: Array) -> Array:
+        """Values of the DOFs (..., n) by vertex, (..., N, DOFs of a vertex)."""
+        return values.reshape(*values.shape[:-1], -1, self.rod.kinematics.per_vertex)
+
+
+_VECTOR, _FORCE = ("vertex", "axis"), ("vertex", "dof")
+FIELDS: dict[str, tuple[tuple[str, ...], Callable[[State], Array]]] = {
+    "xi": (("vertex",), lambda s: s.geometry.arc_length),
+    "xi_edge": (
+        ("edge",),
+        lambda s: (s.geometry.arc_length[..., 1:] + s.geometry.arc_length[..., :-1]) / 2,
+    ),
+    "x_ref": (_VECTOR, lambda s: s.geometry.X),
+    "d_ref": (_VECTOR, lambda s: s.geometry.D),
+    "x": (_VECTOR, lambda s: s.vectors[..., 0, :]),
+    "d": (_VECTOR, lambda s: s.vectors[..., 1, :]),
+    "u": (_VECTOR, lambda s: s.moved[..., 0, :]),
+    "delta": (_VECTOR, lambda s: s.moved[..., 1, :]),
+    "mu_edge": (("edge",), lambda s: s.measured.mu_edge),
+    "mu": (("vertex",), lambda s: s.measured.mu),
+    "lam": (("vertex",), lambda s: s.measured.lam),
+    "phi": (("vertex",), lambda s: s.measured.phi),
+    "kappa": (("vertex",), lambda s: s.measured.kappa),
+    "applied_force": (_FORCE, lambda s: s.of_vertices(s.load)),
+    "support_force": (_FORCE, lambda s: s.of_vertices(s.reaction)),
+}
+"""Fields of an equilibrium by name: the dimensions of one state, and the values."""
+
+
 def check_supports(system: MechanicalSystem, name: str) -> None:
     """Raise UnsupportedRodError if neither supports nor springs resist a rigid motion."""
     free = free_motions(system)
@@ -105,33 +160,11 @@ def equilibrium_solution(
     """Fields of one equilibrium, in displacements, and what follows from them."""
     rod = problem.rod
     point, system = point.unframed(solver.system), solver.system.unframed
-    shape = (rod.vertices, rod.kinematics.per_vertex)
-    load = point.factor * system.dead_load.reshape(shape)
-    u, vectors = rod.kinematics.split(point.q), rod.vectors(geometry, point.q)
-    x, d = vectors[:, 0], vectors[:, 1]
-    measured = strains(geometry, x, d)
-    arc = geometry.arc_length
+    state = State(rod, geometry, point.q, point.factor * system.dead_load, point.reaction)
     coupled = coupled_energy(system, point)
     more, own = rod.strain_energy.fields(rod, geometry, system.internal, point.q, coupled)
     labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs} | more
-    vector, force = ("vertex", "axis"), ("vertex", "dof")
-    fields: dict[str, Field] = own | {
-        "xi": (("vertex",), arc),
-        "xi_edge": (("edge",), (arc[1:] + arc[:-1]) / 2),
-        "x_ref": (vector, geometry.X),
-        "d_ref": (vector, geometry.D),
-        "x": (vector, x),
-        "d": (vector, d),
-        "u": (vector, u[:, 0]),
-        "delta": (vector, u[:, 1]),
-        "mu_edge": (("edge",), measured.mu_edge),
-        "mu": (("vertex",), measured.mu),
-        "lam": (("vertex",), measured.lam),
-        "phi": (("vertex",), measured.phi),
-        "kappa": (("vertex",), measured.kappa),
-        "applied_force": (force, load),
-        "support_force": (force, point.reaction.reshape(shape)),
-    }
+    fields = own | {name: (dims, values(state)) for name, (dims, values) in FIELDS.items()}
     statistics: dict[str, int | float] = {
         "iterations": solver.iterations,
         "cutbacks": solver.cutbacks,

@@ -46,13 +46,11 @@ class Kinematics:
         return q.reshape(*q.shape[:-1], -1, len(self.vectors), len(self.axes))
 
     def parts(self, q: Array) -> Array:
-        """Edges, then directors, at flat DOFs: (N - 1 + N (m - 1), d)."""
+        """Edges, then directors, at flat DOFs (..., n): (..., N - 1 + N (m - 1), d)."""
         vectors = self.split(q)
-        count, m, d = vectors.shape
-        parts = np.empty((m * count - 1, d))
-        np.subtract(vectors[1:, 0], vectors[:-1, 0], out=parts[: count - 1])
-        parts[count - 1 :].reshape(count, m - 1, d)[:] = vectors[:, 1:]
-        return parts
+        edges, directors = np.diff(vectors[..., 0, :], axis=-2), vectors[..., 1:, :]
+        shape = (*directors.shape[:-3], -1, self.dimension)
+        return np.concatenate([edges, directors.reshape(shape)], axis=-2)
 
     def rigid_motions(self, q: Array) -> Array:
         """Velocities that deform nothing, at flat DOFs: shape (d + d (d - 1) / 2, N m d).

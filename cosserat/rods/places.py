@@ -121,6 +121,11 @@ def check_place(at: str | int, vertices: int, length: float, key: str) -> None:
         )
 
 
+def equal_mesh(vertices: int, length: float | Array) -> Array:
+    """Arc lengths of equally spaced vertices, (..., N) [m], of one or of several lengths (...)."""
+    return np.linspace(0.0, length, vertices, axis=-1)
+
+
 def mesh(vertices: int, length: float, places: Sequence[str | int]) -> Array:
     """Arc lengths (N,) of vertices [m], one of them at each given place, equally spaced between these.
 
@@ -128,7 +133,7 @@ def mesh(vertices: int, length: float, places: Sequence[str | int]) -> Array:
     ------
     PydanticCustomError : there are more places than vertices.
     """
-    equal = np.linspace(0.0, length, vertices)
+    equal = equal_mesh(vertices, length)
     between = [at for at in places if not (isinstance(at, int) or at in ("first", "last"))]
     if all(located(at, equal).share == 0.0 for at in between):
         return equal

@@ -45,6 +45,7 @@ class Geometry:
     """A reference configuration.
 
     X : (N, 2) centreline vertices [m].  D : (N, 2) directors, from the centreline to the lateral surface [m].
+    Axes before these are of several rods, here and in all that follows.
     """
 
     X: Array
@@ -54,11 +55,11 @@ class Geometry:
     def straight(cls, arc: Array, director_length: float | Array) -> Geometry:
         """A straight rod along E3 from the origin, eq. (3.3.1), its directors along E2.
 
-        arc : (N,) arc length of the vertices [m].
+        arc : (..., N) arc length of the vertices [m].
         """
-        X, D = np.zeros((arc.size, 2)), np.zeros((arc.size, 2))
-        X[:, 0] = arc
-        D[:, 1] = director_length
+        X, D = np.zeros((*arc.shape, 2)), np.zeros((*arc.shape, 2))
+        X[..., 0] = arc
+        D[..., 1] = director_length
         return cls(X, D)
 
     @classmethod
@@ -94,13 +95,14 @@ class Geometry:
     @cached_property
     def q(self) -> Array:
         """The DOFs of the reference configuration, shape (4 N,) [m]."""
-        dofs: Array = np.hstack([self.X, self.D]).ravel()
+        both = np.concatenate([self.X, self.D], axis=-1)
+        dofs: Array = both.reshape(*both.shape[:-2], -1)
         return dofs
 
     @cached_property
     def edge_length(self) -> Array:
         """||E||, shape (N - 1,) [m], eq. (3.3.4)."""
-        return lengths(self.X[1:] - self.X[:-1])
+        return lengths(np.diff(self.X, axis=-2))
 
     @cached_property
     def director_length(self) -> Array:
@@ -115,7 +117,10 @@ class Geometry:
     @cached_property
     def arc_length(self) -> Array:
         """Reference arc length of each vertex, shape (N,) [m]."""
-        return np.concatenate([[0.0], np.cumsum(self.edge_length)])
+        edges = self.edge_length
+        along = np.zeros((*edges.shape[:-1], edges.shape[-1] + 1))
+        np.cumsum(edges, axis=-1, out=along[..., 1:])
+        return along
 
 
 def to_vertices(edge_lengths: Array) -> Array:
@@ -123,9 +128,9 @@ def to_vertices(edge_lengths: Array) -> Array:
 
     They add up to the length of the polygon, eq. (3.3.12).
     """
-    vertex = np.zeros(edge_lengths.size + 1)
-    vertex[:-1] += edge_lengths / 2
-    vertex[1:] += edge_lengths / 2
+    vertex = np.zeros((*edge_lengths.shape[:-1], edge_lengths.shape[-1] + 1))
+    vertex[..., :-1] += edge_lengths / 2
+    vertex[..., 1:] += edge_lengths / 2
     return vertex
 
 
@@ -150,16 +155,15 @@ class Strains:
 
 def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     """Measure a configuration x, d, each of shape (N, 2) [m]."""
-    e = x[1:] - x[:-1]
+    e = np.diff(x, axis=-2)
     length = lengths(e)
     tangent = vertex_tangents(x)
     voronoi = to_vertices(length)
     # between edges, whose angle is that of their unit tangents (3.3.5); at the ends between the tangents of the
     # vertices, eqs. (3.3.16)-(3.3.17)
-    before = np.vstack([tangent[:1], e])
-    after = np.vstack([e, tangent[-1:]])
-    before[0], after[0] = tangent[0], tangent[1]
-    before[-1], after[-1] = tangent[-2], tangent[-1]
+    before = np.concatenate([tangent[..., :1, :], e], axis=-2)
+    after = np.concatenate([e, tangent[..., -1:, :]], axis=-2)
+    after[..., 0, :], before[..., -1, :] = tangent[..., 1, :], tangent[..., -2, :]
     phi = signed_angle(before, after)
     return Strains(
         mu_edge=length / geometry.edge_length,
@@ -174,10 +178,10 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
 def vertex_tangents(x: Array) -> Array:
     """Unit tangents at the vertices, shape (N, 2), eqs. (3.3.7)-(3.3.9)."""
     chord = np.empty_like(x)
-    chord[1:-1] = x[2:] - x[:-2]
-    chord[0] = x[1] - x[0]
-    chord[-1] = x[-1] - x[-2]
-    return chord / lengths(chord)[:, None]
+    chord[..., 1:-1, :] = x[..., 2:, :] - x[..., :-2, :]
+    chord[..., 0, :] = x[..., 1, :] - x[..., 0, :]
+    chord[..., -1, :] = x[..., -1, :] - x[..., -2, :]
+    return chord / lengths(chord)[..., None]
 
 
 def normals(x: Array) -> Array:
@@ -187,19 +191,21 @@ def normals(x: Array) -> Array:
 
 def _across(tangents: Array) -> Array:
     """t x E1 of tangents (N, 2)."""
-    return np.column_stack([-tangents[:, 1], tangents[:, 0]])
+    return np.stack([-tangents[..., 1], tangents[..., 0]], axis=-1)
 
 
 def signed_angle(a: Array, b: Array) -> Array:
     """Angle from a to b, positive from E3 towards E2: rows of (n, 2) arrays -> (n,) [rad]."""
-    angle: Array = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1))
+    across = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    angle: Array = np.arctan2(across, a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
     return angle
 
 
 def unwrapped_angles(d: Array) -> Array:
     """Polar angles of directors (N, 2), each within half a turn of the vertex before: (N,) [rad]."""
-    turns = np.concatenate([[np.arctan2(d[0, 1], d[0, 0])], signed_angle(d[:-1], d[1:])])
-    angles: Array = np.cumsum(turns)
+    first = np.arctan2(d[..., :1, 1], d[..., :1, 0])
+    turns = np.concatenate([first, signed_angle(d[..., :-1, :], d[..., 1:, :])], axis=-1)
+    angles: Array = np.cumsum(turns, axis=-1)
     return angles
 
 
@@ -208,7 +214,8 @@ def edge_shear(e: Array, d: Array) -> Array:
 
     e : (N - 1, 2) edges [m].  d : (N, 2) directors [m].
     """
-    unit = d / np.linalg.norm(d, axis=1)[:, None]
-    m = unit[1:] + unit[:-1]
-    angle: Array = np.arctan2((e * m).sum(axis=1), e[:, 0] * m[:, 1] - e[:, 1] * m[:, 0])
+    unit = d / lengths(d)[..., None]
+    m = unit[..., 1:, :] + unit[..., :-1, :]
+    along = e[..., 0] * m[..., 0] + e[..., 1] * m[..., 1]
+    angle: Array = np.arctan2(along, e[..., 0] * m[..., 1] - e[..., 1] * m[..., 0])
     return angle

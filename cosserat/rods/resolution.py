@@ -38,7 +38,7 @@ def surface_stretch(geometry: Geometry, x: Array, d: Array, lower: Array) -> Arr
     edges = np.stack([np.diff(surface, axis=-2) for surface in surfaces], axis=-3)
     m = across[..., None, :, :]
     length = edges[..., 0] * m[..., 1] - edges[..., 1] * m[..., 0]
-    stretch: Array = length / geometry.edge_length
+    stretch: Array = length / geometry.edge_length[..., None, :]
     return stretch
 
 

@@ -24,7 +24,7 @@ from cosserat.rods.energies.hemingway_stiffness import (
 from cosserat.rods.kinematics import Kinematics
 from cosserat.rods.material import Material
 from cosserat.rods.naming import DofName
-from cosserat.rods.places import vertex_at
+from cosserat.rods.places import equal_mesh, vertex_at
 from cosserat.rods.reference import Geometry
 from cosserat.rods.sections import AnySection
 from cosserat.rods.sections.section import Homogeneous
@@ -240,7 +240,7 @@ class Rod(Parameters):
 
         arc : (N,) arc length of the vertices [m]; equally spaced by default.
         """
-        arc = np.linspace(0.0, self.length, self.vertices) if arc is None else arc
+        arc = equal_mesh(self.vertices, self.length) if arc is None else arc
         heights = self.height * self.height_fractions(arc)
         reach = (1 - self.centreline) * heights
         return self.placed(self.rest, arc, reach)
@@ -256,7 +256,7 @@ class Rod(Parameters):
     def height_fractions(self, arc: Array) -> Array:
         """Heights at arc lengths (N,) [m] over the nominal one, after any step there, shape (N,) [1]."""
         if not self.stations:
-            return np.ones(arc.size)
+            return np.ones(arc.shape)
         return scale_at(self.stations, "height", arc, before=False)
 
     def part_masses(self, geometry: Geometry) -> Array:

@@ -82,7 +82,7 @@ class Straight(Directed):
 
     def curvatures(self, arc: Array) -> Array:
         """Zero."""
-        return np.zeros(arc.size - 1)
+        return np.zeros(arc.shape[-1] - 1)
 
 
 class Arc(Directed):

@@ -9,11 +9,22 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.rods.kinematics import Kinematics, lengths, rotated, rotation_rates, stretch_rates
+from cosserat.rods.kinematics import (
+    PLANAR,
+    Kinematics,
+    lengths,
+    rotated,
+    rotation_rates,
+    stretch_rates,
+)
+from cosserat.rods.space_kernel import planar
 from cosserat.solvers.banded import Mask, Vector
+from cosserat.solvers.members import FRACTION, PREDICTED, RATES
+from cosserat.solvers.system import CompiledSpace
 
 Array = NDArray[np.float64]
 _MAX_ROTATION = 1.0  # of a director in one step [rad]
+_NO_MASK, _NO_RATES = np.empty(0, dtype=np.bool_), np.empty((0, 2))
 
 
 @dataclass(frozen=True)
@@ -36,6 +47,15 @@ class RodSpace:
         return self.kinematics.dimension
 
     @cached_property
+    def compiled(self) -> CompiledSpace | None:
+        """That of a planar rod."""
+        if self.kinematics != PLANAR:
+            return None
+        none = np.zeros_like(self.at_rest)
+        parts = 2 * (none.size // self.kinematics.per_vertex) - 1
+        return CompiledSpace(planar, self.at_rest if self.displacements else none, parts)
+
+    @cached_property
     def reference(self) -> Vector:
         """The DOFs (n,) of the reference configuration."""
         return np.zeros_like(self.at_rest) if self.displacements else self.at_rest
@@ -45,10 +65,11 @@ class RodSpace:
         """Lengths of edges and directors, and additions to the DOFs: stretches are rounded as fractions of them."""
         sizes = np.empty_like(self.kinematics.split(self.at_rest))
         length = lengths(self.kinematics.parts(self.at_rest))
-        count = sizes.shape[0] - 1
-        sizes[:-1, 0], sizes[-1, 0] = length[:count, None], length[count - 1]
-        sizes[:, 1:] = length[count:].reshape(count + 1, -1, 1)
-        scale: Vector = np.maximum(sizes.ravel(), np.abs(self.rounded))
+        count, directors = sizes.shape[-3] - 1, sizes[..., 1:, 0].shape
+        sizes[..., :-1, 0, :] = length[..., :count, None]
+        sizes[..., -1, 0, :] = length[..., count - 1, None]
+        sizes[..., 1:, :] = length[..., count:].reshape(directors)[..., None]
+        scale: Vector = np.maximum(sizes.reshape(self.at_rest.shape), np.abs(self.rounded))
         return scale
 
     def placed(self, q: Vector) -> Vector:
@@ -61,6 +82,9 @@ class RodSpace:
 
     def max_step_fraction(self, q: Vector, step: Vector) -> float:
         """Largest fraction of a step that changes no director by more than its length, one radian."""
+        if self.compiled is not None:
+            kernel, placed, _ = self.compiled
+            return kernel(FRACTION, placed, q, step, _NO_MASK, _NO_RATES)
         d = self.kinematics.split(self.placed(q))[:, 1:]
         change = self.kinematics.split(step)[:, 1:]
         fastest = float((lengths(change) / lengths(d)).max())
@@ -75,6 +99,11 @@ class RodSpace:
 
     def rates(self, q: Vector, change: Vector) -> Array:
         """How fast edges and directors rotate [rad] and stretch as the DOFs change, (parts, 2) in the plane."""
+        if self.compiled is not None:
+            kernel, placed, parts = self.compiled
+            found = np.empty((parts, 2))
+            kernel(RATES, placed, q, change, _NO_MASK, found)
+            return found
         vectors, rates = self.kinematics.parts(self.placed(q)), self.kinematics.parts(change)
         return np.column_stack([rotation_rates(vectors, rates), stretch_rates(vectors, rates)])
 
@@ -85,6 +114,11 @@ class RodSpace:
 
         Rotated edges miss the supports; the gap is distributed along the rod between them.
         """
+        if self.compiled is not None:
+            kernel, given, _ = self.compiled
+            new = prescribe(q)
+            kernel(PREDICTED, given, q, new, constrained, moved)
+            return new
         placed = self.placed(q)
         at, vectors = self.kinematics.split(placed), self.kinematics.parts(placed)
         vectors = rotated((1 + moved[:, -1:]) * vectors, moved[:, :-1])

@@ -87,10 +87,10 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
     Gauss's rule with eight points on each smooth piece: exact to rounding for the polynomials that linear scale
     factors make, and nearly so for their inverses.
     """
-    count = cuts.size - 1
+    count = cuts.shape[-1] - 1
     if not stations:  # uniform: one interval represents all
         nodes, weights = _ONE
-        one = value(_NOMINAL, nodes) @ weights
+        one = (value(_NOMINAL, nodes) * weights).sum(axis=-1)
         return np.repeat(np.asarray(one)[..., None], count, axis=-1)
     steps = np.array([station.at for station in stations])
     nodes, weights = _gauss(
@@ -106,13 +106,14 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
 
 
 def vertex_cuts(arc: Array) -> Array:
-    """Arc lengths where the parts round the vertices meet, and both ends, shape (N + 1,) [m]."""
-    return np.concatenate([arc[:1], (arc[1:] + arc[:-1]) / 2, arc[-1:]])
+    """Arc lengths where the parts round the vertices meet, and both ends, shape (..., N + 1) [m]."""
+    middle = (arc[..., 1:] + arc[..., :-1]) / 2
+    return np.concatenate([arc[..., :1], middle, arc[..., -1:]], axis=-1)
 
 
 def overlap(cuts: Array, start: float, end: float) -> Array:
-    """Length that each interval between neighbouring cuts shares with another interval, (cuts - 1,) [m]."""
-    shared: Array = np.maximum(0.0, np.minimum(cuts[1:], end) - np.maximum(cuts[:-1], start))
+    """Length that each interval between neighbouring cuts shares with another interval, (..., cuts - 1) [m]."""
+    shared: Array = np.maximum(0.0, np.minimum(cuts[..., 1:], end) - np.maximum(cuts[..., :-1], start))
     return shared
 
 

@@ -58,12 +58,6 @@ def absolute_product(band: Band, x: Vector) -> Vector:
 
 
 @njit(cache=True)
-def largest_product(band: Band, x: Vector, scale: Vector) -> float:
-    """The largest entry of |H| max(|x|, scale)."""
-    return float(absolute_product(band, np.maximum(np.abs(x), scale)).max())
-
-
-@njit(cache=True)
 def band_product(band: Band, x: Vector) -> Vector:
     """H x, shape (n,)."""
     n, width = band.shape

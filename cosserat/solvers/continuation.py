@@ -13,7 +13,8 @@ import numpy as np
 
 from cosserat.errors import NotConvergedError
 from cosserat.solvers.banded import Vector
-from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver, stalled
+from cosserat.solvers.climb import stalled
+from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver
 from cosserat.solvers.system import ConfigurationSpace
 
 _BISECTION_TOLERANCE = 0.02  # fraction of the first arc to which a bifurcation is located

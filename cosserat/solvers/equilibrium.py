@@ -12,19 +12,17 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from numba import njit
 
 from cosserat.errors import NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.solvers.banded import Mask, Vector, absolute_product, largest_product
+from cosserat.solvers.banded import Vector, absolute_product
+from cosserat.solvers.climb import MAX_ROUND_OFF_FRACTION, balance, largest_product, stalled
 from cosserat.solvers.heartbeat import beat
 from cosserat.solvers.indefinite import lowest_eigenvector
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 _EPS = float(np.finfo(float).eps)
 SMALLEST = 2.0**-24  # fraction of the first arc below which halving stops
-_MAX_ROUND_OFF_FRACTION = 1e-3  # of the loads; larger round-off forces make an answer worthless
-_STALL_FACTOR = 16.0  # a residual that stops falling below this multiple of round-off is round-off
 _MAX_POLISHING_STEPS = 6  # Newton steps beyond the tolerance
 _DECISIVE_ROUND_OFF_RATIO = 5.0  # a force above this multiple of its round-off decides the side
 
@@ -135,7 +133,7 @@ class EquilibriumSolver:
             scale = max(load, reaction, largest * (load == 0))
             tolerance = max(allowed * scale, rounding)
             self.residual, self.tolerance = residual, tolerance
-            if load > 0 and rounding > _MAX_ROUND_OFF_FRACTION * max(scale, total):
+            if load > 0 and rounding > MAX_ROUND_OFF_FRACTION * max(scale, total):
                 if iteration > 0:
                     return None  # a step diverged into a stiff state
                 raise self._round_off_error(rounding)
@@ -158,7 +156,7 @@ class EquilibriumSolver:
     def unbalanced(self) -> tuple[Vector, float, float]:
         """Unbalanced forces (n,) by the tangent assembled last, the largest, and the largest reaction [N]."""
         forces = np.empty_like(self.tangent.gradient)
-        return forces, *_balance(self.tangent.gradient, self.system.constrained, forces)
+        return forces, *balance(self.tangent.gradient, self.system.constrained, forces)
 
     def accepted(
         self, q: Vector, factor: float, history: History, rounding: float, *, positive: bool = False
@@ -200,7 +198,7 @@ class EquilibriumSolver:
         """Raise NotConvergedError if no support moves and round-off forces exceed a fraction of the full load."""
         _, load = self.system.load_sizes
         if (
-            point.rounding > _MAX_ROUND_OFF_FRACTION * load > 0
+            point.rounding > MAX_ROUND_OFF_FRACTION * load > 0
             and not self.system.prescribed_rate(1.0).any()
         ):
             raise self._round_off_error(point.rounding)
@@ -216,7 +214,8 @@ class EquilibriumSolver:
 
     def rounding(self, q: Vector) -> float:
         """Largest force that rounding can cause, by the Hessian assembled last [N]."""
-        return _EPS * float(largest_product(self.tangent.band, q, self.system.space.scale))
+        band, scale = self.tangent.band, self.system.space.scale
+        return _EPS * float(largest_product(band, q, scale, np.empty_like(q)))
 
     def buckling_direction(self, before: Equilibrium, after: Equilibrium) -> tuple[Vector, bool]:
         """The softest motion of a stable body that is about to buckle, and whether its side is decided.
@@ -298,22 +297,3 @@ class EquilibriumSolver:
         )
         error.state = last
         return error
-
-
-@njit(cache=True)
-def _balance(gradient: Vector, constrained: Mask, forces: Vector) -> tuple[float, float]:
-    """Overwrite what is unbalanced; the largest of it, not a number where one is not, and of the reactions."""
-    residual = reaction = 0.0
-    for i in range(gradient.size):
-        forces[i] = 0.0 if constrained[i] else -gradient[i]
-        size = abs(gradient[i])
-        if constrained[i]:
-            reaction = max(reaction, size)
-        elif size > residual or np.isnan(size):
-            residual = size
-    return residual, reaction
-
-
-def stalled(residual: float, last: float, rounding: float) -> bool:
-    """Whether the residual no longer falls and is of the order of the estimated round-off."""
-    return residual > last / 2 and residual <= _STALL_FACTOR * rounding

@@ -34,6 +34,7 @@ class FlatSpace:
 
     scale: Vector
     dimension: int = 1
+    compiled: None = None
 
     @property
     def reference(self) -> Vector:

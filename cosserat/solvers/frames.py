@@ -96,6 +96,7 @@ class FramedSpace:
 
     plain: ConfigurationSpace
     frame: Frame
+    compiled: None = None
 
     @property
     def dimension(self) -> int:

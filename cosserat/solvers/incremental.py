@@ -1,6 +1,7 @@
 """The equilibrium under a growing load, by load increments.
 
-Increments continue while the path before them predicts their end and the body stays stable.  After that,
+A body that `solvers.climb` can take is left to its compiled loop.  Otherwise, and where the loop is in doubt,
+increments continue while the path before them predicts their end and the body stays stable.  After that,
 `solvers.continuation` traces the path.
 """
 
@@ -8,14 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from cosserat.solvers.climb import MAX_ROTATION, NEGLIGIBLE_ROTATION, PREDICTION_TOLERANCE
 from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
+from cosserat.solvers.many import climbed
 from cosserat.solvers.system import Fields, MechanicalSystem
 
-_PREDICTION_TOLERANCE = 0.3  # largest prediction error, as a fraction of the increment
-_NEGLIGIBLE_ROTATION = 1e-5  # rotation below which an increment needs no prediction [rad]
 _INTERMEDIATE_TOLERANCE = 1e-8  # unbalanced fraction of the loads before the last increment
-_MAX_ROTATION = 0.7  # largest rotation of a part in an increment [rad]
 _MAX_ARCS = 10_000  # arcs on the way to one equilibrium
 _MAX_CUTBACKS = 4  # rejected increments at one factor before the path is traced
 
@@ -33,6 +33,9 @@ def solve_full_load(solver: EquilibriumSolver, *, stay: bool = False) -> Equilib
     with np.errstate(
         over="ignore", invalid="ignore"
     ):  # non-finite values are rejected below without a warning
+        found = climbed(solver)
+        if found is not None:
+            return found
         point = unloaded(solver)
         solver.check_round_off(point)
         point = _by_increments(solver, point)
@@ -86,7 +89,7 @@ def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium
         if before is not None:
             bend = (rates - before[1]) / (point.factor - before[0])
         fastest = float(np.abs(rates).max())
-        increment = min(increment, longest, _MAX_ROTATION / fastest if fastest > 0 else longest)
+        increment = min(increment, longest, MAX_ROTATION / fastest if fastest > 0 else longest)
         goal = point.factor + increment if point.factor + 1.001 * increment < 1.0 else 1.0
         step = goal - point.factor
         moved = step * (rates + step / 2 * bend)
@@ -100,9 +103,9 @@ def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium
         if found is not None and found.stable:
             turned = space.rates((point.q + found.q) / 2, found.q - point.q)
             off = float(np.abs(turned - moved).max()) / max(
-                float(np.abs(turned).max()), _NEGLIGIBLE_ROTATION
+                float(np.abs(turned).max()), NEGLIGIBLE_ROTATION
             )
-        if found is None or off > _PREDICTION_TOLERANCE:
+        if found is None or off > PREDICTION_TOLERANCE:
             refused, wall = refused + 1, goal
             solver.cutbacks += 1
             increment = step / 2
@@ -110,5 +113,5 @@ def _by_increments(solver: EquilibriumSolver, point: Equilibrium) -> Equilibrium
         before, point = (point.factor, rates), found
         if point.factor >= wall:  # otherwise ever shorter increments would approach a bifurcation
             refused = 0
-        increment *= float(np.clip(np.sqrt(_PREDICTION_TOLERANCE / 2 / max(off, 1e-3)), 0.5, 2.0))
+        increment *= float(np.clip(np.sqrt(PREDICTION_TOLERANCE / 2 / max(off, 1e-3)), 0.5, 2.0))
     return point

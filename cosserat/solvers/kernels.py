@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
-FOLDERS = ("solvers", "rods/energies", "rods/loads", "rods/attachments", "peristalsis")
+FOLDERS = ("solvers", "rods", "rods/energies", "rods/loads", "rods/attachments", "peristalsis")
 """Folders of the package that hold compiled kernels."""
 
 

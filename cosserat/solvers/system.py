@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,12 +56,27 @@ class Constraints(Protocol):
         """Displacement, velocity and acceleration of the constrained DOFs at a time [s], each (n,)."""
 
 
+class CompiledSpace(NamedTuple):
+    """A configuration space for compiled code.
+
+    kernel : `solvers.members.SPACE_KERNEL`.  placed : (n,) its second argument.  parts : number of parts that turn.
+    """
+
+    kernel: Callable[..., float]
+    placed: Vector
+    parts: int
+
+
 class ConfigurationSpace(Protocol):
     """Properties of the DOFs that solvers need."""
 
     @property
     def dimension(self) -> int:
         """The DOFs are components of vectors of a space of this dimension, one vector after the other."""
+
+    @property
+    def compiled(self) -> CompiledSpace | None:
+        """It for compiled code; None if there is no such code."""
 
     @property
     def reference(self) -> Vector:

@@ -68,7 +68,7 @@ def stiffnesses(
     on every edge, or one for all [1/m].
     """
     first_height = stations[0].height if stations else 1.0
-    lift = np.full(arc.size - 1, curvature * offset)
+    lift = np.full(arc[..., 1:].shape, curvature * offset)
     lifted = bool(lift.any())
 
     def on_edges(s: Scales, _: Array) -> Array:
@@ -76,21 +76,22 @@ def stiffnesses(
         both, higher = axial + volume, s.height - first_height
         ratios = [1 / both, axial / both, volume / both, axial * volume / both]
         inverses = [1 / shear, 1 / bending, 1 / gradient]
-        sums = np.array([*ratios, *inverses, higher / bending, higher**2 / bending, higher])
+        every = [*ratios, *inverses, higher / bending, higher * higher / bending, higher]
+        sums = np.stack(np.broadcast_arrays(*every))
         return np.concatenate([sums, s.height * sums]) if lifted else sums
 
     def across(s: Scales, _: Array) -> Array:
         own = along(s).section
         return np.array([own, s.height * own]) if lifted else own[None]
 
-    means, edge, cuts = mean(stations, on_edges, arc), arc[1:] - arc[:-1], vertex_cuts(arc)
-    length, parts = np.ones(edge.size), cuts[1:] - cuts[:-1]
+    means, edge, cuts = mean(stations, on_edges, arc), np.diff(arc), vertex_cuts(arc)
+    length, parts = np.ones(edge.shape), np.diff(cuts)
     if lifted:
         plain, raised = np.split(means, 2)
         length = 1 - lift * (first_height + plain[-1])
         means = (plain - lift * raised) / length
     compliance, axial, volume, product, shear, bending, gradient, lever, square, _ = means
-    alpha = 1 / (compliance + offset**2 * (square - lever**2 / bending))
+    alpha = 1 / (compliance + offset * offset * (square - lever * lever / bending))
     axis = first_height + lever / bending
     own = mean(stations, across, cuts)
     section = own[0] - to_vertices(edge * lift) / parts * own[1] if lifted else own[0]

@@ -62,7 +62,8 @@ class Reissner(Energy):
             stiffness,
             barrier=rod.barrier,
             product=rod.lateral_constraint == "incompressible",
-            offsets=rod.elastic_offset * (stiffness.axis / np.array([heights[:-1], heights[1:]])),
+            offsets=rod.elastic_offset
+            * (stiffness.axis / np.array([heights[..., :-1], heights[..., 1:]])),
             displacements=displacements,
         )
 
@@ -117,16 +118,17 @@ def potential(
         directors, or one for all; edges run between area centres, and the second moment is about them.
     displacements : DOFs are displacements; on fine meshes their round-off is far less than that of positions.
     """
-    rod = np.zeros(geometry.X.shape[0], VERTEX)
-    rod["low"][:-1], rod["high"][:-1] = np.full((2, rod.size - 1), offsets)
-    e, angles = centre_edges(rod, geometry.X, geometry.D), unwrapped_angles(geometry.D)
-    turn = angles[1:] - angles[:-1]
-    b = angles[:-1] + turn / 2
+    angles = unwrapped_angles(geometry.D)
+    turn = np.diff(angles)
+    rod = np.zeros(angles.shape, VERTEX)
+    rod["low"][..., :-1], rod["high"][..., :-1] = np.full((2, *turn.shape), offsets)
+    e = centre_edges(rod, geometry.X, geometry.D)
+    b = angles[..., :-1] + turn / 2
     s, c = np.sin(b), np.cos(b)
     edges = {
-        "edge": np.linalg.norm(geometry.X[1:] - geometry.X[:-1], axis=1) * stiffness.length,
-        "axial": e[:, 0] * s - e[:, 1] * c,
-        "slide": e[:, 0] * c + e[:, 1] * s,
+        "edge": geometry.edge_length * stiffness.length,
+        "axial": e[..., 0] * s - e[..., 1] * c,
+        "slide": e[..., 0] * c + e[..., 1] * s,
         "turn": turn,
         "k_axial": stiffness.axial,
         "k_volume": stiffness.volume,
@@ -135,19 +137,19 @@ def potential(
         "k_stretch_gradient": stiffness.stretch_gradient,
     }
     for name, values in edges.items():
-        rod[name][:-1] = values
+        rod[name][..., :-1] = values
     rod["director"], rod["voronoi"] = geometry.director_length, geometry.voronoi_length
     rod["k_section"] = stiffness.section
     rod["barrier"], rod["product"] = float(barrier), product
     if displacements:
-        rod["edge_3"][:-1], rod["edge_2"][:-1] = e.T
-        rod["director_3"], rod["director_2"] = geometry.D.T
+        rod["edge_3"][..., :-1], rod["edge_2"][..., :-1] = e[..., 0], e[..., 1]
+        rod["director_3"], rod["director_2"] = geometry.D[..., 0], geometry.D[..., 1]
     return Potential(
         evaluate=reissner_kernel.assemble,
         constants=rod,
         terms=TERMS,
         half_bandwidth=7,  # two neighbouring vertices
-        strains=(rod.size, 4),
+        strains=(angles.shape[-1], 4),
     )
 
 
@@ -194,8 +196,9 @@ def stressed(
 
 def centre_edges(constants: NDArray[np.void], x: Array, d: Array) -> Array:
     """Edges between area centres, (N - 1, 2) [m], of vertices and directors (N, 2) [m]."""
-    low, high = constants["low"][:-1, None], constants["high"][:-1, None]
-    edges: Array = (x[1:] + high * d[1:]) - (x[:-1] + low * d[:-1])
+    low, high = constants["low"][..., :-1, None], constants["high"][..., :-1, None]
+    first = x[..., :-1, :] + low * d[..., :-1, :]
+    edges: Array = (x[..., 1:, :] + high * d[..., 1:, :]) - first
     return edges
 
 

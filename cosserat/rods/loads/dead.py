@@ -26,15 +26,20 @@ class DeadLoad(Load):
 
     @abstractmethod
     def on_dofs(self, body: LoadedRod) -> Array:
-        """Force on the DOFs of each vertex, shape (N, DOFs of a vertex) [N]."""
+        """Force on the DOFs of each vertex, shape (..., N, DOFs of a vertex) [N]."""
+
+    @classmethod
+    def total(cls, loads: Sequence[Self], body: LoadedRod) -> Array:
+        """The force of all of them on the DOFs of each vertex, shape (..., N, DOFs of a vertex) [N]."""
+        total = body.no_force
+        for load in loads:
+            total += load.on_dofs(body)
+        return total
 
     @classmethod
     def potential(cls, loads: Sequence[Self], body: LoadedRod) -> Potential:
         """Minus the work of the forces from the reference, eq. (3.3.40)."""
-        total = body.no_force
-        for load in loads:
-            total += load.on_dofs(body)
-        return dead(total.ravel(), body.unmoved)
+        return dead(cls.total(loads, body).ravel(), body.unmoved)
 
 
 class Gravity(DeadLoad):
@@ -71,7 +76,7 @@ class PointForce(DeadLoad):
         """Force on the positions of the vertices beside it."""
         forces = body.no_force
         for vertex, weight in body.shared(self.at):
-            forces[vertex, :2] = weight * self.force * unit_vector(self.along)
+            forces[..., vertex, :2] = weight * self.force * unit_vector(self.along)
         return forces
 
 
@@ -86,7 +91,8 @@ class LineLoad(Stretch, DeadLoad):
     def on_dofs(self, body: LoadedRod) -> Array:
         """Forces on the covered lengths of the parts round the vertices."""
         forces = body.no_force
-        forces[:, :2] = self.density * self.covered(body)[:, None] * unit_vector(self.along)
+        sizes = self.density * self.covered(body)
+        forces[..., :2] = sizes[..., None] * unit_vector(self.along)
         return forces
 
 

@@ -49,8 +49,8 @@ class LoadedRod:
 
     @property
     def no_force(self) -> Array:
-        """Zero for the DOFs of each vertex, shape (N, DOFs of a vertex)."""
-        return np.zeros((self.rod.vertices, self.rod.kinematics.per_vertex))
+        """Zero for the DOFs of each vertex, shape (..., N, DOFs of a vertex)."""
+        return np.zeros((*self.geometry.X.shape[:-1], self.rod.kinematics.per_vertex))
 
     @property
     def held_components(self) -> NDArray[np.bool_]:
@@ -60,8 +60,9 @@ class LoadedRod:
         return np.asarray(self.rod.kinematics.split(self.held)[:, :2].all(axis=1))
 
     def shared(self, at: str | int) -> tuple[tuple[int, float], ...]:
-        """The vertices beside a place, with their weights in linear interpolation."""
-        return located(at, self.geometry.arc_length).weights
+        """The vertices beside a place, with their weights in linear interpolation; the same in several rods."""
+        arc = self.geometry.arc_length
+        return located(at, arc.reshape(-1, arc.shape[-1])[0]).weights
 
     @property
     def unmoved(self) -> Array:
@@ -118,6 +119,6 @@ class Stretch(Load):
         return self.start, rod.length if self.end is None else self.end
 
     def covered(self, body: LoadedRod) -> Array:
-        """Length that it covers of the part round each vertex, shape (N,) [m]."""
+        """Length that it covers of the part round each vertex, shape (..., N) [m]."""
         start, end = self.ends(body.rod)
         return overlap(vertex_cuts(body.geometry.arc_length), start, end)

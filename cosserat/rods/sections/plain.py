@@ -35,7 +35,7 @@ class Rectangle(Homogeneous):
     @property
     def second_moment(self) -> float:
         """I = W H^3 / 12 [m^4]."""
-        return self.width * self.height**3 / 12
+        return self.width * self.height * self.height * self.height / 12
 
     @property
     def thinness(self) -> float:
@@ -68,12 +68,12 @@ class Square(Homogeneous):
     @property
     def area(self) -> float:
         """A = a^2 [m^2]."""
-        return self.side**2
+        return self.side * self.side
 
     @property
     def second_moment(self) -> float:
         """I = a^4 / 12 [m^4]."""
-        return self.side**4 / 12
+        return self.area * self.area / 12
 
     def cowper(self, poisson: Any) -> Any:
         """10 (1 + nu) / (12 + 11 nu) [1]."""
@@ -97,12 +97,12 @@ class Ellipse(Homogeneous):
     @property
     def second_moment(self) -> float:
         """I = pi W H^3 / 64 [m^4]."""
-        return math.pi * self.width * self.height**3 / 64
+        return self.area * self.height * self.height / 16
 
     def cowper(self, poisson: Any) -> Any:
         """12 (1 + nu) a^2 (3 a^2 + b^2) / ((40 + 37 nu) a^4 + (16 + 10 nu) a^2 b^2 + nu b^4), a along E2 [1]."""
-        a, b = self.height**2, self.width**2
-        below = (40 + 37 * poisson) * a**2 + (16 + 10 * poisson) * a * b + poisson * b**2
+        a, b = self.height * self.height, self.width * self.width
+        below = (40 + 37 * poisson) * a * a + (16 + 10 * poisson) * a * b + poisson * b * b
         return 12 * (1 + poisson) * a * (3 * a + b) / below
 
 
@@ -127,12 +127,12 @@ class Circle(Homogeneous):
     @property
     def area(self) -> float:
         """A = pi d^2 / 4 [m^2]."""
-        return math.pi * self.diameter**2 / 4
+        return math.pi * self.diameter * self.diameter / 4
 
     @property
     def second_moment(self) -> float:
         """I = pi d^4 / 64 [m^4]."""
-        return math.pi * self.diameter**4 / 64
+        return self.area * self.diameter * self.diameter / 16
 
     def cowper(self, poisson: Any) -> Any:
         """6 (1 + nu) / (7 + 6 nu) [1]."""

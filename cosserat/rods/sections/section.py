@@ -126,7 +126,7 @@ class Homogeneous(Section):
     @property
     def thinness(self) -> float:
         """A H^2 / I, with H the height: 12 for a rectangle [1]."""
-        return self.area * self.height**2 / self.second_moment
+        return self.area * self.height * self.height / self.second_moment
 
     @property
     def mass_spread(self) -> float:
@@ -171,7 +171,7 @@ class Homogeneous(Section):
     def along(self, material: Material | None, lateral_constraint: LateralConstraint) -> Along:
         """2 mu A, Lambda A, k mu A, EI and mu I."""
         assert material is not None
-        second_moment = self.area * self.height**2 / self.thinness
+        second_moment = self.area * self.height * self.height / self.thinness
         young, poisson = material.moduli
         return of_one_material(
             self.area, second_moment, young, poisson, self.shear_factor_for, lateral_constraint

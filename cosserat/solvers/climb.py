@@ -1,0 +1,434 @@
+"""Equilibria of many like bodies as their loads grow, in one compiled loop; a single body is an array of one.
+
+The body is one potential under dead loads, its constrained degrees of freedom (DOFs) stay where they are, and its path
+is stable and predictable.  Wherever the loop is in doubt, because the Hessian is not positive, a prediction fails, or
+Newton's method does not converge, it leaves the body to `solvers.incremental`.  It factorises by itself: the bits of an
+answer must depend neither on the kernels of a library of linear algebra nor on the other bodies of the array.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from cosserat.solvers.members import (
+    FRACTION,
+    LEFT,
+    PREDICTED,
+    RATES,
+    REACHED,
+    Answers,
+    Body,
+    Limits,
+    Members,
+)
+from cosserat.solvers.potential import GRADIENT, HESSIAN
+
+Vector = NDArray[np.float64]
+Fields = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+PREDICTION_TOLERANCE = 0.3
+"""Largest prediction error, as a fraction of the increment."""
+NEGLIGIBLE_ROTATION = 1e-5
+"""Rotation below which an increment needs no prediction [rad]."""
+MAX_ROTATION = 0.7
+"""Largest rotation of a part in an increment [rad]."""
+MAX_ROUND_OFF_FRACTION = 1e-3
+"""Largest round-off of forces, as a fraction of the loads; more makes an answer worthless."""
+_STALL_FACTOR = 16.0  # a residual that stops falling below this multiple of round-off is round-off
+_MAX_CUTBACKS = 4  # rejected increments before a body is left
+_STRAIGHT = 1e-4  # rotation or stretch below which a step is a straight line
+_SETTLED = 1e-1  # last correction of an increment before the last one, as a fraction of the increment
+_STIFFENING = 0.9  # ratio of the rates at two points below which a body stiffens
+_UNROLLED = (0,) * 8
+"""As many zeros as the width of the most common band: code for just this width is twice as fast."""
+_EPS = float(np.finfo(float).eps)
+
+
+@njit(cache=True)
+def balance(gradient: Vector, constrained: Mask, forces: Vector) -> tuple[float, float]:
+    """Overwrite what is unbalanced; the largest of it, not a number where one is not, and of the reactions."""
+    residual = reaction = 0.0
+    for i in range(gradient.size):
+        forces[i] = 0.0 if constrained[i] else -gradient[i]
+        size = abs(gradient[i])
+        if constrained[i]:
+            reaction = max(reaction, size)
+        elif size > residual or np.isnan(size):
+            residual = size
+    return residual, reaction
+
+
+@njit(cache=True)
+def stalled(residual: float, last: float, rounding: float) -> bool:
+    """Whether the residual no longer falls and is of the order of the estimated round-off."""
+    return residual > last / 2 and residual <= _STALL_FACTOR * rounding
+
+
+@njit(cache=True)
+def largest_product(band: Fields, x: Vector, scale: Vector, work: Vector) -> float:
+    """The largest entry of |H| max(|x|, scale); work : (n,) is overwritten."""
+    n, width = band.shape
+    work[:] = 0.0
+    for j in range(n):
+        size = max(abs(x[j]), scale[j])
+        total = work[j] + abs(band[j, 0]) * size
+        for k in range(1, min(width, n - j)):
+            entry = abs(band[j, k])
+            work[j + k] += entry * size
+            total += entry * max(abs(x[j + k]), scale[j + k])
+        work[j] = total
+    largest = 0.0
+    for j in range(n):
+        largest = max(largest, work[j])
+    return largest
+
+
+@njit(cache=True, error_model="numpy")
+def factorise(band: Fields, held: Mask) -> bool:
+    """Overwrite a symmetric band with its lower factor, its diagonal inverted; False if not positive.
+
+    Constrained DOFs are uncoupled and have the diagonal 1.
+
+    band : (n + w, w), zero beyond the matrix.
+    """
+    width = band.shape[1]
+    for j in range(held.size):
+        for k in range(1, width):
+            if held[j] or (j + k < held.size and held[j + k]):
+                band[j, k] = 0.0
+        if held[j]:
+            band[j, 0] = 1.0
+    if width == len(_UNROLLED):
+        return _eliminate(band, held.size, _UNROLLED)
+    return _eliminate(band, held.size, range(width))
+
+
+@njit(cache=True, error_model="numpy")
+def _eliminate(band: Fields, n: int, width: Any) -> bool:
+    """The factorisation itself; width : something of this length, which compiled code may know."""
+    for j in range(n):
+        row = band[j]
+        if not row[0] > 0.0:
+            return False
+        row[0] = 1 / np.sqrt(row[0])
+        for k in range(1, len(width)):
+            row[k] *= row[0]
+        for k in range(1, len(width)):
+            below, factor = band[j + k], row[k]
+            for m in range(k, len(width)):
+                below[m - k] -= factor * row[m]
+    return True
+
+
+@njit(cache=True)
+def substitute(factor: Fields, x: Vector, room: Vector) -> None:
+    """Overwrite a right-hand side (n,) with the solution; room : (n + w,) is overwritten."""
+    room[: x.size] = x
+    if factor.shape[1] == len(_UNROLLED):
+        _solve(factor, x.size, _UNROLLED, room)
+    else:
+        _solve(factor, x.size, range(factor.shape[1]), room)
+    x[:] = room[: x.size]
+
+
+@njit(cache=True)
+def _solve(factor: Fields, n: int, width: Any, room: Vector) -> None:
+    """Overwrite the first n numbers of a right-hand side (n + w,) with the solution."""
+    room[n:] = 0.0
+    for j in range(n):
+        room[j] *= factor[j, 0]
+        for k in range(1, len(width)):
+            room[j + k] -= factor[j, k] * room[j]
+    room[n:] = 0.0
+    for j in range(n - 1, -1, -1):
+        total = room[j]
+        for k in range(1, len(width)):
+            total -= factor[j, k] * room[j + k]
+        room[j] = total * factor[j, 0]
+
+
+@njit(cache=True)
+def _assemble(body: Body, q: Vector, factor: float, task: int) -> float:
+    """Overwrite the gradient, and the Hessian if that is the task; the energy of the body."""
+    for i in range(q.size):
+        body.at[i] = q[i] + body.origin[i]
+        body.gradient[i] = 0.0
+    if task == HESSIAN:
+        body.band[:, :] = 0.0
+    energy: float = body.kernel(
+        body.at,
+        body.none,
+        body.data,
+        body.none,
+        body.skew,
+        task,
+        body.gradient,
+        body.band[: q.size] if task == HESSIAN else body.skew,
+        body.skew,
+        body.terms,
+    )
+    for i in range(q.size):
+        body.gradient[i] -= factor * body.dead[i]
+    return energy
+
+
+@njit(cache=True)
+def _load_rates(body: Body, q: Vector, velocity: Vector, rates: Fields) -> None:
+    """Overwrite the rates with the load factor at q, where the Hessian has been factorised."""
+    for i in range(q.size):
+        velocity[i] = 0.0 if body.held[i] else body.dead[i]
+    substitute(body.band, velocity, body.room)
+    body.space(RATES, body.placed, q, velocity, body.held, rates)
+
+
+@njit(cache=True)
+def _reach(
+    body: Body,
+    limits: Limits,
+    q: Vector,
+    goal: float,
+    size: float,
+    step: Vector,
+    rates: Fields,
+    ahead: Fields,
+    answer: tuple[Vector, Vector],
+) -> tuple[bool, int]:
+    """Newton's method from q, which is overwritten, at a load factor: whether it converges, and its steps.
+
+    size : largest rotation or stretch of the increment.  Before the last one q need not satisfy the balance to the
+    end, as long as little of the increment is left to correct.
+    ahead : is overwritten by the rates with the load factor.  answer : at the last one reaction and forces.
+    """
+    reaction, forces = answer
+    last, load = np.inf, abs(goal) * body.load
+    for count in range(limits.max_iterations + 1):
+        energy = _assemble(body, q, goal, HESSIAN)
+        residual, support = balance(body.gradient, body.held, step)
+        rounding = _EPS * largest_product(body.band[: q.size], q, body.scale, body.at)
+        scale = max(load, support)
+        tolerance = max(limits.tolerance * scale, rounding)
+        sound = np.isfinite(energy) and rounding <= MAX_ROUND_OFF_FRACTION * max(scale, body.total)
+        if not sound or not factorise(body.band, body.held):
+            return False, count
+        substitute(body.band, step, body.room)
+        if goal == 1.0 and (residual <= tolerance or stalled(residual, last, rounding)):
+            forces[0], forces[1], forces[-1] = residual, tolerance, rounding
+            _polish(body, q, step, reaction, forces)
+            return True, count
+        last = residual
+        body.space(RATES, body.placed, q, step, body.held, rates)
+        fastest = _largest(rates)
+        settled = goal < 1.0 and fastest <= _SETTLED * size
+        if settled:
+            _load_rates(body, q, body.at, ahead)
+        if not np.isfinite(fastest) or count == limits.max_iterations:
+            return False, count
+        _move(body, q, step, rates, fastest)
+        if settled:
+            return True, count + 1
+    return False, limits.max_iterations
+
+
+@njit(cache=True)
+def _polish(body: Body, q: Vector, step: Vector, reaction: Vector, forces: Vector) -> None:
+    """Keep the balance at q, or after one more step, if the residual is smaller there or is round-off."""
+    _react(body, reaction)
+    for i in range(q.size):
+        step[i] += q[i]
+    _assemble(body, step, 1.0, GRADIENT)
+    nearer, _ = balance(body.gradient, body.held, body.at)
+    if nearer <= max(forces[0], forces[-1]):
+        forces[0] = nearer
+        q[:] = step
+        _react(body, reaction)
+
+
+@njit(cache=True)
+def _react(body: Body, reaction: Vector) -> None:
+    """Overwrite the forces of the constrained DOFs, from the gradient assembled last."""
+    for i in range(reaction.size):
+        reaction[i] = body.gradient[i] if body.held[i] else 0.0
+
+
+@njit(cache=True)
+def _move(body: Body, q: Vector, step: Vector, rates: Fields, fastest: float) -> None:
+    """Move q by a step: the parts rotate and stretch by its rates, so that a rotation does not stretch them."""
+    if fastest <= _STRAIGHT:
+        for i in range(q.size):
+            q[i] += step[i]
+        return
+    share = min(1.0, body.space(FRACTION, body.placed, q, step, body.held, rates))
+    for row in rates:
+        for k in range(row.size):
+            row[k] *= share
+    step[:] = q
+    body.space(PREDICTED, body.placed, q, step, body.held, rates)
+    q[:] = step
+
+
+@njit(cache=True)
+def _largest(values: Fields) -> float:
+    """The largest size of some numbers."""
+    largest = 0.0
+    for row in values:
+        for value in row:
+            if not abs(value) <= largest:
+                largest = abs(value)
+    return largest
+
+
+@njit(cache=True, error_model="numpy")
+def _extrapolate(
+    rates: Fields, earlier: Fields, before: float, point: float, goal: float, moved: Fields
+) -> None:
+    """Overwrite the motion from one load factor to another by the rates there and, if it is not negative, before.
+
+    derived: a body that stiffens as it turns towards its load has rates like 1 / (c + factor).  With the logarithm of
+    c + factor as the parameter they change least; c makes them the same at both points in the mean.  Otherwise the
+    parameter is the factor.
+    """
+    first = goal - point
+    second, share = 0.0, 1.0
+    if before >= 0.0:
+        both = square = 0.0
+        for i in range(rates.shape[0]):
+            for k in range(rates.shape[1]):
+                both += rates[i, k] * earlier[i, k]
+                square += earlier[i, k] * earlier[i, k]
+        second = first * first / 2 / (point - before)
+        share = both / square
+        if 0.0 < share < _STIFFENING:
+            c = (point * share - before) / (1 - share)
+            first = (c + point) * np.log((c + goal) / (c + point))
+            second = first * first / (c + point) / 2 / -np.log(share)
+        else:
+            share = 1.0
+    for i in range(rates.shape[0]):
+        for k in range(rates.shape[1]):
+            moved[i, k] = first * rates[i, k] + second * (rates[i, k] - share * earlier[i, k])
+
+
+@njit(cache=True)
+def _start(body: Body, q: Vector, step: Vector) -> bool:
+    """Whether the body is at rest without loads, stable, and its loads above round-off; the Hessian is factorised."""
+    energy = _assemble(body, q, 0.0, HESSIAN)
+    residual, _ = balance(body.gradient, body.held, step)
+    rounding = _EPS * largest_product(body.band[: q.size], q, body.scale, body.at)
+    sound = np.isfinite(energy) and residual <= _STALL_FACTOR * rounding and body.load > 0.0
+    if not sound or rounding > MAX_ROUND_OFF_FRACTION * body.total:
+        return False
+    return factorise(body.band, body.held)
+
+
+@njit(cache=True)
+def _stray(
+    body: Body, q: Vector, new: Vector, moved: Fields, work: tuple[Vector, Vector, Fields]
+) -> float:
+    """Error of a predicted motion `moved` from q to new, as a fraction of the motion; moved is overwritten."""
+    middle, step, turned = work
+    for i in range(q.size):
+        middle[i], step[i] = (q[i] + new[i]) / 2, new[i] - q[i]
+    body.space(RATES, body.placed, middle, step, body.held, turned)
+    for i in range(moved.shape[0]):
+        for k in range(moved.shape[1]):
+            moved[i, k] -= turned[i, k]
+    return _largest(moved) / max(_largest(turned), NEGLIGIBLE_ROTATION)
+
+
+@njit(cache=True)
+def _climb(
+    body: Body,
+    limits: Limits,
+    q: Vector,
+    answer: tuple[Vector, Vector],
+    counts: NDArray[np.int64],
+    vectors: tuple[Vector, Vector, Vector],
+    parts: tuple[Fields, Fields, Fields, Fields, Fields],
+) -> int:
+    """One body from its start q as its loads grow; everything but the body and the limits is overwritten."""
+    point, increment, before = 0.0, limits.longest, -1.0
+    middle, new, step = vectors
+    rates, earlier, ahead, moved, turned = parts
+    if not _start(body, q, step):
+        return LEFT
+    _load_rates(body, q, middle, rates)
+    while point < 1.0:
+        fastest = _largest(rates)
+        increment = min(increment, limits.longest, MAX_ROTATION / fastest if fastest > 0.0 else np.inf)
+        goal = point + increment if point + 1.001 * increment < 1.0 else 1.0
+        _extrapolate(rates, earlier, before, point, goal, moved)
+        new[:] = q
+        body.space(PREDICTED, body.placed, q, new, body.held, moved)
+        size = max(_largest(moved), NEGLIGIBLE_ROTATION)
+        good, steps = _reach(body, limits, new, goal, size, step, turned, ahead, answer)
+        counts[0] += steps
+        off = _stray(body, q, new, moved, (middle, step, turned)) if good else np.inf
+        if not off <= PREDICTION_TOLERANCE:
+            counts[1] += 1
+            if counts[1] >= _MAX_CUTBACKS:
+                return LEFT
+            increment = (goal - point) / 2
+            continue
+        before, point = point, goal
+        earlier[:, :] = rates
+        rates[:, :] = ahead
+        q[:] = new
+        increment *= min(2.0, max(0.5, np.sqrt(PREDICTION_TOLERANCE / 2 / max(off, 1e-3))))
+    return REACHED
+
+
+@njit(cache=True, nogil=True)
+def climb_all(
+    kernel: Any, space: Any, members: Members, held: Mask, limits: Limits, answers: Answers
+) -> int:
+    """Find the equilibria of all bodies under their full loads; how many were reached.
+
+    kernel : `solvers.potential.KERNEL`.  space : `solvers.members.SPACE_KERNEL`.  held : (n,) the constrained DOFs.
+    """
+    count, n = members.dead.shape
+    vectors = np.zeros(n), np.zeros(n), np.zeros(n)
+    shape = limits.parts, 2
+    pairs = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+    parts = (*pairs, np.zeros(shape), np.zeros(shape))
+    at, gradient, room = np.empty(n), np.empty(n), np.empty(n + limits.width)
+    band = np.zeros((n + limits.width, limits.width))
+    skew, terms, none = np.empty((0, 1)), np.empty(limits.terms), np.empty(0)
+    reached = 0
+    for m in range(count):
+        body = Body(
+            kernel,
+            space,
+            members.constants[m],
+            members.origin[m],
+            members.placed[m],
+            members.scale[m],
+            members.dead[m],
+            held,
+            members.sizes[m, 0],
+            members.sizes[m, 1],
+            at,
+            gradient,
+            room,
+            band,
+            skew,
+            terms,
+            none,
+        )
+        answers.q[m] = members.start[m]
+        answers.counts[m] = 0
+        answers.status[m] = _climb(
+            body,
+            limits,
+            answers.q[m],
+            (answers.reaction[m], answers.forces[m]),
+            answers.counts[m],
+            vectors,
+            parts,
+        )
+        reached += answers.status[m] == REACHED
+    return reached

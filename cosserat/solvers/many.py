@@ -1,0 +1,149 @@
+"""The compiled loop of `solvers.climb` for bodies of the solvers: which it can take, and how it is called."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numba import types as numba_types
+from numba.experimental import function_type
+from numpy.typing import NDArray
+
+from cosserat.solvers.banded import Mask
+from cosserat.solvers.climb import climb_all
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
+from cosserat.solvers.heartbeat import beat
+from cosserat.solvers.members import REACHED, SPACE_KERNEL, Answers, Limits, Members
+from cosserat.solvers.potential import KERNEL
+from cosserat.solvers.system import MechanicalSystem
+
+Fields = NDArray[np.float64]
+address: Any = function_type._get_wrapper_address  # what a compiled function would look up at every call
+types: Any = numba_types  # which says nothing of its own types
+
+
+@functools.cache
+def _compiled() -> Callable[..., int]:
+    """The loop, loaded only where it is needed; called directly, as `solvers.implicit` does."""
+    matrix, whole = types.float64[:, ::1], types.int64
+    members = types.NamedTuple((types.uint8[:, ::1], *(matrix,) * (len(Members._fields) - 1)), Members)
+    limits = types.NamedTuple((types.float64, whole, types.float64, whole, whole, whole), Limits)
+    answers = types.NamedTuple((matrix, matrix, matrix, types.int64[:, ::1], types.int64[::1]), Answers)
+    kernels = types.FunctionType(KERNEL), types.FunctionType(SPACE_KERNEL)
+    signature = types.int64(*kernels, members, types.boolean[::1], limits, answers)
+    (compiled,) = njit(signature, cache=True, nogil=True)(climb_all.py_func).overloads.values()
+    loop: Callable[..., int] = compiled.entry_point
+    return loop
+
+
+class _Address:
+    """The code of a compiled function; to look it up at every call would take longer than a solve."""
+
+    def __init__(self, function: Callable[..., float], signature: Any) -> None:
+        self.function = function  # which owns the code
+        self.number: int = address(function, signature)
+
+    def __wrapper_address__(self) -> int:
+        """Where it is."""
+        return self.number
+
+
+@functools.lru_cache(maxsize=64)
+def _addresses(kernel: Callable[..., float], space: Callable[..., float]) -> tuple[_Address, _Address]:
+    """The code of the two kernels of a family."""
+    return _Address(kernel, KERNEL), _Address(space, SPACE_KERNEL)
+
+
+@dataclass(frozen=True)
+class Family:
+    """What bodies that differ in numbers alone have in common.
+
+    kernel : of their potential, see `solvers.potential.KERNEL`.  terms : how many parts its energy has.
+    half_bandwidth : of its Hessian.  space : `solvers.members.SPACE_KERNEL`.  parts : how many it turns.
+    constrained : (n,) the DOFs that stay where they are.  settings : of Newton's method.
+    """
+
+    kernel: Callable[..., float]
+    terms: int
+    half_bandwidth: int
+    space: Callable[..., float]
+    parts: int
+    constrained: Mask
+    settings: NewtonSettings
+
+    @classmethod
+    def of(cls, system: MechanicalSystem, settings: NewtonSettings) -> Family | None:
+        """That of one body; None where the loop cannot take it."""
+        own, space = system.internal, system.space.compiled
+        plain = not (system.attached or system.held or system.frame.oblique or system.constraints.moving)
+        if not plain or space is None or system.began is not None or system.damping_rate:
+            return None
+        if not own.symmetric or own.history.size or own.level is not None:
+            return None
+        if not all(p.linear and p.level is None and not p.history.size for p in system.external):
+            return None
+        kernel, _, parts = space
+        return cls(
+            own.evaluate,
+            len(own.terms),
+            own.half_bandwidth,
+            kernel,
+            parts,
+            system.constrained,
+            settings,
+        )
+
+    def solve(self, members: Members) -> Answers:
+        """The equilibria of all members, without the interpreter: other threads go on meanwhile."""
+        answers = Answers.empty(*members.dead.shape)
+        longest = 1.0 / self.settings.load_increments
+        limits = Limits(
+            self.settings.tolerance,
+            self.settings.max_iterations,
+            longest,
+            self.terms,
+            self.parts,
+            self.half_bandwidth + 1,
+        )
+        _compiled()(*_addresses(self.kernel, self.space), members, self.constrained, limits, answers)
+        return answers
+
+
+def member(system: MechanicalSystem) -> Members:
+    """One body of a family as an array of one."""
+    own, space, n = system.internal, system.space, system.constrained.size
+    assert space.compiled is not None
+    origin = np.zeros(n) if own.origin is None else own.origin
+    return Members(
+        own.data[None],
+        origin[None],
+        space.compiled[1][None],
+        space.scale[None],
+        system.start[None],
+        system.dead_load[None],
+        np.array([system.load_sizes]),
+    )
+
+
+def climbed(solver: EquilibriumSolver) -> Equilibrium | None:
+    """The equilibrium under the full load by the compiled loop; None where it cannot take the body, or leaves it."""
+    system = solver.system
+    family = Family.of(system, solver.settings)
+    if family is None:
+        return None
+    found = family.solve(member(system))
+    if found.status[0] != REACHED:
+        return None
+    (forces,), (counts,) = found.forces.tolist(), found.counts.tolist()
+    (q,), (reaction,) = found.q, found.reaction
+    solver.residual, solver.tolerance, rounding = forces
+    iterations, cutbacks = counts
+    solver.iterations += iterations
+    solver.cutbacks += cutbacks
+    beat(1.0, solver.iterations)
+    about = (solver.iterations, solver.residual, solver.tolerance, rounding)
+    return Equilibrium(q, 1.0, system.history, reaction, *about, negative=0)

@@ -1,0 +1,108 @@
+"""Arguments of the compiled loop of `solvers.climb`: bodies that differ in numbers alone, settings, and answers."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import types as numba_types
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+Fields = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+types: Any = numba_types  # which says nothing of its own types
+
+FRACTION, RATES, PREDICTED = range(3)
+"""Tasks of the kernel of a configuration space."""
+SPACE_KERNEL = types.float64(
+    types.int64,
+    types.float64[::1],
+    types.float64[::1],
+    types.float64[::1],
+    types.boolean[::1],
+    types.float64[:, ::1],
+)
+"""A compiled `cosserat.solvers.system.ConfigurationSpace`: (task, placed, q, change, constrained, rates) -> number.
+
+placed : (n,) added to q.  FRACTION : the largest fraction of a step, the change.  RATES : overwrites the rates.
+PREDICTED : overwrites the change by the DOFs after motions, the rates; constrained ones stay as they are in the change.
+"""
+
+REACHED, LEFT = range(2)
+"""Whether the loop has reached the full load, or left the body to others."""
+
+
+class Members(NamedTuple):
+    """Bodies that differ in numbers alone.
+
+    constants : (M, bytes) of the potential.  origin : (M, n) added to the DOFs by the potential.
+    placed : (M, n) added to the DOFs by the configuration space.  scale, start : (M, n) as in
+    `cosserat.solvers.system`.  dead : (M, n) the loads [N].  sizes : (M, 2) the largest of all loads and their sum [N].
+    """
+
+    constants: NDArray[np.uint8]
+    origin: Fields
+    placed: Fields
+    scale: Fields
+    start: Fields
+    dead: Fields
+    sizes: Fields
+
+
+class Limits(NamedTuple):
+    """Settings: tolerance, most iterations, longest increment; numbers of terms and parts, and width of bands."""
+
+    tolerance: float
+    max_iterations: int
+    longest: float
+    terms: int
+    parts: int
+    width: int
+
+
+class Answers(NamedTuple):
+    """What the loop overwrites.
+
+    q, reaction : (M, n) [m, N].  forces : (M, 3) residual, tolerance and rounding [N].  counts : (M, 2) iterations and
+    cutbacks.  status : (M,) whether each is solved.
+    """
+
+    q: Fields
+    reaction: Fields
+    forces: Fields
+    counts: NDArray[np.int64]
+    status: NDArray[np.int64]
+
+    @classmethod
+    def empty(cls, members: int, dofs: int) -> Answers:
+        """Of bodies that nobody has looked at."""
+        return cls(
+            np.zeros((members, dofs)),
+            np.zeros((members, dofs)),
+            np.zeros((members, 3)),
+            np.zeros((members, 2), dtype=np.int64),
+            np.full(members, LEFT),
+        )
+
+
+class Body(NamedTuple):
+    """One of them, with its kernels and work space for compiled code."""
+
+    kernel: Any
+    space: Any
+    data: NDArray[np.uint8]
+    origin: Vector
+    placed: Vector
+    scale: Vector
+    dead: Vector
+    held: Mask
+    load: float
+    total: float
+    at: Vector
+    gradient: Vector
+    room: Vector
+    band: Fields
+    skew: Fields
+    terms: Vector
+    none: Vector
