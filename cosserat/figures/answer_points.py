@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from cosserat.figures.answers import (
     COLOURS,
     MOST_PANELS,
-    axis_label,
     choices,
     head,
     is_axis,
     is_logarithmic,
     is_points,
+    label_axis,
     legend,
     mark_failed,
     panel_title,
@@ -39,15 +39,23 @@ def pairs(data: xr.Dataset, names: tuple[str, ...]) -> Figure:
     keys = _keys(data)
     kept = _most_telling(flat, keys, names) if len(keys) > MOST_PANELS else keys
     columns, rows = len(kept), len(names)
-    figure, axes = canvas(max(2.3 * columns + 0.9, 4.2), 2.1 * rows + 0.6, rows, columns)
+    figure, axes = canvas(max(2.2 * columns + 0.9, 4.2), 2.0 * rows + 0.6, rows, columns)
+    for number, ax in enumerate(axes):  # a column has one key, a row one read-out
+        ax.sharex(axes[number % columns])
+        ax.sharey(axes[number - number % columns])
     for number, ax in enumerate(axes):
         name, key = names[number // columns], kept[number % columns]
         for (word, members), colour in zip(groups, COLOURS, strict=False):
             _draw_panel(ax, flat.isel(member_=members), key, name, colour, word)
         if number // columns == rows - 1:
-            ax.set_xlabel(axis_label(data[key]))
+            label_axis(ax.xaxis, data[key])
+        else:
+            ax.tick_params(labelbottom=False)
         if number % columns == 0:
-            ax.set(ylabel=axis_label(data[name], name), title=panel_title(data[name]))
+            label_axis(ax.yaxis, data[name], name)
+            ax.set_title(panel_title(data[name]))
+        else:
+            ax.tick_params(labelleft=False)
         if ax.get_xscale() == "linear":
             ax.locator_params(axis="x", nbins=5)
     head(figure, data)

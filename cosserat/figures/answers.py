@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import name_of
@@ -36,6 +38,9 @@ COLOURS = (COMPUTED, VARIANT, CONSISTENT, "#7b4ea3", "#b8860b", "#1f9e9e", INK, 
 _SHADES = LinearSegmentedColormap.from_list("answers", ["#eef4fa", BODY, "#3f8fd0"])
 MOST_PANELS = 6
 """Most read-outs, and most keys, in one picture."""
+_SHORT = (0.09, 1e4)  # sizes of numbers that are short as they are
+_SIMPLE = ("m", "N", "Pa", "J", "Hz", "W")
+_PREFIXES = {-9: "n", -6: "µ", -3: "m", 3: "k", 6: "M", 9: "G"}
 _LOG = 30.0  # from this ratio of the ends on, values with equal ratios have a logarithmic axis
 FAILED: dict[str, Any] = {
     "marker": "x",
@@ -104,10 +109,29 @@ def head(figure: Figure, data: xr.Dataset) -> None:
     figure.suptitle(said, x=0.01, ha="left", fontsize=9)
 
 
-def axis_label(values: xr.DataArray, name: str = "") -> str:
-    """A name with its unit, broken where it is long."""
-    unit = re.sub(r"([A-Za-z])(-?\d+)", r"\1$^{\2}$", plain(unit_of(values)))
-    return textwrap.fill(plain(name or str(values.name)).replace("_", " "), 26) + f" [{unit}]"
+def label_axis(axis: Axis, values: xr.DataArray, name: str = "") -> None:
+    """Name and unit of an axis, with a prefix of the unit where the numbers are long; a long name is broken."""
+    power = 0 if axis.get_scale() == "log" else power_of(values.to_numpy())
+    if power:
+        axis.set_major_formatter(FuncFormatter(lambda number, _: f"{number / 10**power:g}"))
+    name = textwrap.fill(plain(name or str(values.name)).replace("_", " "), 26)
+    axis.set_label_text(f"{name} [{_unit(unit_of(values), power)}]")
+
+
+def power_of(values: Array) -> int:
+    """The power of ten, a multiple of three, in which an axis counts; 0 where the numbers are short as they are."""
+    largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+    if largest == 0 or _SHORT[0] <= largest < _SHORT[1]:
+        return 0
+    return 3 * int(np.floor(np.log10(largest) / 3))
+
+
+def _unit(unit: str, power: int) -> str:
+    """A unit with a power of ten before it: as a prefix if it is simple."""
+    if power and unit in _SIMPLE and power in _PREFIXES:
+        return f"{_PREFIXES[power]}{unit}"
+    raised = re.sub(r"([A-Za-z])(-?\d+)", r"\1$^{\2}$", plain(unit))
+    return rf"$10^{{{power}}}$ {raised}" if power else raised
 
 
 def panel_title(values: xr.DataArray) -> str:
@@ -133,6 +157,8 @@ def legend(figure: Figure, axes: list[Axes]) -> None:
     }
     if not found:
         return
+    if NO_ANSWER in found:
+        found[NO_ANSWER] = found.pop(NO_ANSWER)  # last
     width, height = figure.get_size_inches()
     fitting = max(1, int(width / (_MARK + _LETTER * max(map(len, found)))))
     rows = -(-len(found) // fitting)
@@ -184,10 +210,11 @@ def lines(data: xr.Dataset, names: tuple[str, ...], along: str | None) -> Figure
             style: dict[str, Any] = {"marker": "."} if numbers else {"marker": "o", "linestyle": "none"}
             ax.plot(x[order], y[order], color=colour, label=word or None, **style)
         mark_failed(ax, x[(~solved(data)).any(dims).to_numpy()])
-        ax.set(ylabel=axis_label(values, name), title=panel_title(values))
+        label_axis(ax.yaxis, values, name)
+        ax.set_title(panel_title(values))
         if numbers:
-            ax.set_xlabel(axis_label(data[along]))
             ax.set_xscale("log" if is_logarithmic(x) else "linear")
+            label_axis(ax.xaxis, data[along])
         else:
             words = [textwrap.fill(_word(data, along, k), 14) for k in range(x.size)]
             ax.set_xticks(x, words, rotation=0 if x.size <= 4 else 90)
@@ -225,7 +252,9 @@ def maps(data: xr.Dataset, names: tuple[str, ...], upward: str, across: str) -> 
         values = data[name].where(solved(data)).isel(picked).transpose(upward, across)
         _draw_map(figure, ax, values, upward, across)
         said = panel_title(data[name]) + (f"\n{word}" if word else "")
-        ax.set(xlabel=axis_label(data[across]), ylabel=axis_label(data[upward]), title=said)
+        label_axis(ax.xaxis, data[across])
+        label_axis(ax.yaxis, data[upward])
+        ax.set_title(said)
     for ax in axes[len(names) * len(every) :]:
         ax.remove()
     head(figure, data)
@@ -251,7 +280,7 @@ def _draw_map(figure: Figure, ax: Axes, values: xr.DataArray, upward: str, acros
     ax.set_yscale("log" if is_logarithmic(y) else "linear")
     drawn = ax.pcolormesh(_edges(x), _edges(y), np.ma.masked_invalid(z), cmap=_SHADES)
     bar = figure.colorbar(drawn, ax=ax)
-    bar.set_label(axis_label(values))
+    label_axis(bar.ax.yaxis, values)
     if min(z.shape) > 1 and np.isfinite(z).sum() > 3 and np.nanmax(z) > np.nanmin(z):
         curves = ax.contour(x, y, np.ma.masked_invalid(z), levels=6, colors=INK, linewidths=0.7)
         bar.add_lines(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import name_of
 from cosserat.data.variables import LABELS
 from cosserat.errors import InputError
-from cosserat.figures.answers import COLOURS, MOST_PANELS, axis_label, choices, legend
+from cosserat.figures.answers import COLOURS, MOST_PANELS, choices, label_axis, legend
 from cosserat.figures.style import canvas, plain, title_of
 
 Array = NDArray[np.float64]
@@ -57,8 +57,11 @@ def picture(data: xr.Dataset) -> Figure:
     for ax, (component, picked) in zip(axes, panels, strict=False):
         for (word, group), colour in zip(groups, COLOURS, strict=False):
             _draw(ax, x, values.isel({**picked, **group}), colour, word)
-        ax.set_ylabel(axis_label(values, f"{name} {component}".strip()))
-        ax.set_xlabel(f"{along[0]} [1]" if place is None else axis_label(place, _said(place)))
+        label_axis(ax.yaxis, values, f"{name} {component}".strip())
+        if place is None:
+            ax.set_xlabel(f"{along[0]} [1]")
+        else:
+            label_axis(ax.xaxis, place, "time" if place.name == "time" else "arc length")
     for ax in axes[len(panels) :]:
         ax.remove()
     width = int(14 * figure.get_size_inches()[0])
@@ -68,11 +71,6 @@ def picture(data: xr.Dataset) -> Figure:
     figure.suptitle(textwrap.fill(said, width), x=0.01, ha="left", fontsize=9)
     legend(figure, axes[: len(panels)])
     return figure
-
-
-def _said(place: xr.DataArray) -> str:
-    """Name of a place on an axis."""
-    return "time" if place.name == "time" else "arc length"
 
 
 def _draw(ax: Axes, x: Array, values: xr.DataArray, colour: str, word: str) -> None:
