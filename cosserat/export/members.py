@@ -17,7 +17,7 @@ def is_answer(dataset: xr.Dataset) -> bool:
 
 
 def of_members(answer: xr.Dataset) -> pd.DataFrame:
-    """A row for each member in their order: coordinates, read-outs, `status` as a word, and `reason`.
+    """A row for each member in their order: coordinates, read-outs, "status" as a word, and "reason".
 
     Titles have units: "force [N]".  A member without an answer has empty read-outs (NaN).
     """

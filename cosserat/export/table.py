@@ -43,7 +43,7 @@ def to_dataframe(result: xr.Dataset | str | Path, place: str | None = None) -> p
     result : a Dataset, or the name of its file.
     place : only the rows of this place, such as "vertex", without the columns that are empty there.
 
-    The answer of a study gives a row for each member: the varied keys, the read-outs, `status` and `reason`, without
+    The answer of a study gives a row for each member: the varied keys, the read-outs, "status" and "reason", without
     the variables that are kept whole.
 
     Raises

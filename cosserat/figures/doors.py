@@ -93,6 +93,11 @@ def animate(
             f"an animation of {shown(frames)} frames cannot be drawn; take 2 to {MOST_FRAMES}"
         )
     data = opened(result)
+    if "study" in data.attrs:
+        raise InputError(
+            f"{name_of(data)} is the answer of a study, which does not move; animate one of its members: 'cosserat run "
+            "STUDY --member NUMBER'"
+        )
     kind = case_of(data).problem.kind
     if not kinds()[kind].animate:
         moving = ", ".join(f"'{name}'" for name, entry in kinds().items() if entry.animate)

@@ -238,6 +238,13 @@ def test_export_and_plot_take_the_file_of_an_answer(file, tmp_path, capsys):
     assert (read["tip [m]"].to_numpy() == cosserat.load(file).tip.to_numpy().ravel()).all()
     assert main(["plot", str(file), "-o", str(tmp_path / "a.png")]) == 0
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    capsys.readouterr()
+    for words, sentence in (
+        (("export", str(file), "--to", "vtk"), "which has no body; write csv"),
+        (("plot", str(file), "--animate", str(tmp_path / "a.gif")), "which does not move"),
+    ):
+        assert main(list(words)) == 2
+        assert sentence in capsys.readouterr().err
 
 
 def test_bands_are_quantiles_of_the_members(file, tmp_path):

@@ -31,7 +31,7 @@ def bands(
     The Dataset has the variable with `quantile` in place of the dimension of the members, in its unit, and `used`, the
     number of members with an answer.  Other factors stay dimensions.  `cosserat.plot` draws the bands.
 
-    answer : of `cosserat.study` with `keep_whole` or read-outs, or the name of its file.
+    answer : of `cosserat.study` with variables that are kept whole, or the name of its file.
     of : name of the variable.  quantiles : probabilities between 0 and 1.
     over : dimensions of the members, by default those of random points and tables; of a list of values, quantiles
         have a meaning only where the values are equally probable.
