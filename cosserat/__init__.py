@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cosserat.figures.doors import animate, plot
     from cosserat.limits import Limits
     from cosserat.runner import modes, run
+    from cosserat.studies.analysis.bands import bands
     from cosserat.studies.analysis.estimates import estimate_error
     from cosserat.studies.analysis.indices import indices
     from cosserat.studies.analysis.orders import orders
@@ -53,6 +54,7 @@ _HOMES = {
         ("plot", "plot"),
     ),
     "cosserat.limits": (("Limits", "Limits"),),
+    "cosserat.studies.analysis.bands": (("bands", "bands"),),
     "cosserat.studies.analysis.estimates": (("estimate_error", "estimate_error"),),
     "cosserat.studies.analysis.indices": (("indices", "indices"),),
     "cosserat.studies.analysis.orders": (("orders", "orders"),),
@@ -72,6 +74,7 @@ __all__ = [
     "NotConvergedError",
     "UnsupportedRodError",
     "animate",
+    "bands",
     "case",
     "case_of",
     "estimate_error",

@@ -210,6 +210,12 @@ def show(options: argparse.Namespace) -> None:
     from cosserat.data.netcdf import load
 
     dataset = load(options.file)
+    if "study" in dataset.attrs:
+        from cosserat.studies.analysis.contents import contents
+
+        with holding_what_is_needed(dataset, "'show'"):
+            print("\n".join(map(printable, contents(dataset))))
+        return
     case, statistics = case_of(dataset), statistics_of(dataset)
     lines = [f"{case.name}: {case.title}", dataset.attrs.get("source", "")]
     lines += [f"warning: {warning}" for warning in warnings_of(dataset)]

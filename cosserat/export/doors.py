@@ -42,6 +42,11 @@ def export(file: Path, to: str | None, output: Path | None, place: str | None) -
             f"'--place {shortened(place)}' chooses rows of a table; leave it out, or write csv"
         )
     dataset = load(file)
+    if to == "vtk" and "study" in dataset.attrs:
+        raise InputError(
+            f"{file} is the answer of a study, which has no body; write csv, or the body of one of its members: "
+            "'cosserat run STUDY --member NUMBER'"
+        )
     ending = "csv" if to == "csv" else "vtu" if instant_of(dataset) is None else "pvd"
     path = named or folder / f"{file.stem}.{ending}"
     check_destination(path, inputs=(file,))

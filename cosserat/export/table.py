@@ -23,6 +23,7 @@ from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.data.netcdf import opened
 from cosserat.data.variables import LABELS
 from cosserat.errors import InputError
+from cosserat.export.members import is_answer, named, of_members
 from cosserat.parameters import nearest
 from cosserat.text import shortened
 
@@ -42,11 +43,20 @@ def to_dataframe(result: xr.Dataset | str | Path, place: str | None = None) -> p
     result : a Dataset, or the name of its file.
     place : only the rows of this place, such as "vertex", without the columns that are empty there.
 
+    The answer of a study gives a row for each member: the varied keys, the read-outs, "status" and "reason", without
+    the variables that are kept whole.
+
     Raises
     ------
     InputError : the result has no such place, or its file cannot be read.
     """
     dataset = opened(result)
+    if is_answer(dataset):
+        if place is not None:
+            raise InputError(
+                f"an answer of a study has a row for each member and no place '{shortened(place)}'; leave it out"
+            )
+        return of_members(dataset)
     known = {name: _split(dataset[name]) for name in _numeric(dataset)}
     places = list(dict.fromkeys(split.place for split in known.values()))
     if place is not None and place not in places:
@@ -122,7 +132,7 @@ def _rows(
         full = values.expand_dims(missing).transpose(*split.components, *order).to_numpy()
         for index in np.ndindex(full.shape[: len(split.components)]):
             parts = [_label(dataset, dim, k) for dim, k in zip(split.components, index, strict=True)]
-            columns[_named(dataset, name, parts)] = full[index].ravel()
+            columns[named(dataset, name, parts)] = full[index].ravel()
     return pd.DataFrame(columns, index=range(size * count))
 
 
@@ -133,7 +143,7 @@ def _labels(dataset: xr.Dataset, instant: str) -> dict[str, NDArray[Any]]:
         return {instant: numbers}
     labels = dataset[instant].to_numpy()
     if labels.dtype.kind in "fiub":
-        return {_named(dataset, instant): labels}
+        return {named(dataset, instant): labels}
     return {instant: numbers, f"{instant}_name": labels}
 
 
@@ -144,10 +154,3 @@ def _whole(values: NDArray[Any]) -> Any:
 
 def _label(dataset: xr.Dataset, dim: str, number: int) -> str:
     return str(dataset[dim].to_numpy()[number])
-
-
-def _named(dataset: xr.Dataset, name: str, parts: list[str] | None = None) -> str:
-    """Name of a column: variable, component and unit."""
-    whole = "_".join([name, *(part.replace(" ", "_") for part in parts or [])])
-    units = dataset[name].attrs.get("units")
-    return whole if units is None else f"{whole} [{units}]"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
 def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Figure:
     """The picture of a result, as a matplotlib figure: its body, and curves of what its kind is about.
 
+    Of the answer of a study, the read-outs over what is varied: lines for one number, maps for two on a grid, and for
+    points each read-out over each key, with means in intervals of the key; members without an answer are marked.
+    Of `cosserat.bands`, the bands with the median.
+
     result : a Dataset, or the name of its file.
     path : also write the picture there, as SVG, PDF or PNG, by the ending of its name.
 
@@ -34,17 +39,36 @@ def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Fig
     if path is not None:
         check_destination(path_of(path), *PICTURES, inputs=_files(result))
     data = opened(result)
+    draw = _drawn_by(data)
+    with settings(), holding_what_is_needed(data, "its picture"):
+        figure = draw(data)
+        note(figure, warnings_of(data))
+    if path is not None:
+        write(figure, path_of(path))
+    return figure
+
+
+def _drawn_by(data: xr.Dataset) -> Callable[[xr.Dataset], Figure]:
+    """The function that draws a result, or the answer of a study.
+
+    Raises
+    ------
+    InputError : results of its kind have no picture.
+    """
+    if "bands" in data.attrs:
+        from cosserat.figures.bands import picture as of_bands
+
+        return of_bands
+    if "study" in data.attrs:
+        from cosserat.figures.answers import picture as of_answer
+
+        return of_answer
     kind = case_of(data).problem.kind
     if not kinds()[kind].picture:
         raise InputError(
             f"{name_of(data)} is of kind '{kind}', which has no picture; see it with 'cosserat show'"
         )
-    with settings(), holding_what_is_needed(data, "its picture"):
-        figure: Figure = kinds()[kind].picture_function()(data)
-        note(figure, warnings_of(data))
-    if path is not None:
-        write(figure, path_of(path))
-    return figure
+    return kinds()[kind].picture_function()
 
 
 def animate(
@@ -69,6 +93,11 @@ def animate(
             f"an animation of {shown(frames)} frames cannot be drawn; take 2 to {MOST_FRAMES}"
         )
     data = opened(result)
+    if "study" in data.attrs:
+        raise InputError(
+            f"{name_of(data)} is the answer of a study, which does not move; animate one of its members: 'cosserat run "
+            "STUDY --member NUMBER'"
+        )
     kind = case_of(data).problem.kind
     if not kinds()[kind].animate:
         moving = ", ".join(f"'{name}'" for name, entry in kinds().items() if entry.animate)

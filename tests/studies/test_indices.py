@@ -12,9 +12,9 @@ from cosserat.errors import InputError
 from cosserat.studies.designs import DESIGNS, members_of
 
 
-def answer_of(design, count, function, keys=3):
+def answer_of(design, count, function, keys=3, seed=1):
     """An answer with the values of a function of the unit cube at the points of a design."""
-    points = DESIGNS[design](count, keys, 1)
+    points = DESIGNS[design](count, keys, seed)
     names = "abcdefg"[:keys]
     coords = {
         name: ("member", points.cube[:, k], {"key": f"rod.{name}"}) for k, name in enumerate(names)

@@ -77,6 +77,9 @@ def test_what_has_no_order_has_a_state_and_no_number(values, state):
 def test_round_off_is_what_the_variable_says():
     values = 5 + 1e-8 * np.array([1, -1, 1, -1])
     assert (state_of(H, values), state_of(H, values, floor=1e-7)) == ("not_monotone", "round_off")
+    assert (
+        state_of(H, 1e-6 * (5 + H**2), floor=1e-7) == "confirmed"
+    )  # a floor as large as the values is none
     assert state_of(H[:2], values[:2]) == "too_few_meshes"
 
 

@@ -1,1 +1,1 @@
-"""What is done with the answer of a study: indices, bands, orders of convergence."""
+"""What is done with the answer of a study: indices, bands, orders of convergence, estimated errors."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,12 +9,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cosserat.cases.catalogue import parse
 from cosserat.data.dataset import name_of
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
 from cosserat.studies.analysis.answered import answer_of, dims_of, read_out, read_outs, unit_of
 from cosserat.studies.analysis.sequences import STATES, convergence
+from cosserat.studies.door import case_of_study
 from cosserat.studies.readouts import read_out as parsed
 from cosserat.text import shown
 
@@ -115,8 +114,7 @@ def sizes_of(data: xr.Dataset, along: str) -> Array:
         return 1 / values
     if key != "integrator.step":
         return values
-    case = parse(json.dumps(json.loads(data.attrs["study"])["case"]))
-    between = getattr(case.problem, "between_frames", None)
+    between = getattr(case_of_study(data).problem, "between_frames", None)
     varied = {str(place.attrs.get("key", "")) for place in data.coords.values()}
     if between is None or varied & {"every", "duration"}:
         return values

@@ -32,6 +32,7 @@ MOST_ORDER = 20.0
 _LEAST_ORDER = 0.05
 _SAME_ORDER = 0.5  # largest difference of two orders that confirm each other
 _ROUND_OFF = 1e-12  # of the largest value: changes below this are none
+_MOST_FLOOR = 1e-7  # of the largest value: the most that the floor of a variable may be
 SAFETY = {CONFIRMED: 1.25, UNCONFIRMED: 3.0}
 """The factor of safety by the state."""
 
@@ -62,13 +63,14 @@ class Convergence:
 def convergence(h: Array, values: Array, floor: float = 0.0) -> Convergence:
     """What values (n,) on meshes of the sizes h (n,) tell, in any order.
 
-    floor : changes below this are round-off, in the unit of the values.
+    floor : changes below this are round-off, in the unit of the values, where it is small beside them.
     """
     order = np.argsort(h)[::-1]
     h, values = h[order], values[order]
     if h.size < 3:
         return Convergence(TOO_FEW, None, None, (), 0.0)
-    least = max(floor, _ROUND_OFF * float(np.abs(values).max()))
+    largest = float(np.abs(values).max())
+    least = max(min(floor, _MOST_FLOOR * largest), _ROUND_OFF * largest)
     triples = [(h[k : k + 3], values[k : k + 3]) for k in range(h.size - 2)]
     orders = tuple(observed_order(*triple, least) for triple in triples)
     spread = float(np.ptp(triples[-1][1]))

@@ -1,0 +1,102 @@
+"""Uncertainty bands: quantiles of a whole variable over the members of a study."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from cosserat.data.content import stamped
+from cosserat.data.dataset import name_of
+from cosserat.errors import InputError
+from cosserat.parameters import nearest
+from cosserat.studies.analysis.answered import answer_of, dims_of, keys_along, solved, unit_of
+from cosserat.text import shown
+
+USUAL = (0.05, 0.5, 0.95)
+"""Quantiles by default."""
+
+
+def bands(
+    answer: xr.Dataset | str | Path,
+    of: str,
+    quantiles: Sequence[float] = USUAL,
+    *,
+    over: str | Sequence[str] | None = None,
+) -> xr.Dataset:
+    """Quantiles of a variable over the members of a study, place by place.
+
+    The Dataset has the variable with `quantile` in place of the dimension of the members, in its unit, and `used`, the
+    number of members with an answer.  Other factors stay dimensions.  `cosserat.plot` draws the bands.
+
+    answer : of `cosserat.study` with variables that are kept whole, or the name of its file.
+    of : name of the variable.  quantiles : probabilities between 0 and 1.
+    over : dimensions of the members, by default those of random points and tables; of a list of values, quantiles
+        have a meaning only where the values are equally probable.
+
+    Raises
+    ------
+    InputError : the answer has no such variable or dimension, the points are no sample of their distribution, fewer
+        than two members have an answer, or a quantile is not between 0 and 1.
+    """
+    data = answer_of(answer)
+    if (
+        of not in data.data_vars
+        or data[of].dtype.kind != "f"
+        or not set(dims_of(data)) <= set(data[of].dims)
+    ):
+        known = [str(n) for n, v in data.data_vars.items() if v.dtype.kind == "f"]
+        raise InputError(
+            f"{name_of(data)} has no variable {shown(of)} of its members{nearest(str(of), known)}; it has "
+            f"{', '.join(known)}"
+        )
+    levels = np.unique(np.asarray(quantiles, dtype=np.float64))
+    if not levels.size or not ((levels >= 0) & (levels <= 1)).all():
+        raise InputError(f"bands has quantiles {shown(list(quantiles))}; they must be between 0 and 1")
+    dims = _members(data, over)
+    done = solved(data)
+    used = done.sum(dims)
+    if int(used.min()) < 2:
+        raise InputError(
+            f"'{of}' of {name_of(data)} has {int(used.min())} members with an answer; quantiles need at least two"
+        )
+    values = data[of].where(done).quantile(levels, dims, skipna=True, keep_attrs=True)
+    left = [dim for dim in data[of].dims if dim not in dims]
+    factors = [dim for dim in dims_of(data) if dim not in dims]
+    values = values.transpose(*factors, "quantile", *[dim for dim in left if dim not in factors])
+    about = {
+        "units": unit_of(data[of]),
+        "long_name": f"quantiles: {data[of].attrs.get('long_name', of)}",
+    }
+    made = xr.Dataset({of: values.assign_attrs({**data[of].attrs, **about})})
+    made["used"] = used.astype(np.int64).assign_attrs(units="1", long_name="members with an answer")
+    made["quantile"].attrs = {"units": "1", "long_name": "probability of a smaller value"}
+    made.attrs = {**data.attrs, "bands": of}
+    return stamped(made)
+
+
+def _members(data: xr.Dataset, over: str | Sequence[str] | None) -> list[str]:
+    """The dimensions of the members."""
+    if over is not None:
+        dims = [over] if isinstance(over, str) else list(over)
+        unknown = [dim for dim in dims if dim not in dims_of(data)]
+        if unknown or not dims:
+            raise InputError(
+                f"{name_of(data)} has no members along {shown(unknown[0] if unknown else over)}; its factors are along "
+                f"{', '.join(dims_of(data))}"
+            )
+        return dims
+    dims = [dim for dim in dims_of(data) if keys_along(data, dim) and "key" not in data[dim].attrs]
+    dims = [dim for dim in dims if data[dim].dtype.kind in "iu"]
+    if not dims:
+        raise InputError(
+            f"{name_of(data)} has no random points, only lists of values; name the dimension of the members by 'over': "
+            f"{', '.join(dims_of(data))}"
+        )
+    if any("trajectory" in data.coords and data["trajectory"].dims == (dim,) for dim in dims):
+        raise InputError(
+            f"{name_of(data)} has points for Morris's effects, which are no sample of their distributions; take 'sobol'"
+        )
+    return dims
