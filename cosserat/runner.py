@@ -95,7 +95,10 @@ def run(
 
 @functools.lru_cache(maxsize=1)
 def _one_thread(modules: int) -> ThreadpoolController:
-    """The libraries of linear algebra in this process; modules : how many are loaded, for more may bring another one."""
+    """The libraries of linear algebra in this process.
+
+    modules : how many are loaded; more may bring another library.
+    """
     return ThreadpoolController()
 
 

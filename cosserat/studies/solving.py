@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,8 @@ from cosserat.errors import (
     UnstableError,
 )
 from cosserat.problem import Problem, silent
+from cosserat.problems.many import Many, solve_many
+from cosserat.problems.static import FIELDS, RodStatics
 from cosserat.solution import Field, Solution
 from cosserat.studies.family import Task
 from cosserat.studies.keys import put, table_of
@@ -40,6 +43,23 @@ STATUS = (
 """Meanings of the variable "status", in the order of its values; from the third on there is no answer."""
 _NO_STATE = (CrossingError, DivergedError, OutOfReachError, UnstableError)
 _LONGEST_REASON = 400
+PLACES = ("xi", "xi_edge", "xi_section", "time")
+"""Variables that say where or when the values of others are."""
+_MOVES_NO_PLACE = (
+    *(
+        "forces.",
+        "couples.",
+        "line_loads.",
+        "line_couples.",
+        "follower_",
+        "pressures.",
+        "gravity.",
+        "loads.",
+    ),
+    *("rod.material.", "rod.section.", "crawler.material.", "crawler.radius", "imperfection."),
+)
+"""Beginnings of keys with which places and instants stay the same."""
+_CHUNK = 4096  # members that a thread solves at once
 
 
 @dataclass
@@ -73,15 +93,17 @@ class Solved:
         )
 
 
-def solve_members(task: Task, progress: Callable[[float, str], None] = silent) -> Solved:
+def solve_members(
+    task: Task, progress: Callable[[float, str], None] = silent, threads: int = 1
+) -> Solved:
     """Solve every member of a task, each from its own reference: the answer depends neither on others nor on order.
 
-    A member without an answer keeps its status and the reason.
+    A member without an answer keeps its status and the reason.  threads : for members that compiled loops can solve.
     """
     found = Solved.nothing(task, task.size)
     with warnings.catch_warnings(), threadpool_limits(1):
         warnings.simplefilter("ignore")
-        left = _solve_together(task, found, progress)
+        left = _solve_together(task, found, progress, threads)
         table = table_of(task.base.problem)
         for number, member in enumerate(left):
             _solve_one(task, table, int(member), found)
@@ -91,10 +113,58 @@ def solve_members(task: Task, progress: Callable[[float, str], None] = silent) -
 
 
 def _solve_together(
-    task: Task, found: Solved, progress: Callable[[float, str], None]
+    task: Task, found: Solved, progress: Callable[[float, str], None], threads: int
 ) -> NDArray[np.int64]:
-    """Solve what compiled loops can solve; returns the members that are left."""
-    return np.arange(task.size)
+    """Solve what compiled loops can solve, by threads; returns the members that are left."""
+    every, problem = np.arange(task.size), task.base.problem
+    names = sorted({name for one in task.keep for name in one.needs()} | set(task.keep_whole))
+    names += [name for name in PLACES if task.keep_whole and name in FIELDS and name not in names]
+    numbers = all(column.dtype.kind == "f" for column in task.columns)
+    if not isinstance(problem, RodStatics) or not numbers or not set(names) <= set(FIELDS):
+        return every
+    parts = [every[begin : begin + _CHUNK] for begin in range(0, task.size, _CHUNK)]
+    left = []
+    with ThreadPoolExecutor(threads) as pool:
+        solving = [pool.submit(_solve_part, task, problem, names, part) for part in parts]
+        for part, future in zip(parts, solving, strict=True):
+            many = future.result()
+            if many is None:
+                pool.shutdown(cancel_futures=True)
+                return every
+            left.append(part[~many.solved])
+            _keep_many(task, many, part, found)
+            progress((part[-1] + 1) / task.size, f"{part[-1] + 1} of {task.size} members")
+    return np.concatenate(left)
+
+
+def _solve_part(
+    task: Task, problem: RodStatics, names: Sequence[str], part: NDArray[np.int64]
+) -> Many | None:
+    columns = {key: column[part] for key, column in zip(task.keys, task.columns, strict=True)}
+    return solve_many(problem, columns, names)
+
+
+def _keep_many(task: Task, many: Many, part: NDArray[np.int64], found: Solved) -> None:
+    """Keep the answers of the members of a part that are solved."""
+    rows = np.flatnonzero(many.solved)
+    to = part[rows]
+    fields = {
+        name: (dims, values[rows] if dims[0] == "member" else values)
+        for name, (dims, values) in many.fields.items()
+    }
+    for one in task.keep:
+        found.values[one.name][to] = one.of(fields, many.labels, rows.size)
+    for name in task.keep_whole:
+        dims, values = fields[name]
+        if name not in found.whole:
+            found.whole[name] = (dims, np.full((found.status.size, *values.shape[1:]), np.nan))
+            found.labels |= {dim: tuple(many.labels[dim]) for dim in dims if dim in many.labels}
+        found.whole[name][1][to] = values
+        _keep_places(task, found, dims[1:], {own: (d[1:], v[0]) for own, (d, v) in many.fields.items()})
+    found.iterations[to] = many.statistics["iterations"][rows]
+    found.status[to] = SOLVED
+    for member, said in many.warnings.items():
+        found.status[part[member]], found.reason[part[member]] = WARNED, "; ".join(said)
 
 
 def _solve_one(task: Task, table: Mapping[str, object], member: int, found: Solved) -> None:
@@ -146,8 +216,7 @@ def _keep(task: Task, solution: Solution, member: int, found: Solved) -> None:
             raise InputError(f"the result has no variable '{name}'")
         dims, own = solution.fields[name]
         keep_whole(found, name, dims, own, member, solution.labels)
-        for along in dims:
-            _beside(found, along, solution.fields)
+        _keep_places(task, found, dims, solution.fields)
     for name, value in values.items():
         found.values[name][member] = value
 
@@ -178,15 +247,17 @@ def keep_whole(
     stored[member] = own
 
 
-def _beside(found: Solved, dim: str, fields: Mapping[str, Field]) -> None:
-    """Keep the coordinate along a dimension of whole variables."""
-    for name in ("xi", "xi_edge", "xi_section", "time"):
+def _keep_places(task: Task, found: Solved, dims: tuple[str, ...], fields: Mapping[str, Field]) -> None:
+    """Keep the places along the dimensions of whole variables, if they are those of every member."""
+    if not all(key.startswith(_MOVES_NO_PLACE) for key in task.keys):
+        return
+    for name in PLACES:
         if (
             name in fields
-            and name not in found.beside
-            and fields[name][0] == (dim,) == VARIABLES[name].dims
+            and fields[name][0] == VARIABLES[name].dims
+            and set(fields[name][0]) <= set(dims)
         ):
-            found.beside[name] = fields[name]
+            found.beside.setdefault(name, fields[name])
 
 
 def _fail(found: Solved, member: int, status: int, error: Exception) -> None:
