@@ -300,11 +300,11 @@ def lines(made: xr.Dataset) -> list[str]:
     for name in names:
         about = made[name].attrs
         total = float(made[f"{name}_error"])
-        unit = about["units"]
+        unit = "" if about["units"] == "1" else f" {about['units']}"
         error = (
-            f"estimated error {total:.2g} {unit}" if np.isfinite(total) else "no estimate of its error"
+            f"estimated error {total:.2g}{unit}" if np.isfinite(total) else "no estimate of its error"
         )
-        said.append(f"{about['read_out']} = {float(made[name]):.9g} {unit}, {error}")
+        said.append(f"{about['read_out']} = {float(made[name]):.9g}{unit}, {error}")
         for k, key in enumerate(made["refinement"].to_numpy()):
             own = {part: float(made[f"{name}_{part}"][k]) for part in ("errors", "order", "limit")}
             words = SAID[int(made[f"{name}_state"][k])]
