@@ -3,12 +3,15 @@
 import fcntl
 import os
 import shutil
+import socket
 import sys
 
 from snakemake.utils import min_version
 
 from cosserat.cases.catalogue import published
 from cosserat.data.provenance import computing_sources
+from cosserat.errors import InputError
+from cosserat.studies import elsewhere
 from cosserat.studies.door import find_study, published_studies
 from cosserat.thesis.figures.catalogue import FIGURES
 
@@ -56,26 +59,56 @@ def batches():
     }
 
 
+def wait_for(file):
+    """Lock a file, and say so if that takes time."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        print("waiting for another run in this folder, or for jobs that a killed one left", file=sys.stderr)
+        fcntl.flock(file, fcntl.LOCK_EX)
+
+
 def only_run_here():
     """Wait for whoever makes results in this folder; the locks that Snakemake finds after that are nobody's.
 
-    The file is held by this process and by each of its jobs, also by one that outlives a kill.
+    `running` is held by this process, `held` by each of its jobs on this machine, also by one that outlives a kill.  A
+    job on Slurm holds nothing here, as Slurm knows of it.  One that a killed run left is ended: it would delete and
+    make anew what this run makes and reads.
     """
     os.makedirs(".snakemake", exist_ok=True)
-    held = open(".snakemake/held", "w")
-    try:
-        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        print("waiting for another run in this folder, or for jobs that a killed one left", file=sys.stderr)
-        fcntl.flock(held, fcntl.LOCK_EX)
+    running = open(".snakemake/running", "a")
+    wait_for(running)
+    running.truncate(0)
+    print(socket.gethostname(), os.getpid(), file=running, flush=True)
+    if not workflow.output_settings.dryrun:
+        try:
+            for job in elsewhere.end("."):
+                print(f"ended job {job.id} on Slurm, which a killed run left: {job.batch}", file=sys.stderr)
+        except InputError as error:
+            print(f"jobs of an earlier run may be left: {error}", file=sys.stderr)
+    with open(".snakemake/held", "a") as held:
+        wait_for(held)
     shutil.rmtree(".snakemake/locks", ignore_errors=True)
-    fcntl.flock(held, fcntl.LOCK_SH)
-    return held
+    return running
 
 
-HELD = only_run_here()
-HOLD = "exec 9<.snakemake/held; python -IS -c 'import fcntl; fcntl.flock(9, fcntl.LOCK_SH)'; "
-shell.prefix(f"set -euo pipefail; {HOLD}")
+if workflow.is_main_process:  # and none that a job on Slurm starts for itself
+    RUNNING = only_run_here()
+    HOLD = "exec 9<.snakemake/held; python -IS -c 'import fcntl; fcntl.flock(9, fcntl.LOCK_SH)'; "
+    shell.prefix(f"set -euo pipefail; {HOLD}")
+else:
+    shell.prefix("set -euo pipefail; ")
+
+
+def asks(megabytes, minutes):
+    """What a job asks a cluster for: the memory of its benchmark [MB] with some to spare, and a time [min].
+
+    A job on Slurm starts two Snakemakes around the rule's own process.  Its second attempt asks for twice as much.
+    """
+    return {
+        "mem_mb": lambda wildcards, attempt: attempt * (megabytes + 400),
+        "runtime": lambda wildcards, attempt: attempt * minutes,
+    }
 
 
 wildcard_constraints:
@@ -85,6 +118,13 @@ wildcard_constraints:
 
 
 report: "results/captions/workflow.rst"
+
+
+localrules:  # where Snakemake itself runs: a second or two each, and `peers`, which needs a network
+    all,
+    measure,
+    check,
+    peers,
 
 
 rule all:
@@ -109,6 +149,8 @@ for batch, names in batches().items():
             f"results/logs/simulate/{batch}.log",
         benchmark:
             f"results/benchmarks/simulate/{batch}.tsv"
+        resources:
+            **asks(megabytes=400, minutes=10),
         shell:
             "printf '%s\\n' {params.cases:q} | python -m cosserat run - --output results/cases > {log} 2>&1"
 
@@ -189,6 +231,8 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
             f"results/logs/figure/{module}.log",
         benchmark:
             f"results/benchmarks/figure/{module}.tsv"
+        resources:
+            **asks(megabytes=450, minutes=5),
         shell:
             "python -m cosserat figure {params.figures} --cases results/cases --output results/figures > {log} 2>&1"
 
@@ -212,6 +256,8 @@ rule chapter:
         "results/logs/chapter/{chapter}.log",
     benchmark:
         "results/benchmarks/chapter/{chapter}.tsv"
+    resources:
+        **asks(megabytes=500, minutes=5),
     shell:
         "python -m cosserat chapter {input.source} --output {output} > {log} 2>&1"
 
@@ -238,5 +284,7 @@ rule book:
         "results/logs/book.log",
     benchmark:
         "results/benchmarks/book.tsv"
+    resources:
+        **asks(megabytes=500, minutes=10),
     shell:
         "python -m cosserat book {input.notebooks} --output results/book > {log} 2>&1"

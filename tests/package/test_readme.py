@@ -47,13 +47,20 @@ LINES = [line.split("  #")[0].strip() for text in blocks("sh") for line in text.
 
 
 def test_every_block_is_in_a_language_that_is_executed():
-    assert {language for language, _ in BLOCKS} == {"toml", "sh", "python"}
+    assert {language for language, _ in BLOCKS} == {"toml", "sh", "python", "console"}
     assert TEXT.count("```") == 2 * len(BLOCKS)
     prose = re.sub(r"^```.*?^```$", "", TEXT, flags=re.MULTILINE | re.DOTALL)
     assert not re.search(r"^(    |\t)", prose, flags=re.MULTILINE), (
         "code outside a block with its language"
     )
     assert max(map(len, TEXT.splitlines())) <= 120
+
+
+def test_the_command_for_a_cluster_is_run_on_a_small_one():
+    """With other targets, and the partition of the Slurm that `.ci/slurm` starts."""
+    (line,) = "".join(blocks("console")).splitlines()
+    given, _ = line.removeprefix("snakemake all ").split("=PARTITION")
+    assert f'snakemake "$@" {given}=one' in (ROOT / ".ci/slurm").read_text()
 
 
 @pytest.mark.parametrize("name", [name for name, _ in TABLES])

@@ -1,17 +1,16 @@
 """Snakemake on a copy of the repository: the jobs that rerun after a change, and the effect of a failing claim."""
 
 import base64
-import csv
 import fcntl
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import small
 from conftest import ROOT
 
 import cosserat
@@ -21,7 +20,7 @@ pytestmark = pytest.mark.workflow
 # The judged table and three figures, two of them drawn together: enough to see what reruns; one page of the book is
 # made by the test that reads it.
 DRAWN = ("fig_3_7", "fig_3_8", "fig_3_12")
-# The cases that these need, and what they are built on: the copy knows no others.
+# The cases that these need: the copy knows no others.
 KEPT = (
     "hanging_bar",
     "clamped_free",
@@ -71,42 +70,10 @@ def planned(folder):
 def checkout(tmp_path_factory):
     """A copy of the tracked files in which everything up to the figures has been made."""
     folder = tmp_path_factory.mktemp("checkout")
-    listed = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    for name in listed.stdout.splitlines():
-        if (ROOT / name).is_file():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / name, folder / name)
-    _shrink(folder)
+    small.copy(folder, KEPT, DRAWN)
     code, text = snakemake(folder, *TARGETS)
     assert code == 0, text
     return folder
-
-
-def _shrink(folder):
-    """Leave the copy with a few cases and their rows: what reruns after which change does not depend on how many."""
-    cases = folder / "cosserat/thesis/cases"
-    (cases / "chapter2.toml").write_text("")
-    blocks = re.split(r"\n(?=\[)", (cases / "chapter3.toml").read_text())
-    kept = [
-        b
-        for b in blocks
-        if not (name := re.match(r"\[([a-z0-9_]+)", b)) or name[1] in KEPT or name[1] == "_section_3_5"
-    ]
-    (cases / "chapter3.toml").write_text("\n".join(kept))
-    table = folder / "results/tolerances.csv"
-    with table.open(newline="") as file:
-        head, *rows = csv.reader(file)
-    rows = [row for row in rows if row[head.index("case")] in KEPT]
-    with table.open("w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([head, *rows])
-    with (folder / "cosserat/thesis/figures/catalogue.py").open("a") as file:
-        file.write(f"\nFIGURES = {{name: FIGURES[name] for name in {DRAWN}}}\n")
 
 
 @pytest.fixture
