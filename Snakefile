@@ -103,10 +103,10 @@ else:
 def asks(megabytes, minutes):
     """What a job asks a cluster for: the memory of its benchmark [MB] with some to spare, and a time [min].
 
-    A job on Slurm starts two Snakemakes around the rule's own process.  Its second attempt asks for twice as much.
+    A job on Slurm has two Snakemakes around the process of the rule: 460 MB.  Its second attempt asks for twice as much.
     """
     return {
-        "mem_mb": lambda wildcards, attempt: attempt * (megabytes + 400),
+        "mem_mb": lambda wildcards, attempt: attempt * (megabytes + 500),
         "runtime": lambda wildcards, attempt: attempt * minutes,
     }
 

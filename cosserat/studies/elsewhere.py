@@ -23,7 +23,7 @@ from cosserat.text import shown
 
 _ANSWER = 60.0  # seconds in which squeue and scancel answer
 _END = 60.0  # seconds in which cancelled jobs leave the queue: Slurm kills them after its KillWait, 30 s
-_POLITE = 20.0  # seconds in which a Snakemake whose jobs are cancelled ends by itself
+_POLITE = 10.0  # seconds in which a Snakemake whose jobs are cancelled ends by itself
 _RUN = re.compile(r"SLURM run ID: ([\w-]+)")
 _COMMENT = re.compile(r"rule_(?P<rule>.+?)(?:_wildcards_(?P<wildcards>.+))?")
 
