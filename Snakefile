@@ -1,16 +1,13 @@
 """Cases to netCDF, netCDF to the judged table and the figures, all of that to the book.  `snakemake all`."""
 
-import fcntl
 import os
 import shutil
-import socket
 import sys
 
 from snakemake.utils import min_version
 
 from cosserat.cases.catalogue import published
 from cosserat.data.provenance import computing_sources
-from cosserat.errors import InputError
 from cosserat.studies import elsewhere
 from cosserat.studies.door import find_study, published_studies
 from cosserat.thesis.figures.catalogue import FIGURES
@@ -59,35 +56,15 @@ def batches():
     }
 
 
-def wait_for(file):
-    """Lock a file, and say so if that takes time."""
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        print("waiting for another run in this folder, or for jobs that a killed one left", file=sys.stderr)
-        fcntl.flock(file, fcntl.LOCK_EX)
-
-
 def only_run_here():
     """Wait for whoever makes results in this folder; the locks that Snakemake finds after that are nobody's.
 
-    `running` is held by this process, `held` by each of its jobs on this machine, also by one that outlives a kill.  A
-    job on Slurm holds nothing here, as Slurm knows of it.  One that a killed run left is ended: it would delete and
-    make anew what this run makes and reads.
+    `held` is held by each job on this machine, also by one that outlives a kill.  A job on Slurm holds nothing here, as
+    Slurm knows of it.
     """
-    os.makedirs(".snakemake", exist_ok=True)
-    running = open(".snakemake/running", "a")
-    wait_for(running)
-    running.truncate(0)
-    print(socket.gethostname(), os.getpid(), file=running, flush=True)
-    if not workflow.output_settings.dryrun:
-        try:
-            for job in elsewhere.end("."):
-                print(f"ended job {job.id} on Slurm, which a killed run left: {job.batch}", file=sys.stderr)
-        except InputError as error:
-            print(f"jobs of an earlier run may be left: {error}", file=sys.stderr)
+    running = elsewhere.alone(".", change=not workflow.output_settings.dryrun)
     with open(".snakemake/held", "a") as held:
-        wait_for(held)
+        elsewhere.wait_for(held)
     shutil.rmtree(".snakemake/locks", ignore_errors=True)
     return running
 
@@ -103,7 +80,7 @@ else:
 def asks(megabytes, minutes):
     """What a job asks a cluster for: the memory of its benchmark [MB] with some to spare, and a time [min].
 
-    A job on Slurm has two Snakemakes around the process of the rule: 460 MB.  Its second attempt asks for twice as much.
+    A job on Slurm has two Snakemakes around the process of the rule, 460 MB.  Its second attempt asks for twice as much.
     """
     return {
         "mem_mb": lambda wildcards, attempt: attempt * (megabytes + 500),
@@ -169,6 +146,8 @@ rule study:
         "results/logs/study/{study}.log",
     benchmark:
         "results/benchmarks/study/{study}.tsv"
+    resources:
+        **asks(megabytes=450, minutes=10),
     shell:
         "python -m cosserat study {wildcards.study} --output {output} > {log} 2>&1"
 

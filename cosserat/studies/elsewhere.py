@@ -1,7 +1,7 @@
 """Runs on Slurm: which of their jobs wait or run, and how they are ended.
 
-The Slurm plugin of Snakemake names every job of a run by one identifier, which Snakemake writes into its log.  The
-Snakefile holds a lock on `.snakemake/running` as long as its Snakemake lives, and writes host and process into it.
+The Slurm plugin of Snakemake names every job of a run by one identifier, which Snakemake writes into its log.  A
+Snakefile holds a lock on `.snakemake/running` as long as its Snakemake lives (`alone`): host and process stand in it.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ import re
 import signal
 import socket
 import subprocess
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TextIO
 
 from cosserat.errors import InputError
 from cosserat.text import shown
@@ -51,6 +52,39 @@ def jobs(folder: Path) -> list[Job]:
     InputError : a run used Slurm, and its squeue is missing here, fails, or does not answer.
     """
     return [job for _, job in _listed(folder)]
+
+
+def alone(folder: Path, *, change: bool = True) -> TextIO:
+    """Wait until no other Snakemake runs in a folder, end what a killed one left on Slurm, and return the lock.
+
+    Whoever keeps the file that is returned holds the lock.  A job that is left would delete and make anew what the next
+    run makes and reads.  Lines on stderr tell what is waited for, what is ended, and which Slurm does not answer.
+
+    change : whether to end jobs; a dry run does not.
+    """
+    file = Path(folder) / ".snakemake/running"
+    file.parent.mkdir(exist_ok=True)
+    running = file.open("a")
+    wait_for(running)
+    running.truncate(0)
+    print(socket.gethostname(), os.getpid(), file=running, flush=True)
+    try:
+        for job in end(folder) if change else ():
+            print(f"ended job {job.id} on Slurm, which a killed run left: {job.batch}", file=sys.stderr)
+    except InputError as error:
+        print(f"jobs of an earlier run may be left: {error}", file=sys.stderr)
+    return running
+
+
+def wait_for(file: TextIO) -> None:
+    """Lock a file, and say on stderr if that takes time."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        print(
+            "waiting for another run in this folder, or for jobs that a killed one left", file=sys.stderr
+        )
+        fcntl.flock(file, fcntl.LOCK_EX)
 
 
 def cancel(folder: Path) -> list[Job]:

@@ -8,7 +8,12 @@ import sys
 
 from snakemake.utils import min_version
 
+from cosserat.studies import elsewhere
+
 min_version("9.0")
+
+if workflow.is_main_process:  # and none that a job on Slurm starts for itself
+    RUNNING = elsewhere.alone(".", change=not workflow.output_settings.dryrun)
 
 with open("plan.json", encoding="utf-8") as file:
     BATCHES = json.load(file)["batches"]

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from conftest import ROOT
 
 from cosserat.errors import InputError
 from cosserat.studies import elsewhere
@@ -107,14 +108,27 @@ def test_a_slurm_that_does_not_answer_is_one_sentence(folder, monkeypatch, squeu
         elsewhere.jobs(folder)
 
 
-# Holds the lock as the Snakefile does.
+def test_the_next_run_ends_what_a_killed_one_left_and_a_dry_one_does_not(folder, capsys):
+    elsewhere.alone(folder, change=False).close()
+    assert capsys.readouterr().err == ""
+    assert len(elsewhere.jobs(folder)) == 2
+    elsewhere.alone(folder).close()
+    assert (
+        "ended job 8 on Slurm, which a killed run left: simulate_rod_path_0\n" in capsys.readouterr().err
+    )
+    assert elsewhere.jobs(folder) == []
+    put(folder.parent, "squeue", "#!/bin/sh\nexit 1\n")
+    elsewhere.alone(folder).close()
+    assert capsys.readouterr().err.startswith("jobs of an earlier run may be left: squeue failed")
+
+
+# A Snakemake, as far as its lock goes.
 HOLDER = """
-import fcntl, os, signal, socket, sys
+import signal, sys
+from cosserat.studies import elsewhere
 if sys.argv[2] == "stubborn":
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
-file = open(sys.argv[1], "w")
-fcntl.flock(file, fcntl.LOCK_EX)
-print(socket.gethostname(), os.getpid(), file=file, flush=True)
+running = elsewhere.alone(sys.argv[1], change=False)
 print("held", flush=True)
 signal.pause()
 """
@@ -123,10 +137,9 @@ signal.pause()
 @pytest.mark.parametrize(("kind", "end"), [("meek", signal.SIGTERM), ("stubborn", signal.SIGKILL)])
 def test_the_snakemake_that_would_submit_again_is_ended_too(folder, monkeypatch, kind, end):
     monkeypatch.setattr(elsewhere, "_POLITE", 0.2)
-    file = folder / ".snakemake/running"
-    with subprocess.Popen(
-        [sys.executable, "-IS", "-c", HOLDER, file, kind], stdout=subprocess.PIPE, text=True
-    ) as holder:
+    command = [sys.executable, "-c", HOLDER, folder, kind]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as holder:
         assert holder.stdout.readline() == "held\n"
         assert [job.id for job in elsewhere.cancel(folder)] == ["7", "8"]
         assert holder.wait(5) == -end

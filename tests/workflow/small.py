@@ -36,7 +36,8 @@ def copy(folder, cases, figures):
 def shrink(folder, cases, figures):
     """Leave these cases, the hidden ones that cases are built on, their rows and these figures."""
     files = folder / "cosserat/thesis/cases"
-    (files / "chapter2.toml").write_text("")
+    for name in ("chapter2.toml", "studies.toml"):
+        (files / name).write_text("")
     blocks = re.split(r"\n(?=\[)", (files / "chapter3.toml").read_text())
     kept = [
         b
