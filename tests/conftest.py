@@ -133,6 +133,37 @@ class Solved(Mapping):
         return len(list(iter(self)))
 
 
+@pytest.fixture(scope="session", autouse=True)
+def compiled(tmp_path_factory):
+    """Where nothing is compiled yet, two processes of a run compile one half each instead of all of it twice."""
+    worker = os.environ.get("PYTEST_XDIST_WORKER", "")
+    if not worker or os.environ["PYTEST_XDIST_WORKER_COUNT"] == "1":
+        return
+    share = int(worker.removeprefix("gw")) % 2
+    locks = [tmp_path_factory.getbasetemp().parent / f"compiling_{number}" for number in (0, 1)]
+    with locks[share].open("w") as own:
+        fcntl.flock(own, fcntl.LOCK_EX)
+        compile_share(share)
+    with locks[1 - share].open("w") as other:
+        fcntl.flock(other, fcntl.LOCK_EX)
+
+
+def compile_share(share):
+    """Half of the kernels: that of the implicit method, which takes as long as all others together, or those."""
+    import cosserat
+
+    if share == 0:
+        cosserat.run(cosserat.case("vibration_consistent").vary("x", duration=1e-3, every=1e-3))
+        return
+    for name, changes in (("clamped_free", {}), ("worm", COARSE), ("soft_robot", COARSE)):
+        cosserat.run(cosserat.case(name).vary("x", **changes))
+    for name in ("roll_up", "column_path"):
+        cosserat.run(name)
+
+
+COARSE = {"strides": 1, "step": 1.0}
+
+
 @pytest.fixture
 def untraced():
     """No tracing of lines while something is timed: coverage slows Python, not what is compiled."""

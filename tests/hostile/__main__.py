@@ -65,7 +65,10 @@ def main(arguments: list[str]) -> int:
 
 
 def _inputs(options: argparse.Namespace) -> Tally:
-    known = [*regressions.FOUND, *(inputs.refused_at_once() if options.quick else inputs.corpus())]
+    known = [
+        *(make() for make in regressions.FOUND.values()),
+        *(inputs.refused_at_once() if options.quick else inputs.corpus()),
+    ]
     chosen = inputs.named(known, options.words)[options.first :: options.every]
     tally = Tally()
     with Worker() as worker:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from collections.abc import Iterator
 from typing import Any
@@ -200,6 +201,11 @@ def _csv() -> Iterator[Input]:
             )
 
 
+@functools.cache
+def _many(columns: int) -> str:
+    return "\n".join(",".join([str(n)] * columns) for n in range(300_000))
+
+
 def _tables(header: str, columns: int) -> Iterator[tuple[str, bytes, tuple[int, ...]]]:
     def rows(*lines: str) -> bytes:
         return "\n".join(lines).encode()
@@ -241,7 +247,7 @@ def _tables(header: str, columns: int) -> Iterator[tuple[str, bytes, tuple[int, 
     yield "100000 columns", rows(header + ",a" * 100_000, *good), SURE
     yield "large", rows(header, *(",".join([f"{n}e300"] * columns) for n in range(1, 4))), OPEN
     yield "small", rows(header, *(",".join([f"{n}e-300"] * columns) for n in range(1, 4))), OPEN
-    yield "300000 rows", rows(header, *(",".join([str(n)] * columns) for n in range(300_000))), OPEN
+    yield "300000 rows", rows(header, _many(columns)), OPEN
 
 
 def _standard_input() -> Iterator[tuple[str, bytes, tuple[int, ...]]]:

@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cosserat.publications import kinds
+
 from . import damage, fuzz, lines
 from .judge import faults
 from .regressions import FOUND
-from .schema import bases
 
 CASES, LINES, FILES, FOREIGN = 220, 40, 100, 4
 """Case files, command lines, and damaged results with and without a digest that are tried, the same in each run: to
@@ -18,7 +19,7 @@ read one without a digest takes a process of its own."""
 CHANGES = st.lists(
     st.tuples(st.sampled_from(fuzz.CHANGES), st.integers(0, 2**32 - 1)), min_size=1, max_size=6
 )
-EXAMPLES = st.builds(fuzz.Example, st.sampled_from(list(bases())), CHANGES.map(tuple), st.booleans())
+EXAMPLES = st.builds(fuzz.Example, st.sampled_from(list(kinds())), CHANGES.map(tuple), st.booleans())
 
 
 @given(example=EXAMPLES)
@@ -57,6 +58,7 @@ def test_a_damaged_result_is_refused_or_read_as_it_was(
     assert not failures, "\n".join(failures[:10])
 
 
-@pytest.mark.parametrize("found", FOUND, ids=lambda found: found.name)
-def test_what_was_found_before_is_mended(worker, found):
+@pytest.mark.parametrize("name", FOUND)
+def test_what_was_found_before_is_mended(worker, name):
+    found = FOUND[name]()
     assert faults(found, worker.run(found)) == [], found.reproduction

@@ -37,13 +37,12 @@ def dumped(value: Any) -> str:
     return str(value)
 
 
+_MARKS = {n: f"\\u{n:04x}" for n in (*range(32), 127)} | {ord('"'): '\\"', ord("\\"): "\\\\"}
+
+
 def quoted(text: str) -> str:
     """A text between quotation marks."""
-    marks = {'"': '\\"', "\\": "\\\\"}
-    inside = "".join(
-        marks.get(c) or (f"\\u{ord(c):04x}" if ord(c) < 32 or ord(c) == 127 else c) for c in text
-    )
-    return f'"{inside}"'
+    return f'"{text.translate(_MARKS)}"'
 
 
 def _key(key: str) -> str:

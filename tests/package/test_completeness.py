@@ -2,6 +2,7 @@
 
 import ast
 import builtins
+import functools
 import importlib
 import importlib.metadata
 import re
@@ -59,6 +60,7 @@ ROOMS = (
 )
 
 
+@functools.cache
 def tracked():
     done = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
     return [ROOT / line for line in done.stdout.splitlines()]
@@ -68,7 +70,12 @@ def room_of(module):
     return module.split(".")[1]
 
 
+@functools.cache
 def imports_of(file):
+    return tuple(_imports(file))
+
+
+def _imports(file):
     for node in ast.walk(ast.parse(file.read_text())):
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("cosserat"):
             names = (
@@ -480,6 +487,7 @@ def stale_names(source):
     """Names in docstrings, between backquotes or as terms of a list, that stand for nothing in the code."""
     tree = ast.parse(source)
     texts = docstrings_of(tree)
+    quoting = set(map(id, texts))
     known = (
         NAMED_ELSEWHERE
         | set(dir(builtins))
@@ -488,7 +496,7 @@ def stale_names(source):
         | {"report.csv", "stopped.nc", "index.ipynb"}
     )
     for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in texts:
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in quoting:
             known |= set(re.findall(r"\w+", node.value))
         known |= {getattr(node, key, None) for key in ("id", "arg", "attr", "name", "asname")}
     found = []

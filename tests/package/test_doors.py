@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import ROOT, case_of_kind, save_own
+from conftest import ROOT, save_own
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -19,8 +19,6 @@ import cosserat
 from cosserat import progress
 from cosserat.cli import main
 from cosserat.errors import InputError
-from cosserat.export.table import INSTANTS
-from cosserat.publications import kinds
 
 
 def call(capsys, *arguments):
@@ -178,16 +176,6 @@ def test_a_page_holds_its_frames_and_needs_no_network(crawled, tmp_path, capsys)
     assert page.count("data:image/png;base64") == 3
     assert not re.search(r"https?:|fa fa-|src=\"(?!data:)", page)
     assert sorted(found.name for found in tmp_path.iterdir()) == ["a.html", "a.nc", "b.html"]
-
-
-@pytest.mark.parametrize("kind", [name for name, entry in kinds().items() if entry.animate])
-def test_any_kind_that_moves_is_animated(solved, kind, tmp_path):
-    name = case_of_kind(kind).name
-    data = solved[name]
-    few = data.isel({dim: [0, -1] for dim in INSTANTS if dim in data.sizes})
-    cosserat.animate(few, tmp_path / "a.gif", frames=3)
-    with Image.open(tmp_path / "a.gif") as drawn:
-        assert drawn.n_frames >= 2
 
 
 def test_an_animation_that_was_stopped_leaves_the_old_file(crawled, tmp_path, monkeypatch):

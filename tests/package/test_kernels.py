@@ -39,7 +39,7 @@ def closed(tmp_path_factory):
 
 
 def python(closed, *arguments, **environment):
-    kept = {"PATH": os.environ["PATH"], "PYTHONPATH": str(closed), "PYTHONDONTWRITEBYTECODE": "1"}
+    kept = {"PATH": os.environ["PATH"], "PYTHONPATH": str(closed)}
     done = subprocess.run(
         [sys.executable, *arguments],
         cwd=closed,

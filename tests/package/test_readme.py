@@ -65,9 +65,13 @@ def test_the_command_for_a_cluster_is_run_on_a_small_one():
 
 @pytest.mark.parametrize("name", [name for name, _ in TABLES])
 def test_a_case_of_the_readme_is_solved(name, tmp_path, monkeypatch, capsys):
+    """A second of motion is read as it is and solved for its first tenth, which has its largest amplitude."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("TQDM_DISABLE", "1")  # a slow machine would show progress
-    Path("my.toml").write_text("\n".join(blocks("toml")), encoding="utf-8")
+    text = "\n".join(blocks("toml"))
+    Path("whole.toml").write_text(text, encoding="utf-8")
+    assert cosserat.case(name, "whole.toml").name == name
+    Path("my.toml").write_text(text.replace('duration = "1 s"', 'duration = "0.1 s"'), encoding="utf-8")
     assert main(["run", name, "--file", "my.toml"]) == 0
     said = capsys.readouterr()
     assert said.err == "", "an example warns"

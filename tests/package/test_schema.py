@@ -57,16 +57,17 @@ NAMES = {
 
 @pytest.fixture(scope="module")
 def written():
-    schema = as_written()
-    Draft202012Validator.check_schema(schema)
-    return Draft202012Validator(schema)
+    return Draft202012Validator(as_written())
 
 
 @pytest.fixture(scope="module")
 def whole():
-    schema = merged()
-    Draft202012Validator.check_schema(schema)
-    return Draft202012Validator(schema)
+    return Draft202012Validator(merged())
+
+
+@pytest.mark.parametrize("made", [as_written, merged])
+def test_the_schemas_are_schemas(made):
+    Draft202012Validator.check_schema(made())
 
 
 def table_of(name):

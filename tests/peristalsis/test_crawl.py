@@ -514,7 +514,10 @@ def test_a_crawl_that_will_collapse_is_refused_before_its_first_solve(
 
 
 def test_doubling_the_mesh_changes_no_row_by_a_tenth_of_its_tolerance(solved):
-    """The change is below a tenth of the tolerance, and below half of the last digit of another number found."""
+    """The change is below a tenth of the tolerance, and below half of the last digit of another number found.
+
+    Of a crawl whose strides are alike the finer mesh has one.
+    """
     rows = [
         row
         for row in read_table(ROOT / "results/tolerances.csv")
@@ -525,8 +528,10 @@ def test_doubling_the_mesh_changes_no_row_by_a_tenth_of_its_tolerance(solved):
         mesh = {"elements": 12}
         case = cosserat.case(name)
         own = case.problem.kind in ("crawl", "posture")
+        alike = case.problem.kind == "crawl" and np.ptp(strides(solved[name])) < 1e-9
+        one = {"strides": 1} if alike else {}
         fine[name] = cosserat.run(
-            case.vary(name, **({"mesh": mesh} if own else {"worm": {"mesh": mesh}}))
+            case.vary(name, **({"mesh": mesh, **one} if own else {"worm": {"mesh": mesh}}))
         )
     assert len(rows) > 40
     for row in rows:

@@ -331,7 +331,7 @@ def loaded_arch(at, **arc):
 def test_a_path_does_not_depend_on_its_arcs_and_never_jumps(at):
     """Loaded off its centre an arch runs through many limit points, some close to another path."""
     limits = []
-    for longest in (0.5, 0.1, 0.02):
+    for longest in (0.5, 0.1, 0.04):
         path = cosserat.run(loaded_arch(at, longest=longest, first=min(longest, 0.05), count=2000))
         factor = path.load_factor.to_numpy()
         turning = np.arctan2(*path.d.to_numpy().T).T
@@ -571,9 +571,9 @@ def test_a_tiny_load_is_not_refused(increments):
     assert found["u"][20, 1] == pytest.approx(right, rel=2e-3)
 
 
-def test_hundreds_of_thousands_of_vertices():
+def test_a_hundred_thousand_vertices():
     """In memory and in one step, as with few vertices: a hanging bar, whose answer is known."""
-    problem = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 200_000}).problem
+    problem = cosserat.case("hanging_bar_consistent").vary("x", rod={"vertices": 100_000}).problem
     solved = problem.solve("x")
     fields = solved
     assert solved.statistics["iterations"] == 1
@@ -717,7 +717,7 @@ def test_moved_supports_act_through_the_coupled_mass(method):
         duration=5e-4,
         every=5e-4,
     )
-    explicit = {"method": method, "step": 2e-7} | ({"tolerance": 1e-12} if method == "rk45" else {})
+    explicit = {"method": method, "step": 8e-7} | ({"tolerance": 1e-12} if method == "rk45" else {})
     exact = cosserat.run(shaken.vary("shaken", integrator=explicit))
     given = 1e-4 * 2 * np.pi * 1400 * np.cos(2 * np.pi * 1400 * 5e-4)
     assert exact.x_rate[-1, 0, 0] == pytest.approx(given, rel=1e-9)
@@ -758,7 +758,7 @@ def test_large_rotations_between_frames_are_counted(method):
         couples=[{"at": "first", "moment": 80.0}],
         duration=0.04,
         every=0.04,
-        integrator={"method": method, "step": 5e-6},
+        integrator={"method": method, "step": 2e-5},
     )
     data = cosserat.run(motor)
     total = data.kinetic_energy + data.strain_energy + data.load_potential

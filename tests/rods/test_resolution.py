@@ -104,7 +104,7 @@ def test_the_work_of_drag_and_supports_closes_the_energy_balance(method):
         damping=0.05,
         prescribed_displacements=[{"at": "first", "dof": "x2", "by": 2e-3, "time_function": sine(20)}],
         prescribed_rotations=[{"at": "first", "by": 0.02, "time_function": sine(30)}],
-        duration=0.01,
+        duration=0.005,
         every=1e-3,
         integrator={"method": method, "step": 2e-6 if method == "rk4" else 2e-5},
     )

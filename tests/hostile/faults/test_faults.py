@@ -14,14 +14,14 @@ QUICK = (
     ("Ctrl-C from the first line of the program on", 0),
     ("SIGTERM from the first line of the program on", 0),
     ("SIGHUP from the first line of the program on", 0),
-    ("two are swapped", 0),
-    ("standard output is full", 0),
     ("loaded in Python", 1),
     ("the output is the input", 0),
     ("a closed pipe", 0),
 )
 """Names of faults, and the number of the attempt that is a test."""
 LONGER = (
+    ("two are swapped", 0),
+    ("standard output is full", 0),
     ("what a killed motion left", 0),
     ("while one is stopped", 0),
     ("no file may be longer than a limit", 1),
