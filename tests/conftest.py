@@ -99,10 +99,24 @@ def differentiated(potential, q):
 
 @pytest.fixture(scope="session")
 def solved(tmp_path_factory):
-    """Every published case and example by name, solved when it is first asked for, once for all processes of a run."""
+    """Every published case, example and study by name, solved when first asked for, once for all processes of a run."""
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
     return Solved(shared / "solved")
+
+
+def solution_of(name):
+    """The result of a published case, of an example, or of a published study."""
+    import cosserat
+    from cosserat.studies.door import find_study, published_studies, solved
+
+    if name in published_studies():
+        return solved(find_study(name), silent)
+    return cosserat.run(examples().get(name, name))
+
+
+def silent(fraction, words):
+    """Report nothing."""
 
 
 class Solved(Mapping):
@@ -120,7 +134,7 @@ class Solved(Mapping):
             with (self.folder / f"{name}.lock").open("w") as lock:
                 fcntl.flock(lock, fcntl.LOCK_EX)
                 if not path.exists():
-                    cosserat.save(cosserat.run(examples().get(name, name)), path)
+                    cosserat.save(solution_of(name), path)
             self.known[name] = cosserat.load(path)
         return self.known[name]
 

@@ -13,6 +13,7 @@ from cosserat.errors import CosseratError, InputError
 from cosserat.limits import Limits
 from cosserat.problem import Forecast
 from cosserat.progress import bar, duration
+from cosserat.studies.elsewhere import cancel, jobs
 from cosserat.studies.family import Family
 from cosserat.studies.plan import (
     answer_file,
@@ -39,7 +40,7 @@ def study(options: argparse.Namespace) -> None:
 
     Raises
     ------
-    InputError : the study is not valid.
+    InputError : the study is not valid, or Slurm does not answer.
     FailedMembersError : some members have no answer.
     OverLimitError : it would take longer than allowed.
     """
@@ -57,6 +58,10 @@ def study(options: argparse.Namespace) -> None:
         raise InputError(
             f"{folder} is a file, where the parts of the study go; move it or choose another --output"
         )
+    if options.cancel:
+        ended = cancel(folder)
+        print(f"{found.name}: {len(ended)} jobs ended on Slurm; what is solved is in {folder}")
+        return
     if options.status:
         _tell(found, folder, plan(found, folder, options.batch))
         return
@@ -187,3 +192,5 @@ def _tell(found: Family, folder: Path, made: Plan) -> None:
     shape = " x ".join(f"{size} {dim}" for dim, size in zip(found.dims(), found.shape, strict=True))
     print(f"{found.name}: {found.size} members ({shape}) in {_counted(len(made.batches))} in {folder}")
     print(f"left: {members} members in {_counted(len(names))}{work}")
+    for job in jobs(folder):
+        print(f"on Slurm: job {job.id}, {job.state}, {job.batch}")

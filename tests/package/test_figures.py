@@ -24,7 +24,7 @@ ONE_OF_EACH = list({entry.module: name for name, entry in FIGURES.items()}.value
 
 
 def drawn_to(solved, name, path):
-    write(draw(name, {case: solved[case] for case in FIGURES[name].cases}), path)
+    write(draw(name, needed(solved, name)), path)
     return path.read_bytes()
 
 
@@ -42,6 +42,11 @@ def test_figures_are_those_of_the_manifest(solved, name, tmp_path):
     drawn = content_of(tmp_path / "1.svg", round_off=FIGURES[name].round_off)
     assert drawn == listed.content, "the manifest is stale: 'make', then 'cosserat manifest'"
     assert sorted(file.name for file in tmp_path.iterdir()) == ["1.svg"]
+
+
+def needed(solved, name):
+    """The results that a figure shows."""
+    return {case: solved[case] for case in (*FIGURES[name].cases, *FIGURES[name].studies)}
 
 
 DRAWN = {}
@@ -135,7 +140,7 @@ def test_unknown_figures_are_refused(tmp_path):
 def drawing(solved, name):
     """A figure, drawn once for all tests."""
     if name not in DRAWN:
-        DRAWN[name] = draw(name, {case: solved[case] for case in FIGURES[name].cases})
+        DRAWN[name] = draw(name, needed(solved, name))
     return DRAWN[name]
 
 
