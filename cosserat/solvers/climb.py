@@ -360,6 +360,10 @@ def _climb(
     while point < 1.0:
         fastest = _largest(rates)
         increment = min(increment, limits.longest, MAX_ROTATION / fastest if fastest > 0.0 else np.inf)
+        if (
+            increment < 1.0 - point < 3 / 2 * increment
+        ):  # a short last one would show the errors of this one
+            increment = (1.0 - point) / 2
         goal = point + increment if point + 1.001 * increment < 1.0 else 1.0
         _extrapolate(rates, earlier, before, point, goal, moved)
         new[:] = q
