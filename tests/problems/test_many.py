@@ -59,6 +59,16 @@ FAMILIES = {
         {},
         {"gravity.g": (1.0, 9.0), "rod.material.young": (5e8, 2e9)},
     ),
+    "mass": (
+        "clamped_free_consistent",
+        {},
+        {"gravity.g": (1.0, 9.0), "rod.material.line_density": (100, 300), "rod.length": (3, 5)},
+    ),
+    "density": (
+        "clamped_free_consistent",
+        {"rod": {"centreline": 0.4, "material": {"line_density": "none", "density": 1000.0}}},
+        {"rod.section.height": (0.4, 0.5), "rod.material.density": (900, 1100)},
+    ),
     "published": ("clamped_free", {}, {"gravity.g": (1.0, 9.0)}),
 }
 
@@ -199,7 +209,7 @@ def test_a_column_is_in_a_range_where_each_number_is(quantity):
         ("elastica", "forces.1.force"),
         ("elastica", "rod.material.bulk_modulus"),
         ("clamped_free", "rod.material.young"),
-        ("clamped_free_consistent", "rod.section.height"),
+        ("clamped_free_consistent", "rod.material.density"),
         ("roll_up", "rod.material.young"),
     ],
 )
