@@ -37,13 +37,11 @@ from cosserat.solvers.system import MechanicalSystem
 Array = NDArray[np.float64]
 OF_LOADS = {"forces": "force", "line_loads": "density", "gravity": "g"}
 """Keys of loads that may differ between members, and which number of theirs."""
-OF_MASS = ("rod.material.density", "rod.material.line_density")
-"""Keys that only the weight of a rod depends on."""
 OF_BODY = (
     "rod.length",
     *(f"rod.section.{name}" for name in ("height", "width", "side", "diameter")),
     *(f"rod.material.{name}" for name in ("young", "poisson", "shear_modulus", "bulk_modulus")),
-    *OF_MASS,
+    *(f"rod.material.{name}" for name in ("density", "line_density")),
 )
 """Keys of the rod that may differ between members."""
 _SECTIONS = (Rectangle, Square, Ellipse, Circle)
@@ -108,8 +106,8 @@ def _fits(problem: RodStatics, key: str, columns: Mapping[str, Array]) -> bool:
     rod = problem.rod
     if quantity_of(problem, key) is None or type(rod.section) not in _SECTIONS:
         return False
-    if (problem.gravity is not None and not key.startswith("rod.material.")) or key in OF_MASS:
-        return problem.gravity is None
+    if problem.gravity is not None and problem.masses:
+        return False
     if rod.energy != "consistent" or rod.stations or not rod.rest.straight or problem.imperfection:
         return False
     return key != "rod.length" or not _has_places(problem)
@@ -229,11 +227,11 @@ def _forces(
     varied: RodStatics, problem: RodStatics, body: LoadedRod, columns: Mapping[str, Array]
 ) -> Iterator[Array]:
     """The forces of each kind of loads on the DOFs, (M, n) or (n,) [N], in the order of a single problem."""
-    for key, kind in LOADS.items():
-        loads = varied.loads_of(key)
+    for name, kind in LOADS.items():
+        loads = varied.loads_of(name)
         if not loads or not issubclass(kind, DeadLoad):
             continue
-        if issubclass(kind, Gravity):
+        if issubclass(kind, Gravity) and not any(key in OF_BODY for key in columns):
             yield _weights(problem, columns)
         else:
             total = kind.total(loads, body)  # type: ignore[arg-type] # loads of this kind

@@ -67,19 +67,19 @@ class Kinematics:
         return fields.reshape(fields.shape[0], -1)
 
     def mass_band(self, own: Array, shared: Array | None = None) -> Array:
-        """The mass matrix as a symmetric band, (N m d, (2 m - 1) d + 1).
+        """The mass matrix as a symmetric band, (..., N m d, (2 m - 1) d + 1).
 
-        own : (m, m, N) masses between the vectors of a vertex [kg].
-        shared : (m, m, N - 1) masses between a vector of a vertex and one of the next vertex [kg]; None: none.
+        own : (m, m, ..., N) masses between the vectors of a vertex [kg].
+        shared : (m, m, ..., N - 1) masses between a vector of a vertex and one of the next vertex [kg]; None: none.
         """
-        m, d, count = len(self.vectors), self.dimension, own.shape[2]
-        band = np.zeros((count, m, d, (2 * m - 1) * d + 1))
+        m, d = len(self.vectors), self.dimension
+        band = np.zeros((*own.shape[2:], m, d, (2 * m - 1) * d + 1))
         for a, b in itertools.product(range(m), repeat=2):
             if b >= a:
-                band[:, a, :, (b - a) * d] = own[a, b, :, None]
+                band[..., a, :, (b - a) * d] = own[a, b, ..., None]
             if shared is not None:
-                band[:-1, a, :, (m + b - a) * d] = shared[a, b, :, None]
-        return band.reshape(count * m * d, -1)
+                band[..., :-1, a, :, (m + b - a) * d] = shared[a, b, ..., None]
+        return band.reshape(*own.shape[2:-1], own.shape[-1] * m * d, -1)
 
 
 PLANAR = Kinematics(("E3", "E2"), ("x", "d"))

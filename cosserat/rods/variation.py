@@ -118,7 +118,7 @@ def overlap(cuts: Array, start: float, end: float) -> Array:
 
 
 class EdgeMasses(NamedTuple):
-    """Masses of the edges between their two vertices a and b, each (3, N - 1) [kg]: of a, shared by both, of b.
+    """Masses of the edges between their two vertices a and b, each (3, ..., N - 1) [kg]: of a, shared by both, of b.
 
     The rows have masses times the powers 0, 1 and 2 of the scale factor of the height.
     """
@@ -128,7 +128,7 @@ class EdgeMasses(NamedTuple):
     after: Array
 
 
-def edge_masses(stations: Sequence[Station], line_density: float, arc: Array) -> EdgeMasses:
+def edge_masses(stations: Sequence[Station], line_density: float | Array, arc: Array) -> EdgeMasses:
     """The mean of the lumped and the consistent mass of every edge.
 
     derived: with s from 0 to 1 along an edge and M_k the integral of s^k over its mass, linear interpolation gives
@@ -140,8 +140,10 @@ def edge_masses(stations: Sequence[Station], line_density: float, arc: Array) ->
     def moments(scale: Scales, s: Array) -> Array:
         return mass_scale(scale) * scale.height ** powers[..., None] * s**powers
 
-    edge = (arc[1:] - arc[:-1]) * line_density
-    M0, M1, M2 = (edge * mean(stations, moments, arc)).swapaxes(0, 1)
+    edge = np.diff(arc) * line_density
+    means = mean(stations, moments, arc)
+    several = means.reshape(*means.shape[:-1], *[1] * (edge.ndim - 1), -1)
+    M0, M1, M2 = (edge * several).swapaxes(0, 1)
     return EdgeMasses(M0 - 3 / 2 * M1 + M2 / 2, (M1 - M2) / 2, (M1 + M2) / 2)
 
 

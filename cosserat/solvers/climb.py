@@ -42,7 +42,7 @@ MAX_ROUND_OFF_FRACTION = 1e-3
 _STALL_FACTOR = 16.0  # a residual that stops falling below this multiple of round-off is round-off
 _MAX_CUTBACKS = 4  # rejected increments before a body is left
 _STRAIGHT = 1e-4  # rotation or stretch below which a step is a straight line
-_SETTLED = 1e-1  # last correction of an increment before the last one, as a fraction of the increment
+_SETTLED = 7e-2  # last correction of an increment before the last one, as a fraction of the increment
 _STIFFENING = 0.9  # ratio of the rates at two points below which a body stiffens
 _UNROLLED = (0,) * 8
 """As many zeros as the width of the most common band: code for just this width is twice as fast."""
@@ -360,6 +360,10 @@ def _climb(
     while point < 1.0:
         fastest = _largest(rates)
         increment = min(increment, limits.longest, MAX_ROTATION / fastest if fastest > 0.0 else np.inf)
+        if (
+            increment < 1.0 - point < 3 / 2 * increment
+        ):  # a short last one would show the errors of this one
+            increment = (1.0 - point) / 2
         goal = point + increment if point + 1.001 * increment < 1.0 else 1.0
         _extrapolate(rates, earlier, before, point, goal, moved)
         new[:] = q

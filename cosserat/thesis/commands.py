@@ -60,7 +60,7 @@ def add_commands(add: AddCommand) -> None:
     add(
         "speed",
         _speed,
-        "time equilibria, the implicit integrator, and a stride of the worm by either solver",
+        "time equilibria, one and many, a run, the implicit integrator, and a stride of the worm by either solver",
     )
 
     sub = add(
@@ -199,7 +199,8 @@ def _archive(options: argparse.Namespace) -> None:
 def _speed(_: argparse.Namespace) -> None:
     from cosserat.thesis import benchmark
 
-    for lines in (benchmark.statics, benchmark.integrator, benchmark.stride):
+    parts = (benchmark.statics, benchmark.many, benchmark.one_run)
+    for lines in (*parts, benchmark.integrator, benchmark.stride):
         for line in lines():
             print(line)
 

@@ -4,10 +4,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from pydantic_core import PydanticCustomError
 
 import cosserat
 from cosserat.errors import InputError
 from cosserat.problems.many import in_range, members_of, solve_many
+from cosserat.quantities import Quantity
 from cosserat.solvers.many import member
 
 SLENDER = {"vertices": 9}
@@ -56,6 +58,16 @@ FAMILIES = {
         "clamped_free_consistent",
         {},
         {"gravity.g": (1.0, 9.0), "rod.material.young": (5e8, 2e9)},
+    ),
+    "mass": (
+        "clamped_free_consistent",
+        {},
+        {"gravity.g": (1.0, 9.0), "rod.material.line_density": (100, 300), "rod.length": (3, 5)},
+    ),
+    "density": (
+        "clamped_free_consistent",
+        {"rod": {"centreline": 0.4, "material": {"line_density": "none", "density": 1000.0}}},
+        {"rod.section.height": (0.4, 0.5), "rod.material.density": (900, 1100)},
     ),
     "published": ("clamped_free", {}, {"gravity.g": (1.0, 9.0)}),
 }
@@ -163,6 +175,32 @@ def test_values_are_refused_as_those_of_a_single_problem(key, values):
 
 
 @pytest.mark.parametrize(
+    "quantity",
+    [
+        Quantity("1", above=-1, below=0.5),
+        Quantity("m", above=0),
+        Quantity("Pa", at_least=0),
+        Quantity("N"),
+        Quantity("rad", at_least=-1e3, at_most=1e3),
+    ],
+)
+def test_a_column_is_in_a_range_where_each_number_is(quantity):
+    bounds = [
+        b for b in (quantity.above, quantity.below, quantity.least, quantity.most) if abs(b) < np.inf
+    ]
+    values = [0.0, np.nan, np.inf, -np.inf, 1e-300, -1e-300, 0.3, -0.3]
+    values += [near for b in bounds for near in (b, np.nextafter(b, np.inf), np.nextafter(b, -np.inf))]
+
+    def accepted(number):
+        try:
+            return quantity.checked(float(number)) == number
+        except PydanticCustomError:
+            return False
+
+    assert quantity.holds(np.array(values)).tolist() == [accepted(number) for number in values]
+
+
+@pytest.mark.parametrize(
     ("case", "key"),
     [
         ("elastica", "rod.vertices"),
@@ -171,7 +209,7 @@ def test_values_are_refused_as_those_of_a_single_problem(key, values):
         ("elastica", "forces.1.force"),
         ("elastica", "rod.material.bulk_modulus"),
         ("clamped_free", "rod.material.young"),
-        ("clamped_free_consistent", "rod.section.height"),
+        ("clamped_free_consistent", "rod.material.density"),
         ("roll_up", "rod.material.young"),
     ],
 )

@@ -31,7 +31,7 @@ print(json.dumps({"python": "3", "fake": "1.2"}), flush=True)
 for line in sys.stdin:
     with open(sys.argv[0][:-6] + "prescribed_rotations", "a") as log:
         log.write(sys.argv[0][-6:-3] + " ")
-    print("a banner\\n" + json.dumps({"seconds": 2.0, "tip": 1.0, "profile": [1.0] * 20}), flush=True)
+    print("a banner\\n" + json.dumps({"seconds": 2.0, "whole": 3.0, "tip": 1.0, "profile": [1.0] * 20}), flush=True)
 """
 
 
@@ -71,12 +71,13 @@ def test_packages_alternate_and_the_table_names_the_machine(fakes, monkeypatch):
         assert line.runs == 3
         if line.package == "cosserat":
             assert 0 < line.least <= line.seconds <= line.most
+            assert line.whole > line.least
             assert line.error < 5e-4
             assert {"cosserat", "python", "numpy", "scipy", "numba"} == {
                 used.split()[0] for used in line.versions.split(", ")
             }
         else:
-            assert (line.least, line.seconds, line.most) == (2, 2, 2)
+            assert (line.least, line.seconds, line.most, line.whole) == (2, 2, 2, 3)
             assert line.error > 0.1
             assert line.versions == "python 3, fake 1.2"
         assert line.processor

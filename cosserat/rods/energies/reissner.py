@@ -74,12 +74,12 @@ class Reissner(Energy):
         """
         heights = rod.height_fractions(geometry.arc_length)
         edges = edge_masses(rod.stations, rod.line_density, geometry.arc_length)
-        own = np.zeros((3, heights.size))
-        own[:, :-1] += edges.before
-        own[:, 1:] += edges.after
+        own = np.zeros((3, *heights.shape))
+        own[..., :-1] += edges.before
+        own[..., 1:] += edges.after
         Y02, Y22 = rod.Y02, rod.Y22
         m0, m1, m2 = own[0], Y02 * own[1] / heights, Y22 * own[2] / heights**2
-        low, high = heights[:-1], heights[1:]
+        low, high = heights[..., :-1], heights[..., 1:]
         n0, n1, n2 = edges.shared
         between = [[n0, Y02 * n1 / high], [Y02 * n1 / low, Y22 * n2 / (low * high)]]
         return self.kinematics.mass_band(np.array([[m0, m1], [m1, m2]]), np.array(between))

@@ -53,8 +53,11 @@ class Gravity(DeadLoad):
     def on_dofs(self, body: LoadedRod) -> Array:
         """Weights from the mass matrix of motions."""
         fall = body.no_force
-        fall[:, :2] = self.g * unit_vector(self.along)
-        return band_product(body.mass, fall.ravel()).reshape(fall.shape)
+        fall[..., :2] = np.asarray(self.g)[..., None] * unit_vector(self.along)
+        bands = body.mass.reshape(-1, *body.mass.shape[-2:])
+        falls = fall.reshape(bands.shape[:2])
+        each = [band_product(band, own) for band, own in zip(bands, falls, strict=True)]
+        return np.array(each).reshape(fall.shape)
 
 
 class PointForce(DeadLoad):

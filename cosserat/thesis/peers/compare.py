@@ -25,7 +25,7 @@ from typing import IO, Any, Self
 
 import numpy as np
 
-from cosserat.cases.catalogue import find
+from cosserat.cases.catalogue import Case, find
 from cosserat.data.files import whole_or_absent
 from cosserat.data.provenance import environment, source
 from cosserat.errors import CosseratError, InputError
@@ -34,6 +34,7 @@ from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.dead import PointForce
 from cosserat.rods.problem import RodProblem
+from cosserat.runner import run
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.integrate import IntegratorSettings, integrate
@@ -71,6 +72,8 @@ class Problem:
 class Line:
     """One line of the table: median, least and most seconds of several runs, the relative error, and the machine.
 
+    seconds : of the solver alone, the model built before.  whole : median seconds from the parameters to the answer,
+        in statics of our rod from the case to the Dataset.
     versions : of the package and of its dependencies.  load : processes waiting for the machine just before.
     """
 
@@ -80,6 +83,7 @@ class Line:
     seconds: float
     least: float
     most: float
+    whole: float
     error: float
     versions: str
     date: str
@@ -168,8 +172,8 @@ def _in_turns(
     """Run 1 of every package, then run 2 of every package, and so on; one line for each."""
     load = os.getloadavg()[0]
     answers: list[list[dict[str, Any]]] = [[] for _ in packages]
-    for run in range(runs):
-        progress(f"{problem.name}, run {run + 1} of {runs}")
+    for turn in range(runs):
+        progress(f"{problem.name}, run {turn + 1} of {runs}")
         for package, given in zip(packages, answers, strict=True):
             given.append(package.run())
     for package, given in zip(packages, answers, strict=True):
@@ -181,6 +185,7 @@ def _in_turns(
             statistics.median(seconds),
             min(seconds),
             max(seconds),
+            statistics.median(float(answer["whole"]) for answer in given),
             _error(problem, ours, given[-1]),
             ", ".join(f"{name} {version}" for name, version in package.versions.items()),
             datetime.date.today().isoformat(),
@@ -281,24 +286,29 @@ def _solve_statics(case: RodStatics, problem: Problem) -> dict[str, Any]:
     start = time.perf_counter()
     found = solve_full_load(EquilibriumSolver(system, case.newton, problem.name))
     taken = time.perf_counter() - start
+    posed = Case(name="peers", title=problem.name, problem=case)
+    start = time.perf_counter()
+    run(posed)
+    whole = time.perf_counter() - start
     u = found.q.reshape(-1, 4)[:, 1]
-    return {"seconds": taken, "profile": u.tolist(), "tip": float(u[-1])}
+    return {"seconds": taken, "whole": whole, "profile": u.tolist(), "tip": float(u[-1])}
 
 
 @_solve.register
 def _solve_motion(case: RodMotion, problem: Problem) -> dict[str, Any]:
     small = case.replace(start=case.start.replace(amplitude=problem.load))
+    built = time.perf_counter()
     system, state = small.system(small.geometry), small.begin()
     settings = IntegratorSettings(step=problem.duration / problem.steps)
     start = time.perf_counter()
     integrate(system, state, problem.duration, settings, problem.name)
-    taken = time.perf_counter() - start
+    taken, whole = time.perf_counter() - start, time.perf_counter() - built
     times, tips = [0.0], [float(state.q[-3])]
     for _ in range(problem.steps // 4):
         state, _done = integrate(system, state, 4 * settings.step, settings, problem.name)
         times.append(state.time)
         tips.append(float(state.q[-3]))
-    return {"seconds": taken, "times": times, "tips": tips}
+    return {"seconds": taken, "whole": whole, "times": times, "tips": tips}
 
 
 def _error(problem: Problem, case: RodStatics | RodMotion, answer: dict[str, Any]) -> float:
