@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from cosserat.studies.analysis.indices import indices
     from cosserat.studies.analysis.orders import orders
     from cosserat.studies.door import study
+    from cosserat.studies.sensitivity import sensitivity
 
 _HOMES = {
     "cosserat.cases.catalogue": (
@@ -59,6 +60,7 @@ _HOMES = {
     "cosserat.studies.analysis.indices": (("indices", "indices"),),
     "cosserat.studies.analysis.orders": (("orders", "orders"),),
     "cosserat.studies.door": (("study", "study"),),
+    "cosserat.studies.sensitivity": (("sensitivity", "sensitivity"),),
     "cosserat.runner": (
         ("modes", "modes"),
         ("run", "run"),
@@ -87,6 +89,7 @@ __all__ = [
     "published",
     "run",
     "save",
+    "sensitivity",
     "study",
     "to_dataframe",
 ]

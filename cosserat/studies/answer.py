@@ -106,16 +106,15 @@ def _coordinates(found: Family, factor: Columns, dim: str) -> dict[str, Any]:
 
 
 def _written(key: VariedKey, values: NDArray[Any]) -> tuple[Any, dict[str, str]]:
-    meaning = key.about.meaning.split(";")[0].rstrip(".") or key.last.replace("_", " ")
-    about = {"long_name": meaning, "key": key.path}
+    about = {"long_name": key.meaning, "key": key.path}
     if values.dtype.kind in "fi":
-        return values, {"units": _cf(key.unit), **about}
+        return values, {"units": cf_unit(key.unit), **about}
     return [
         item if isinstance(item, str) else json.dumps(item, sort_keys=True) for item in values
     ], about
 
 
-def _cf(unit: str) -> str:
+def cf_unit(unit: str) -> str:
     """A unit as udunits reads it: "N*m^2" as "N m2"."""
     top, *below = unit.replace("*", " ").replace("^", "").split("/")
     names = [f"{name}-1" for part in below for name in part.split()] if below else []
