@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from cosserat.studies.analysis.estimates import estimate_error
     from cosserat.studies.analysis.indices import indices
     from cosserat.studies.analysis.orders import orders
+    from cosserat.studies.analysis.fit import fit
     from cosserat.studies.door import study
     from cosserat.studies.sensitivity import sensitivity
 
@@ -59,6 +60,7 @@ _HOMES = {
     "cosserat.studies.analysis.estimates": (("estimate_error", "estimate_error"),),
     "cosserat.studies.analysis.indices": (("indices", "indices"),),
     "cosserat.studies.analysis.orders": (("orders", "orders"),),
+    "cosserat.studies.analysis.fit": (("fit", "fit"),),
     "cosserat.studies.door": (("study", "study"),),
     "cosserat.studies.sensitivity": (("sensitivity", "sensitivity"),),
     "cosserat.runner": (
@@ -81,6 +83,7 @@ __all__ = [
     "case_of",
     "estimate_error",
     "indices",
+    "fit",
     "load",
     "load_cases",
     "modes",

@@ -227,6 +227,10 @@ def _reduced(one: ReadOut, now: Array, found: Slope) -> float:
     """
     rates, kinks = found.value.ravel(), found.kink.ravel()
     values = now.ravel()
+    if one.where is not None:
+        if kinks.any():
+            raise InputError("its values have a kink there")
+        return float(rates[0])
     if one.size:
         still = np.abs(values) < _ZERO * np.abs(rates)
         kinks = kinks | still

@@ -21,7 +21,7 @@ from cosserat.publications import reference
 from cosserat.studies.analysis.measured import Columns, Measured, measured
 from cosserat.studies.analysis.model import Bounds, Free, Model, free_keys
 from cosserat.studies.answer import cf_unit
-from cosserat.studies.readouts import ReadOut, read_out
+from cosserat.studies.readouts import read_out
 from cosserat.studies.sensitivity import short_names
 from cosserat.text import shown
 
@@ -145,10 +145,8 @@ class _Search:
         self.scales = np.array([one.scale for one in model.free])
         self.names = [one.name for one in model.read_outs]
         stacked = np.column_stack([table.values[word] for word in self.names])
-        spread = [
-            np.ones(table.size) if table.deviations[word] is None else table.deviations[word]
-            for word in self.names
-        ]
+        given = (table.deviations[word] for word in self.names)
+        spread = [np.ones(table.size) if own is None else own for own in given]
         self.known = np.isfinite(stacked)
         self.measured, self.spread = stacked, np.column_stack(spread)
 
@@ -292,7 +290,11 @@ def _dataset(search: _Search, found: Estimate, statistics: Statistics) -> xr.Dat
         about = {"long_name": key.meaning, "key": key.path}
         numbers = all(isinstance(item, int | float) for item in column)
         values = column.astype(np.float64) if numbers else [str(item) for item in column]
-        coords[names[key.path]] = (("row",), values, about | ({"units": cf_unit(key.unit)} if numbers else {}))
+        coords[names[key.path]] = (
+            ("row",),
+            values,
+            about | ({"units": cf_unit(key.unit)} if numbers else {}),
+        )
     variables = _estimates(keys, own, found, statistics)
     variables |= _residuals(search, found)
     return _described(search, xr.Dataset(variables, coords), found, statistics)
@@ -314,23 +316,30 @@ def _estimates(
             ("_high", value + reach, "upper end of the 95 % interval"),
             ("_start", one.own.value, "start of the search"),
         ):
-            variables[f"{word}{ending}"] = ((), float(part), {**unit, "long_name": f"{one.own.key.meaning}: {meaning}"})
-    one = {"units": "1"}
+            variables[f"{word}{ending}"] = (
+                (),
+                float(part),
+                {**unit, "long_name": f"{one.own.key.meaning}: {meaning}"},
+            )
+    pure = {"units": "1"}
     return variables | {
         "correlation": (
             ("parameter", "with"),
             statistics.correlation,
-            {**one, "long_name": "correlation of the estimates"},
+            {**pure, "long_name": "correlation of the estimates"},
         ),
         "singular_value": (
             ("direction",),
             statistics.singular,
-            {**one, "long_name": "change of the weighted residuals by a relative change of the keys along a direction"},
+            {
+                **pure,
+                "long_name": "change of the weighted residuals by a relative change of the keys along a direction",
+            },
         ),
         "direction_of_keys": (
             ("direction", "parameter"),
             statistics.directions,
-            {**one, "long_name": "relative change of the keys along a direction, of unit length"},
+            {**pure, "long_name": "relative change of the keys along a direction, of unit length"},
         ),
     }
 

@@ -65,7 +65,9 @@ def measured(
         columns, where = [list(column) for column in data.values()], name
         lengths = {len(column) for column in columns}
         if len(lengths) != 1 or lengths == {0}:
-            raise InputError(f"{name}: the columns of 'data' have different lengths or no rows; give them as many")
+            raise InputError(
+                f"{name}: the columns of 'data' have different lengths or no rows; give them as many"
+            )
     else:
         titles, units, columns, where = _from_file(path_of(data), name)
     for title, times in Counter(titles).items():
@@ -75,7 +77,9 @@ def measured(
     own = [title for title in titles if title in by_name]
     if set(own) != set(by_name):
         lacking = ", ".join(sorted(set(by_name) - set(own)))
-        raise InputError(f"{where} has no column {lacking}; name one for each read-out, such as 'tip [mm]'")
+        raise InputError(
+            f"{where} has no column {lacking}; name one for each read-out, such as 'tip [mm]'"
+        )
     strict = not isinstance(data, Mapping)
     found: dict[str, Array] = {}
     keys, conditions = [], []
@@ -148,7 +152,9 @@ def _spread(
     """Standard deviations of a read-out, or None."""
     column = found.get(f"{one.name}{_DEVIATION}")
     if column is None and one.name in deviations:
-        column = np.full(count, _numbers([deviations[one.name]], one.units, "", f"{name}: '{one.name}'", False)[0])
+        column = np.full(
+            count, _numbers([deviations[one.name]], one.units, "", f"{name}: '{one.name}'", False)[0]
+        )
     if column is not None:
         bad = ~(column > 0) & np.isfinite(found[one.name])
         if bad.any():

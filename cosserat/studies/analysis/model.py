@@ -80,7 +80,9 @@ def _free(case: Case, path: str, given: Bounds, name: str, *, bounded: bool) -> 
         for item in given
     )
     if not low < high:
-        raise InputError(f"{name}: the range of '{path}' from {low:g} to {high:g} is empty; give the lower end first")
+        raise InputError(
+            f"{name}: the range of '{path}' from {low:g} to {high:g} is empty; give the lower end first"
+        )
     if not low <= own.value <= high:
         raise InputError(
             f"{name}: '{path}' is {own.value:g} in the case, outside its range from {low:g} to {high:g}; begin inside"
@@ -119,5 +121,3 @@ class Model:
         with warnings.catch_warnings(), threadpool_limits(1):
             warnings.simplefilter("ignore")
             return derivatives(case, own, self.read_outs)
-
-
