@@ -25,10 +25,11 @@ if TYPE_CHECKING:
     from cosserat.limits import Limits
     from cosserat.runner import modes, run
     from cosserat.studies.analysis.bands import bands
+    from cosserat.studies.analysis.design import design
     from cosserat.studies.analysis.estimates import estimate_error
+    from cosserat.studies.analysis.fit import fit
     from cosserat.studies.analysis.indices import indices
     from cosserat.studies.analysis.orders import orders
-    from cosserat.studies.analysis.fit import fit
     from cosserat.studies.door import study
     from cosserat.studies.sensitivity import sensitivity
 
@@ -60,6 +61,7 @@ _HOMES = {
     "cosserat.studies.analysis.estimates": (("estimate_error", "estimate_error"),),
     "cosserat.studies.analysis.indices": (("indices", "indices"),),
     "cosserat.studies.analysis.orders": (("orders", "orders"),),
+    "cosserat.studies.analysis.design": (("design", "design"),),
     "cosserat.studies.analysis.fit": (("fit", "fit"),),
     "cosserat.studies.door": (("study", "study"),),
     "cosserat.studies.sensitivity": (("sensitivity", "sensitivity"),),
@@ -81,9 +83,10 @@ __all__ = [
     "bands",
     "case",
     "case_of",
+    "design",
     "estimate_error",
-    "indices",
     "fit",
+    "indices",
     "load",
     "load_cases",
     "modes",

@@ -155,7 +155,7 @@ class _Solved:
 
     def solution(self, step: float) -> Solution:
         """The result after a step."""
-        return _sharp(cast("Problem", self.near(step))).solve(self.name)
+        return sharp(cast("Problem", self.near(step))).solve(self.name)
 
 
 def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> tuple[Motion, str]:
@@ -164,10 +164,10 @@ def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> tuple[Motion
     if found is not None:
         return found, TANGENT
     ways = tuple(_Solved(one, name) for one in near)
-    return Motion(_sharp(problem).solve(name), ways, ("",) * len(ways)), DIFFERENCES
+    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways)), DIFFERENCES
 
 
-def _sharp(problem: Problem) -> Problem:
+def sharp(problem: Problem) -> Problem:
     """A problem whose equilibria, if it has some, are found to round-off."""
     newton = getattr(problem, "newton", None)
     if newton is None:

@@ -112,9 +112,14 @@ def _from_file(path: Path, name: str) -> tuple[list[str], list[str], list[list[o
     return titles, units, [list(column) for column in zip(*body, strict=True)], f"{name}: {path.name}"
 
 
+def unit_to_read(unit: str) -> str:
+    """A unit of a variable, "kg m2 s-1", as texts with units are read: "kg*m^2*s^-1"."""
+    return re.sub(r"(?<=[A-Za-z])(-?[\d.]+)", r"^\1", unit).replace(" ", "*")
+
+
 def _numbers(column: Sequence[object], si: str, unit: str, where: str, strict: bool) -> Array:
     """Numbers of a read-out in its SI unit; an empty cell was not measured."""
-    wanted = re.sub(r"(?<=[A-Za-z])(-?[\d.]+)", r"^\1", si).replace(" ", "*")
+    wanted = unit_to_read(si)
     found = np.full(len(column), np.nan)
     for number, given in enumerate(column):
         item = given.item() if isinstance(given, np.generic) else given

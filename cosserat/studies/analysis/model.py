@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
-from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, parameter
+from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, parameter, sharp
 from cosserat.studies.keys import case_with, read_value, table_of
 from cosserat.studies.readouts import ReadOut
 from cosserat.text import shown
@@ -91,11 +91,11 @@ def _free(case: Case, path: str, given: Bounds, name: str, *, bounded: bool) -> 
 
 
 class Model:
-    """Read-outs of one case at values of its free keys."""
+    """Read-outs of one case at values of its free keys, its equilibria found to round-off."""
 
     def __init__(self, case: Case, free: Sequence[Free], read_outs: Sequence[ReadOut]) -> None:
         self.case, self.free, self.read_outs = case, tuple(free), tuple(read_outs)
-        self._table = table_of(case.problem)
+        self._table = table_of(sharp(case.problem))
 
     def at(self, values: Array, conditions: Mapping[str, object] | None = None) -> Case:
         """The case at values of the free keys (k,) and of others.
