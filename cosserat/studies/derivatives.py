@@ -9,7 +9,6 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.cases.catalogue import Case
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError
 from cosserat.problem import Problem
@@ -102,15 +101,16 @@ def parameter(problem: Problem, path: str, name: str) -> Parameter:
 
 
 def derivatives(
-    case: Case, parameters: Sequence[Parameter], read_outs: Sequence[ReadOut]
+    problem: Problem, parameters: Sequence[Parameter], read_outs: Sequence[ReadOut], name: str
 ) -> Derivatives:
-    """Read-outs of a case with their derivatives; one that does not exist is `missing`.
+    """Read-outs of a problem with their derivatives; one that does not exist is `missing`.
+
+    name : of the case in errors.
 
     Raises
     ------
-    CosseratError : the case has no result, or none with the read-outs.
+    CosseratError : the problem has no result, or none with the read-outs.
     """
-    name, problem = f"case '{case.name}'", case.problem
     table = table_of(problem)
     near = [_nearby(problem, table, one) for one in parameters]
     motion, method = _motion(problem, near, name)

@@ -18,7 +18,7 @@ from cosserat.data.dataset import FORMAT
 from cosserat.data.provenance import environment, source
 from cosserat.errors import InputError
 from cosserat.publications import reference
-from cosserat.studies.answer import cf_unit
+from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, parameter
 from cosserat.studies.readouts import ReadOut, read_out
 from cosserat.text import shown
@@ -59,7 +59,7 @@ def sensitivity(case: Case | str, keys: Sequence[str] | str, of: Mapping[str, st
     read_outs = [read_out(word, text, name) for word, text in of.items()]
     with warnings.catch_warnings(), threadpool_limits(1):
         warnings.simplefilter("ignore")
-        found = derivatives(base, parameters, read_outs)
+        found = derivatives(base.problem, parameters, read_outs, name)
     for sentence in found.missing.values():
         raise InputError(sentence)
     return _dataset(base, parameters, read_outs, found)
@@ -75,19 +75,6 @@ def short_names(paths: Sequence[str], taken: Sequence[str]) -> dict[str, str]:
         else path.replace(".", "_")
         for path, word in last.items()
     }
-
-
-def derivative_unit(of: str, by: str) -> str:
-    """The unit of a derivative, as udunits reads it: of "m" by "Pa" it is "m Pa-1"."""
-    top = [part for part in of.split() if part != "1"]
-    return " ".join(top + [_inverse(part) for part in by.split() if part != "1"]) or "1"
-
-
-def _inverse(part: str) -> str:
-    """One over a unit with its power: "s-2" gives "s2"."""
-    name = part.rstrip("-0123456789")
-    power = -int(part[len(name) :] or 1)
-    return name if power == 1 else f"{name}{power}"
 
 
 def _dataset(

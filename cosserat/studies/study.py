@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import ConfigDict, Strict, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Items, Parameters
@@ -104,6 +104,8 @@ class Study(Parameters):
     """Read-outs by name: a variable of the result, such as "u.E2 at last" or "max |kappa|"."""
     keep_whole: Annotated[tuple[str, ...], Items(0, 50)] = ()
     """Variables of the result that are kept whole."""
+    sensitivities: Annotated[bool, Strict()] = False
+    """Whether the exact derivative of each read-out by each varied quantity is stored with it."""
 
     @model_validator(mode="after")
     def _keeps_something(self) -> Self:

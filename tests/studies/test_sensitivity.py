@@ -86,3 +86,19 @@ def test_a_slope_knows_its_error_and_its_kinks():
     assert not smooth.kink.any()
     bent = slope(lambda s: np.array([abs(s) + s, s]), 1e-16)
     assert bent.kink.tolist() == [True, False]
+
+
+def test_a_study_stores_derivatives_of_its_members():
+    of = {"tip": "u.E2 at last", "bent": "max |kappa|"}
+    vary = {"rod.material.young": [1e9, 2e9], "forces.0.force": [0.0, 3.0]}
+    found = cosserat.study(CASES["bent"], vary, of, sensitivities=True, progress=lambda *_: None)
+    alone = CASES["bent"].vary(
+        "alone", rod={"material": {"young": 2e9}}, forces=[{"at": "last", "along": "E2", "force": 3.0}]
+    )
+    one = cosserat.sensitivity(alone, list(vary), of)
+    for word in ("tip_by_young", "tip_by_force", "bent_by_young", "bent_by_force"):
+        assert found[word][1, 1].item() == one[word].item()
+        assert found[word].attrs["units"] == one[word].attrs["units"]
+    assert np.isnan(found["bent_by_force"][0, 0].item())  # the largest size of nothing
+    assert "'bent' has no derivative by 'forces.0.force'" in found["reason"][0, 0].item()
+    assert found["tip_by_force"][0, 0].item() > 0

@@ -21,10 +21,10 @@ from cosserat.errors import InputError, NotConvergedError
 from cosserat.publications import reference
 from cosserat.studies.analysis.measured import unit_to_read
 from cosserat.studies.analysis.model import Bounds, Model, free_keys
-from cosserat.studies.answer import cf_unit
+from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives
 from cosserat.studies.readouts import ReadOut, read_out
-from cosserat.studies.sensitivity import derivative_unit, short_names
+from cosserat.studies.sensitivity import short_names
 from cosserat.text import shown
 from cosserat.units import to_si
 

@@ -120,4 +120,4 @@ class Model:
         own = [parameter(case.problem, one.path, case.name) for one in self.free] if exact else []
         with warnings.catch_warnings(), threadpool_limits(1):
             warnings.simplefilter("ignore")
-            return derivatives(case, own, self.read_outs)
+            return derivatives(case.problem, own, self.read_outs, f"case '{case.name}'")
