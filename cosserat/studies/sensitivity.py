@@ -122,7 +122,7 @@ def _dataset(
         "comment": base.source or "a case of the user",
         "source": source(),
         "method": found.method,
-        "case": json.dumps(base.model_dump(mode="json"), sort_keys=True),
+        "parameters": json.dumps(base.model_dump(mode="json"), sort_keys=True),
         "environment": json.dumps(environment(), sort_keys=True),
     }
     return stamped(dataset)

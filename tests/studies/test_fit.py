@@ -64,6 +64,14 @@ def test_a_file_with_units_and_cells_that_were_not_measured(tmp_path):
         False,
     ]
     assert found["force"].attrs["units"] == "N"
+    cosserat.save(found, tmp_path / "fit.nc")
+    stored = cosserat.load(tmp_path / "fit.nc")
+    assert stored["young_high"].item() == found["young_high"].item()
+    figure = cosserat.plot(stored, tmp_path / "fit.svg")
+    values, residuals = figure.axes
+    assert values.get_xlabel() == "end, fitted [µm]"
+    shown = residuals.get_lines()[-1].get_ydata() * np.sqrt(found.attrs["reduced_chi_square"]) * 1e-7
+    assert np.nan_to_num(shown) == pytest.approx(np.nan_to_num(found["end_residual"].to_numpy()))
 
 
 @pytest.mark.parametrize(

@@ -375,7 +375,7 @@ def _dataset(search: _Search, found: Optimum) -> xr.Dataset:
         "source": source(),
         "steps": found.steps,
         "optimality": found.optimality,
-        "case": json.dumps(base.model_dump(mode="json"), sort_keys=True),
+        "parameters": json.dumps(base.model_dump(mode="json"), sort_keys=True),
         "design": json.dumps(_asked(search), sort_keys=True),
         "environment": json.dumps(environment(), sort_keys=True),
     }

@@ -384,7 +384,7 @@ def _described(
         "reduced_chi_square": statistics.variance,
         "steps": found.steps,
         "warnings": "\n".join(_sentences(found, statistics, search.model.free)),
-        "case": json.dumps(base.model_dump(mode="json"), sort_keys=True),
+        "parameters": json.dumps(base.model_dump(mode="json"), sort_keys=True),
         "fit": json.dumps(
             {
                 "free": {one.path: [repr(one.low), repr(one.high)] for one in search.model.free},
