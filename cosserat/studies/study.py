@@ -71,10 +71,10 @@ class Factor(Parameters):
     @property
     def varied(self) -> dict[str, Any]:
         """The varied keys, dotted, with what stands behind them."""
-        return dict(_flattened(self.model_extra or {}, ()))
+        return dict(flattened(self.model_extra or {}))
 
 
-def _flattened(table: Mapping[str, Any], before: tuple[str, ...]) -> list[tuple[str, Any]]:
+def flattened(table: Mapping[str, Any], before: tuple[str, ...] = ()) -> list[tuple[str, Any]]:
     """Nested tables as dotted keys; a table with the name of a law, or one that is empty, is a value."""
     from cosserat.studies.distributions import LAWS
 
@@ -82,7 +82,7 @@ def _flattened(table: Mapping[str, Any], before: tuple[str, ...]) -> list[tuple[
     for key, value in table.items():
         path = (*before, str(key))
         if isinstance(value, Mapping) and value and not set(value) & set(LAWS):
-            found += _flattened(value, path)
+            found += flattened(value, path)
         else:
             found.append((".".join(path), value))
     return found

@@ -5,6 +5,7 @@ import pytest
 from scipy import stats
 
 import cosserat
+from cosserat.cli import main
 from cosserat.errors import InputError
 
 from . import fit as coverage
@@ -93,3 +94,34 @@ def test_a_file_with_units_and_cells_that_were_not_measured(tmp_path):
 def test_what_cannot_be_fitted_is_said_in_one_sentence(data, free, said):
     with pytest.raises(InputError, match=said):
         cosserat.fit(bar(), data, free, OF)
+
+
+def test_a_fit_in_a_case_file_by_the_command_line(tmp_path, capsys):
+    rows = [
+        "forces.0.force [kN], end [um]",
+        *(f"{pull / 1e3}, {pull * 10 + 1e6 * off}" for pull, off in zip(PULLS, NOISE, strict=True)),
+    ]
+    (tmp_path / "measured.csv").write_text("\n".join(rows))
+    (tmp_path / "my.toml").write_text(
+        """
+        [bar]
+        like = "elastica"
+        rod = { vertices = 5, section = { height = "10 mm", width = "10 mm" } }
+        forces = [{ at = "last", along = "E3", force = "1 N" }]
+        [stiffness]
+        kind = "fit"
+        of = "bar"
+        data = "measured.csv"
+        free.rod.material.young = ["0.1 GPa", "10 GPa"]
+        keep.end = "u.E3 at last"
+        """
+    )
+    assert list(cosserat.load_cases(tmp_path / "my.toml")) == ["bar"]
+    ended = main(["fit", "stiffness", "--file", str(tmp_path / "my.toml"), "-o", str(tmp_path)])
+    assert not ended
+    said = capsys.readouterr().out
+    found = cosserat.load(tmp_path / "stiffness.nc")
+    assert f"young = {found['young'].item():.6g} Pa" in said
+    assert found["young_low"].item() < 1e9 < found["young_high"].item()
+    with pytest.raises(InputError, match="is a fit, not a case"):
+        cosserat.cases.catalogue.find("stiffness", tmp_path / "my.toml")
