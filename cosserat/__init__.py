@@ -25,10 +25,13 @@ if TYPE_CHECKING:
     from cosserat.limits import Limits
     from cosserat.runner import modes, run
     from cosserat.studies.analysis.bands import bands
+    from cosserat.studies.analysis.design import design
     from cosserat.studies.analysis.estimates import estimate_error
+    from cosserat.studies.analysis.fit import fit
     from cosserat.studies.analysis.indices import indices
     from cosserat.studies.analysis.orders import orders
     from cosserat.studies.door import study
+    from cosserat.studies.sensitivity import sensitivity
 
 _HOMES = {
     "cosserat.cases.catalogue": (
@@ -58,7 +61,10 @@ _HOMES = {
     "cosserat.studies.analysis.estimates": (("estimate_error", "estimate_error"),),
     "cosserat.studies.analysis.indices": (("indices", "indices"),),
     "cosserat.studies.analysis.orders": (("orders", "orders"),),
+    "cosserat.studies.analysis.design": (("design", "design"),),
+    "cosserat.studies.analysis.fit": (("fit", "fit"),),
     "cosserat.studies.door": (("study", "study"),),
+    "cosserat.studies.sensitivity": (("sensitivity", "sensitivity"),),
     "cosserat.runner": (
         ("modes", "modes"),
         ("run", "run"),
@@ -77,7 +83,9 @@ __all__ = [
     "bands",
     "case",
     "case_of",
+    "design",
     "estimate_error",
+    "fit",
     "indices",
     "load",
     "load_cases",
@@ -87,6 +95,7 @@ __all__ = [
     "published",
     "run",
     "save",
+    "sensitivity",
     "study",
     "to_dataframe",
 ]

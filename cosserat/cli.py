@@ -245,6 +245,7 @@ def _add_commands(add: AddCommand) -> None:
     )
 
     _add_study(add)
+    commands.add_fit(add)
     _add_results(add)
     _add_listings(add)
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from cosserat.cases.catalogue import Case
     from cosserat.limits import Limits
+    from cosserat.publications import AddCommand
 
 
 def cases(options: argparse.Namespace) -> None:
@@ -180,6 +181,26 @@ def study(options: argparse.Namespace) -> None:
     from cosserat.studies.command import study as solve
 
     solve(options)
+
+
+def fit(options: argparse.Namespace) -> None:
+    """Fit keys of a case to data."""
+    from cosserat.studies.analysis.fitting import command
+
+    command(options)
+
+
+def add_fit(add: AddCommand) -> None:
+    """Add the command for fits."""
+    sub = add("fit", fit, "fit keys of a case to measured data, as one netCDF file")
+    sub.add_argument("fit", help="name of a table of kind 'fit' in the case file")
+    sub.add_argument("--file", type=Path, required=True, help="TOML file that holds the fit")
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        help="netCDF file to write, or a folder for FIT.nc (default: this folder)",
+    )
 
 
 def describe(options: argparse.Namespace) -> None:

@@ -24,6 +24,8 @@ AddCommand = Callable[[str, Command, str], argparse.ArgumentParser]
 
 STUDY = "study"
 """The kind of a table of a case file that is a study, not a case."""
+FIT = "fit"
+"""The kind of a table of a case file that is a fit of a case to data."""
 PUBLICATIONS = ("cosserat.thesis:PUBLICATION",)
 """Place of each `Publication`, as "module:object"."""
 

@@ -16,7 +16,7 @@ from cosserat.cases.tables import Tables, merged
 from cosserat.errors import InputError, path_of
 from cosserat.parameters import Dropped, Parameters, nearest
 from cosserat.problem import Problem
-from cosserat.publications import STUDY, kinds, published_tables, titles
+from cosserat.publications import FIT, STUDY, kinds, published_tables, titles
 from cosserat.reading import read_text
 from cosserat.text import Title, checked_name, shortened, shown
 
@@ -111,6 +111,8 @@ def find(name: str, file: str | Path | None = None) -> Case:
     tables = {} if file is None else _read(file)
     if file is not None and name in _names(tables):
         return _build(name, Tables(published_tables() | tables), path_of(file).parent)
+    if tables.get(name, {}).get("kind") == FIT:
+        raise InputError(f"'{name}' is a fit, not a case; solve it by 'cosserat fit {name}'")
     if _is_study((published_tables() | tables).get(name, {})):
         raise InputError(
             f"'{name}' is a study, not a case; solve it by 'cosserat study {name}', or one case of it by --member"
@@ -128,7 +130,7 @@ def find_base(name: str, file: str | Path | None = None) -> Case:
     """
     own = {} if file is None else _read(file)
     tables = published_tables() | own
-    known = [other for other, table in tables.items() if not _is_study(table)]
+    known = [other for other, table in tables.items() if not _is_about_cases(table)]
     if name not in known:
         raise InputError(
             f"there is no case '{shortened(name)}' for a study to vary{nearest(name, known)}"
@@ -168,7 +170,24 @@ def _titles(table: Mapping[str, Any]) -> dict[str, Any]:
 
 def _names(tables: Mapping[str, Any]) -> list[str]:
     """The names of the cases of a file, without bases of cases and studies."""
-    return [name for name, table in tables.items() if not name.startswith("_") and not _is_study(table)]
+    return [
+        name for name, table in tables.items() if not name.startswith("_") and not _is_about_cases(table)
+    ]
+
+
+def fit_tables(file: str | Path) -> dict[str, dict[str, Any]]:
+    """The tables of the fits of a case file, by name; `cosserat.studies` reads them.
+
+    Raises
+    ------
+    InputError : the file cannot be read.
+    """
+    return {name: table for name, table in _read(file).items() if table.get("kind") == FIT}
+
+
+def _is_about_cases(table: Mapping[str, Any]) -> bool:
+    """Whether a table is no case, but about cases."""
+    return _is_study(table) or table.get("kind") == FIT
 
 
 def _is_study(table: Mapping[str, Any]) -> bool:

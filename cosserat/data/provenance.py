@@ -46,6 +46,7 @@ _COMPUTING = (
             "factors",
             "family",
             "solving",
+            "derivatives",
         )
     ),
     "cases",

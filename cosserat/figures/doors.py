@@ -27,7 +27,7 @@ def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Fig
 
     Of the answer of a study, the read-outs over what is varied: lines for one number, maps for two on a grid, and for
     points each read-out over each key, with means in intervals of the key; members without an answer are marked.
-    Of `cosserat.bands`, the bands with the median.
+    Of `cosserat.bands`, the bands with the median.  Of a fit, measured over fitted values, and the residuals.
 
     result : a Dataset, or the name of its file.
     path : also write the picture there, as SVG, PDF or PNG, by the ending of its name.
@@ -59,6 +59,10 @@ def _drawn_by(data: xr.Dataset) -> Callable[[xr.Dataset], Figure]:
         from cosserat.figures.bands import picture as of_bands
 
         return of_bands
+    if "fit" in data.attrs:
+        from cosserat.figures.fits import picture as of_fit
+
+        return of_fit
     if "study" in data.attrs:
         from cosserat.figures.answers import picture as of_answer
 

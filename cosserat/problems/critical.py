@@ -28,6 +28,7 @@ from cosserat.solvers.critical import (
 )
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.special import SpecialPoint
+from cosserat.solvers.system import MechanicalSystem
 
 
 class SearchSettings(Parameters):
@@ -87,21 +88,9 @@ class RodCriticalLoads(GrownProblem):
         """
         geometry = self.geometry
         system, warnings = self.grown(geometry, name)
-        solver = EquilibriumSolver(system, self.newton, name)
-        solver.remedy = "take a smaller 'search.first' and 'search.longest', or check supports and loads"
-        solver.limit_remedy = "check supports and loads"
-        linear = linear_criterion(solver, self.count)
+        solver, linear, true, reached = self.criteria(system, name)
         linear = replace(linear, mode=system.frame.out(linear.mode))
         lowest = float(linear.factor[0]) if linear.factor.size else 1.0
-        arc = ArcLengthSettings(
-            self.search.first,
-            self.search.longest,
-            self.search.count,
-            until=self.search.limit,
-            limit=2 * self.search.limit,
-            branches=0,
-        )
-        true, reached = first_special_point(solver, arc, lowest)
         found = [] if true is None else [true.unframed(system)]
         special, labels, statistics = special_fields(self.rod, geometry, found)
         if linear.factor.size:
@@ -112,6 +101,32 @@ class RodCriticalLoads(GrownProblem):
         words = {"axis": self.rod.kinematics.axes, "special": labels}
         warnings += self._warnings(linear, true, reached, system.symmetric)
         return Solution(fields, statistics, words, warnings)
+
+    def criteria(
+        self, system: MechanicalSystem, name: str
+    ) -> tuple[EquilibriumSolver, LinearCriterion, SpecialPoint | None, float]:
+        """The solver, what both criteria find in the frames of the system, and the load factor reached.
+
+        Raises
+        ------
+        UnstableError : the rod is unstable where the loads begin.
+        NotConvergedError : the path cannot be followed to its first special point.
+        """
+        solver = EquilibriumSolver(system, self.newton, name)
+        solver.remedy = "take a smaller 'search.first' and 'search.longest', or check supports and loads"
+        solver.limit_remedy = "check supports and loads"
+        linear = linear_criterion(solver, self.count)
+        lowest = float(linear.factor[0]) if linear.factor.size else 1.0
+        arc = ArcLengthSettings(
+            self.search.first,
+            self.search.longest,
+            self.search.count,
+            until=self.search.limit,
+            limit=2 * self.search.limit,
+            branches=0,
+        )
+        true, reached = first_special_point(solver, arc, lowest)
+        return solver, linear, true, reached
 
     def _warnings(
         self, linear: LinearCriterion, true: SpecialPoint | None, reached: float, symmetric: bool

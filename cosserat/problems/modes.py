@@ -85,15 +85,12 @@ class RodModes(PosedProblem):
         CrossingError : neighbouring sections of the equilibrium cross.
         """
         geometry = self.geometry
-        point, solver = self._rest(geometry, name)
+        point, solver = self.settled_rod(geometry, name)
         rest = equilibrium_solution(self, geometry, point, solver)
         check_crossing(geometry, rest["x"], rest["d"], self.rod.below, name)
         system, held = solver.system, not free_motions(solver.system).any()
         found = small_motions(system, point.q, self.count, supported=held, history=point.history)
-        found = replace(found, shape=system.frame.out(found.shape))
-        plain = system.unframed
-        placed = self.rod.strain_energy.reference(geometry) + system.frame.out(point.q)
-        fields = {**rest.fields, **self._shapes(found), **self._masses(plain, placed, found)}
+        fields = {**rest.fields, **self.mode_fields(geometry, system, point.q, found)}
         speed = np.hypot(found.growth, found.angular_frequency)
         statistics = dict(rest.statistics) | {
             "mode_count": found.growth.size,
@@ -104,6 +101,14 @@ class RodModes(PosedProblem):
         }
         warnings = (*solver.warnings(), *coarse(rest["d"]), *_growing(found), *self._fewer(found))
         return replace(rest, fields=fields, statistics=statistics, warnings=warnings)
+
+    def mode_fields(
+        self, geometry: Geometry, system: MechanicalSystem, q: Vector, found: SmallMotions
+    ) -> dict[str, Field]:
+        """Frequencies, shapes and masses of small motions about the DOFs q (n,), in the frames of the system."""
+        plain = replace(found, shape=system.frame.out(found.shape))
+        placed = self.rod.strain_energy.reference(geometry) + system.frame.out(q)
+        return {**self._shapes(plain), **self._masses(system.unframed, placed, plain)}
 
     def _fewer(self, found: SmallMotions) -> list[str]:
         number = found.growth.size
@@ -125,7 +130,7 @@ class RodModes(PosedProblem):
             ]
         )
 
-    def _rest(self, geometry: Geometry, name: str) -> tuple[Equilibrium, EquilibriumSolver]:
+    def settled_rod(self, geometry: Geometry, name: str) -> tuple[Equilibrium, EquilibriumSolver]:
         """What the rod moves about, in displacements, with its solver."""
         system = self.system(geometry)
         loaded = any(self.loads_of(key) for key in LOADS) or system.constraints.moving

@@ -56,6 +56,26 @@ def linear_criterion(solver: EquilibriumSolver, count: int) -> LinearCriterion:
     NotConvergedError : there is no equilibrium from which the loads could grow.
     UnstableError : the body is unstable there.
     """
+    system = solver.system
+    stiffness, geometric = criterion_matrices(solver)
+    inverse, vectors = _inverse_factors(-geometric, stiffness, count, symmetric=system.symmetric)
+    largest = float(np.abs(inverse).max(initial=0.0))
+    order = np.argsort(-inverse, kind="stable")
+    chosen = [i for i in order if inverse[i] > _NEGLIGIBLE * largest][:count]
+    modes = np.zeros((len(chosen), system.constrained.size))
+    modes[:, ~system.constrained] = vectors[:, chosen].T
+    modes /= np.take_along_axis(modes, np.abs(modes).argmax(axis=1)[:, None], axis=1)
+    return LinearCriterion(1 / inverse[chosen], modes)
+
+
+def criterion_matrices(solver: EquilibriumSolver) -> tuple[dia_array, dia_array]:
+    """K(0) and K'(0) of the free DOFs, sparse.
+
+    Raises
+    ------
+    NotConvergedError : there is no equilibrium from which the loads could grow.
+    UnstableError : the body is unstable there.
+    """
     system, start = solver.system, unloaded(solver)
     rate = rate_with_load(solver, start)
     if rate is None or not start.stable:
@@ -63,16 +83,7 @@ def linear_criterion(solver: EquilibriumSolver, count: int) -> LinearCriterion:
             f"{solver.name}: the body is unstable before its loads grow, so they do not make it so; fix more DOFs in "
             "'supports'"
         )
-    stiffness = _hessian(system, start.q, start.history, 0.0)
-    geometric = _slope(system, start, rate)
-    inverse, vectors = _inverse_factors(-geometric, stiffness, count, symmetric=system.symmetric)
-    largest = float(np.abs(inverse).max(initial=0.0))
-    order = np.argsort(-inverse, kind="stable")
-    chosen = [i for i in order if inverse[i] > _NEGLIGIBLE * largest][:count]
-    modes = np.zeros((len(chosen), start.q.size))
-    modes[:, ~system.constrained] = vectors[:, chosen].T
-    modes /= np.take_along_axis(modes, np.abs(modes).argmax(axis=1)[:, None], axis=1)
-    return LinearCriterion(1 / inverse[chosen], modes)
+    return _hessian(system, start.q, start.history, 0.0), _slope(system, start, rate)
 
 
 def _inverse_factors(

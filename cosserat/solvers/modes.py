@@ -165,12 +165,18 @@ def small_motions(
         squared, vectors = _symmetric(stiffness, mass, count, tangent.negative(), supported=supported)
     else:
         squared, vectors = _general(stiffness, mass, count, supported=supported)
-    root = np.emath.sqrt(-squared.astype(complex))
+    shapes = np.zeros((squared.size, q.size), complex)
+    shapes[:, free] = vectors.T
+    return rooted(squared.astype(complex), shapes)
+
+
+def rooted(squared: Complex, shapes: Complex) -> SmallMotions:
+    """Small motions of eigenvalues k (k,) and their shapes (k, n), in order."""
+    root = np.emath.sqrt(-squared)
     root *= np.where((root.imag < 0) | ((root.imag == 0) & (root.real < 0)), -1, 1)
     order = np.lexsort((-root.real, root.imag))
-    shapes = np.zeros((squared.size, q.size), complex)
-    shapes[:, free] = vectors.T[order]
-    return SmallMotions(root.real[order], root.imag[order], shapes)
+    found = root[order]
+    return SmallMotions(np.asarray(found.real, float), np.asarray(found.imag, float), shapes[order])
 
 
 def _symmetric(

@@ -15,7 +15,7 @@ from cosserat.data.provenance import environment, source
 from cosserat.data.variables import LABELS, VARIABLES
 from cosserat.publications import reference
 from cosserat.studies.factors import Columns
-from cosserat.studies.family import Family
+from cosserat.studies.family import Family, derivative_name
 from cosserat.studies.keys import VariedKey
 from cosserat.studies.solving import NOT_CONVERGED, STATUS, WARNED, Solved
 
@@ -30,6 +30,14 @@ def answer(found: Family, solved: Solved) -> xr.Dataset:
     for one in found.keep:
         about = {"units": one.units, "long_name": one.long_name, "read_out": one.text}
         variables[one.name] = (dims, solved.values[one.name].reshape(shape), about)
+        for key in found.by:
+            told = {
+                "units": derivative_unit(one.units, cf_unit(key.unit)),
+                "long_name": f"derivative of {one.name} by {key.path}",
+                "key": key.path,
+            }
+            values = solved.values[derivative_name(one.name, key.path)].reshape(shape)
+            variables[f"{one.name}_by_{found.names[key.path]}"] = (dims, values, told)
     for name, (own, values) in solved.whole.items():
         variables[name] = ((*dims, *own[1:]), values.reshape(*shape, *values.shape[1:]), _about(name))
     for name, (own, values) in solved.beside.items():
@@ -106,16 +114,28 @@ def _coordinates(found: Family, factor: Columns, dim: str) -> dict[str, Any]:
 
 
 def _written(key: VariedKey, values: NDArray[Any]) -> tuple[Any, dict[str, str]]:
-    meaning = key.about.meaning.split(";")[0].rstrip(".") or key.last.replace("_", " ")
-    about = {"long_name": meaning, "key": key.path}
+    about = {"long_name": key.meaning, "key": key.path}
     if values.dtype.kind in "fi":
-        return values, {"units": _cf(key.unit), **about}
+        return values, {"units": cf_unit(key.unit), **about}
     return [
         item if isinstance(item, str) else json.dumps(item, sort_keys=True) for item in values
     ], about
 
 
-def _cf(unit: str) -> str:
+def derivative_unit(of: str, by: str) -> str:
+    """The unit of a derivative, as udunits reads it: of "m" by "Pa" it is "m Pa-1"."""
+    top = [part for part in of.split() if part != "1"]
+    return " ".join(top + [_inverted(part) for part in by.split() if part != "1"]) or "1"
+
+
+def _inverted(part: str) -> str:
+    """One over a unit with its power: "s-2" gives "s2"."""
+    name = part.rstrip("-0123456789")
+    power = -int(part[len(name) :] or 1)
+    return name if power == 1 else f"{name}{power}"
+
+
+def cf_unit(unit: str) -> str:
     """A unit as udunits reads it: "N*m^2" as "N m2"."""
     top, *below = unit.replace("*", " ").replace("^", "").split("/")
     names = [f"{name}-1" for part in below for name in part.split()] if below else []

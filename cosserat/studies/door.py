@@ -64,6 +64,7 @@ def study(
     keep: Mapping[str, str] | None = None,
     *,
     keep_whole: Sequence[str] = (),
+    sensitivities: bool = False,
     name: str = "",
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -73,6 +74,8 @@ def study(
         [{"rod.length": [1, 2]}, {"sobol": 64, "forces.0.force": {"uniform": [0, 1]}}].  Numbers are in SI units, and
         texts may have others.
     keep : read-outs by name, such as {"tip": "u.E2 at last"}.  keep_whole : names of variables that are kept whole.
+    sensitivities : whether the exact derivative of each read-out by each varied quantity is stored, "tip_by_young", as
+        by `cosserat.sensitivity`; where one does not exist, "reason" says why.
     name : of the study.  progress : as of `cosserat.run`.
 
     Raises
@@ -83,7 +86,9 @@ def study(
     base = find(case) if isinstance(case, str) else case
     if not isinstance(base, Case):
         raise InputError(f"study takes a case or the name of a published one, not {shown(case)}")
-    found = family_of(base, vary, keep or {}, keep_whole=keep_whole, name=name)
+    found = family_of(
+        base, vary, keep or {}, keep_whole=keep_whole, name=name, sensitivities=sensitivities
+    )
     return solved(found, progress)
 
 
@@ -96,7 +101,13 @@ def solved(found: Family, progress: Progress | None = None) -> xr.Dataset:
 
 
 def family_of(
-    base: Case, vary: Vary, keep: Mapping[str, str], *, keep_whole: Sequence[str] = (), name: str = ""
+    base: Case,
+    vary: Vary,
+    keep: Mapping[str, str],
+    *,
+    keep_whole: Sequence[str] = (),
+    name: str = "",
+    sensitivities: bool = False,
 ) -> Family:
     """The study that `study` solves.
 
@@ -108,6 +119,12 @@ def family_of(
     factors = (
         [{key: values} for key, values in vary.items()] if isinstance(vary, Mapping) else list(vary)
     )
-    table = {"of": base.name, "vary": factors, "keep": dict(keep), "keep_whole": list(keep_whole)}
+    table = {
+        "of": base.name,
+        "vary": factors,
+        "keep": dict(keep),
+        "keep_whole": list(keep_whole),
+        "sensitivities": sensitivities,
+    }
     read = Study.read(table, f"study '{shortened(name)}'", units_required=False)
     return family(name, read, base, Path(), unit_required=False)

@@ -23,7 +23,8 @@ from cosserat.studies.study import MOST_MEMBERS, Factor
 from cosserat.text import shortened, shown
 
 Values = NDArray[Any]
-_TITLE = re.compile(r"\s*(?P<key>[\w.]+)\s*(?:[\[(]\s*(?P<unit>[^\])]*?)\s*[\])])?\s*")
+TITLE = re.compile(r"\s*(?P<key>[\w.]+)\s*(?:[\[(]\s*(?P<unit>[^\])]*?)\s*[\])])?\s*")
+"""A title of a column: a key with its unit in brackets."""
 _MOST_BYTES = 200_000_000
 
 
@@ -201,11 +202,11 @@ def _covariance(
 
 
 def _from_table(factor: Factor, problem: Problem, study: str, folder: Path) -> Columns:
-    rows = _rows(folder / factor.table, factor.table, study)
+    rows = rows_of(folder / factor.table, factor.table, study)
     header, body = rows[0], rows[1:]
     keys, units = [], []
     for title in header:
-        found = _TITLE.fullmatch(title)
+        found = TITLE.fullmatch(title)
         if found is None:
             raise InputError(
                 f"{study}: {factor.table} has a column {shown(title)}; name a key, as in rod.length [mm]"
@@ -226,14 +227,20 @@ def _from_table(factor: Factor, problem: Problem, study: str, folder: Path) -> C
     values = []
     for k, (key, unit) in enumerate(zip(keys, units, strict=True)):
         read = [
-            _cell(row, k, key, unit, f"{study}: {factor.table}, row {n + 1}")
+            cell(row, k, key, unit, f"{study}: {factor.table}, row {n + 1}")
             for n, row in enumerate(body)
         ]
         values.append(_column(key, read))
     return Columns(factor.name or "member", tuple(keys), tuple(values), factor.names or ())
 
 
-def _rows(path: Path, name: str, study: str) -> list[list[str]]:
+def rows_of(path: Path, name: str, study: str) -> list[list[str]]:
+    """The rows of a CSV file, the header first; name : of the file, and study : in errors.
+
+    Raises
+    ------
+    InputError : it cannot be read, or its rows have different lengths.
+    """
     try:
         text = read_text(path, _MOST_BYTES)
     except OSError as error:
@@ -258,8 +265,13 @@ def _rows(path: Path, name: str, study: str) -> list[list[str]]:
     return rows
 
 
-def _cell(row: list[str], k: int, key: VariedKey, unit: str, where: str) -> object:
-    """One value: a number in the unit of its column, or with a unit of its own."""
+def cell(row: list[str], k: int, key: VariedKey, unit: str, where: str) -> object:
+    """One value: a number in the unit of its column, or with a unit of its own.
+
+    Raises
+    ------
+    InputError : it is not valid, or has no unit.
+    """
     text = row[k].strip()
     place = f"{where}: '{key.path}'"
     if key.quantity is None:

@@ -7,7 +7,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -36,6 +36,7 @@ class Task:
     """Members to solve: a case, the keys that differ, and their values.
 
     columns : values of each key, each (M,), in SI units.  keep, keep_whole : what is kept of each.
+    by : those of the keys by which derivatives of the read-outs are kept.
     """
 
     base: Case
@@ -43,6 +44,7 @@ class Task:
     columns: tuple[Values, ...]
     keep: tuple[ReadOut, ...]
     keep_whole: tuple[str, ...]
+    by: tuple[str, ...] = ()
 
     @property
     def size(self) -> int:
@@ -62,6 +64,7 @@ class Task:
                 "keys": self.keys,
                 "keep": {one.name: one.text for one in self.keep},
                 "keep_whole": self.keep_whole,
+                "by": self.by,
                 "source": source(),
             },
             sort_keys=True,
@@ -84,13 +87,19 @@ class Task:
 
     def part(self, members: NDArray[np.int64] | slice) -> Task:
         """Some of the members."""
-        return Task(
-            self.base,
-            self.keys,
-            tuple(column[members] for column in self.columns),
-            self.keep,
-            self.keep_whole,
-        )
+        return replace(self, columns=tuple(column[members] for column in self.columns))
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the values that are kept of each member."""
+        return [one.name for one in self.keep] + [
+            derivative_name(one.name, path) for one in self.keep for path in self.by
+        ]
+
+
+def derivative_name(read_out: str, path: str) -> str:
+    """What a derivative by a key is called where whole paths name keys."""
+    return f"{read_out}_by_{path.replace('.', '_')}"
 
 
 def _plain(value: object) -> object:
@@ -177,7 +186,24 @@ class Family:
             for column in factor.values
         )
         return Task(
-            self.base, tuple(key.path for key in self.keys), found, self.keep, self.study.keep_whole
+            self.base,
+            tuple(key.path for key in self.keys),
+            found,
+            self.keep,
+            self.study.keep_whole,
+            tuple(key.path for key in self.by),
+        )
+
+    @property
+    def by(self) -> tuple[VariedKey, ...]:
+        """The varied quantities by which derivatives are kept; none unless they are asked for."""
+        if not self.study.sensitivities:
+            return ()
+        return tuple(
+            key
+            for factor in self.factors
+            for key, values in zip(factor.keys, factor.values, strict=True)
+            if key.quantity is not None and values.dtype.kind in "fi"
         )
 
     def case(self, number: int) -> Case:
@@ -248,6 +274,7 @@ def _check_names(found: Family, called: str) -> None:
         *dims,
         *(name for name in found.names.values() if name not in dims),
         *(one.name for one in found.keep),
+        *(f"{one.name}_by_{found.names[key.path]}" for one in found.keep for key in found.by),
         *found.study.keep_whole,
         *_beside(found.study.keep_whole),
         *OWN,

@@ -36,6 +36,11 @@ class VariedKey:
         return self.path.rpartition(".")[2]
 
     @property
+    def meaning(self) -> str:
+        """Its meaning in a few words."""
+        return self.about.meaning.split(";")[0].rstrip(".") or self.last.replace("_", " ")
+
+    @property
     def quantity(self) -> Quantity | None:
         """Unit and range, if it is a quantity."""
         about = self._numbers

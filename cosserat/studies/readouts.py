@@ -103,17 +103,9 @@ class ReadOut:
         ------
         InputError : the result has no such variable or component, or more than one value is left.
         """
-        if self.variable not in fields:
-            raise InputError(
-                f"'{self.name}': the result has no variable '{self.variable}'{nearest(self.variable, list(fields))}"
-            )
-        dims, values = fields[self.variable]
-        dims, values = self._components(dims, values, labels)
-        if self.at:
-            dims, values = self._placed(dims, values, fields)
+        dims, values = self.picked(fields, labels)
         if self.where is not None:
-            return np.asarray(self._where(self._of_instants(dims, values), fields, labels))
-        dims, values = self._ends(dims, values)
+            return values
         values = np.abs(values) if self.size else values
         left = tuple(k for k, dim in enumerate(dims) if dim != "member")
         if self.over in _OVER:
@@ -129,6 +121,27 @@ class ReadOut:
         return np.asarray(values, dtype=np.float64) + np.zeros(
             members if members and "member" not in dims else ()
         )
+
+    def picked(
+        self, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]]
+    ) -> tuple[tuple[str, ...], Array]:
+        """The values that are left after components, places and instants were taken, with their dimensions.
+
+        Raises
+        ------
+        InputError : the result has no such variable, component or place.
+        """
+        if self.variable not in fields:
+            raise InputError(
+                f"'{self.name}': the result has no variable '{self.variable}'{nearest(self.variable, list(fields))}"
+            )
+        dims, values = fields[self.variable]
+        dims, values = self._components(dims, values, labels)
+        if self.at:
+            dims, values = self._placed(dims, values, fields)
+        if self.where is not None:
+            return (), np.asarray(self._where(self._of_instants(dims, values), fields, labels))
+        return self._ends(dims, values)
 
     def _where(
         self, values: Array, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]]

@@ -25,7 +25,7 @@ from cosserat.problem import Problem, silent
 from cosserat.problems.many import Many, solve_many
 from cosserat.problems.static import FIELDS, RodStatics
 from cosserat.solution import Field, Solution
-from cosserat.studies.family import Task
+from cosserat.studies.family import Task, derivative_name
 from cosserat.studies.keys import put, table_of
 from cosserat.text import printable
 
@@ -83,7 +83,7 @@ class Solved:
     def nothing(cls, task: Task, members: int) -> Solved:
         """No member solved yet."""
         return cls(
-            {one.name: np.full(members, np.nan) for one in task.keep},
+            {name: np.full(members, np.nan) for name in task.names},
             {},
             {},
             {},
@@ -103,7 +103,7 @@ def solve_members(
     found = Solved.nothing(task, task.size)
     with warnings.catch_warnings(), threadpool_limits(1):
         warnings.simplefilter("ignore")
-        left = _solve_together(task, found, progress, threads)
+        left = np.arange(task.size) if task.by else _solve_together(task, found, progress, threads)
         table = table_of(task.base.problem)
         for number, member in enumerate(left):
             _solve_one(task, table, int(member), found)
@@ -179,6 +179,7 @@ def _solve_one(task: Task, table: Mapping[str, object], member: int, found: Solv
     try:
         solution = problem.solve("the member")
         _keep(task, _needed(task, solution), member, found)
+        lost = _differentiate(task, problem, member, found)
     except NotConvergedError as error:
         found.iterations[member] = error.iterations
         _fail(found, member, NOT_CONVERGED, error)
@@ -193,8 +194,22 @@ def _solve_one(task: Task, table: Mapping[str, object], member: int, found: Solv
         _fail(found, member, FAULT, error)
         return
     found.iterations[member] = int(solution.statistics.get("iterations", -1))
-    found.status[member] = WARNED if solution.warnings else SOLVED
-    found.reason[member] = "; ".join(solution.warnings)
+    said = [*solution.warnings, *lost]
+    found.status[member] = WARNED if said else SOLVED
+    found.reason[member] = "; ".join(said)[:_LONGEST_REASON]
+
+
+def _differentiate(task: Task, problem: Problem, member: int, found: Solved) -> list[str]:
+    """Keep the derivatives of the read-outs of one member; returns why some do not exist."""
+    if not task.by:
+        return []
+    from cosserat.studies.derivatives import derivatives, parameter  # workers start without them
+
+    own = [parameter(problem, path, "the member") for path in task.by]
+    exact = derivatives(problem, own, task.keep, "the member")
+    for (name, path), derivative in exact.by.items():
+        found.values[derivative_name(name, path)][member] = derivative.value
+    return [sentence.removeprefix("the member: ") for sentence in exact.missing.values()]
 
 
 def _needed(task: Task, solution: Solution) -> Solution:

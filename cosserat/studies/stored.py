@@ -183,7 +183,12 @@ def read_task(path: Path) -> Task:
     keep = tuple(read_out(name, text, "the batch") for name, text in about["keep"].items())
     columns = tuple(arrays[f"value {k}"] for k in range(len(about["keys"])))
     return Task(
-        parse(json.dumps(about["base"])), tuple(about["keys"]), columns, keep, tuple(about["keep_whole"])
+        parse(json.dumps(about["base"])),
+        tuple(about["keys"]),
+        columns,
+        keep,
+        tuple(about["keep_whole"]),
+        tuple(about["by"]),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import ConfigDict, Strict, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Items, Parameters
@@ -71,10 +71,10 @@ class Factor(Parameters):
     @property
     def varied(self) -> dict[str, Any]:
         """The varied keys, dotted, with what stands behind them."""
-        return dict(_flattened(self.model_extra or {}, ()))
+        return dict(flattened(self.model_extra or {}))
 
 
-def _flattened(table: Mapping[str, Any], before: tuple[str, ...]) -> list[tuple[str, Any]]:
+def flattened(table: Mapping[str, Any], before: tuple[str, ...] = ()) -> list[tuple[str, Any]]:
     """Nested tables as dotted keys; a table with the name of a law, or one that is empty, is a value."""
     from cosserat.studies.distributions import LAWS
 
@@ -82,7 +82,7 @@ def _flattened(table: Mapping[str, Any], before: tuple[str, ...]) -> list[tuple[
     for key, value in table.items():
         path = (*before, str(key))
         if isinstance(value, Mapping) and value and not set(value) & set(LAWS):
-            found += _flattened(value, path)
+            found += flattened(value, path)
         else:
             found.append((".".join(path), value))
     return found
@@ -104,6 +104,8 @@ class Study(Parameters):
     """Read-outs by name: a variable of the result, such as "u.E2 at last" or "max |kappa|"."""
     keep_whole: Annotated[tuple[str, ...], Items(0, 50)] = ()
     """Variables of the result that are kept whole."""
+    sensitivities: Annotated[bool, Strict()] = False
+    """Whether the exact derivative of each read-out by each varied quantity is stored with it."""
 
     @model_validator(mode="after")
     def _keeps_something(self) -> Self:

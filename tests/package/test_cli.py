@@ -263,7 +263,7 @@ def test_an_unknown_command_is_refused(capsys):
     for words, sentence in [
         (["ran", "clamped_free"], "there is no command 'ran'; did you mean 'run'?"),
         (["plto", "a.nc"], "there is no command 'plto'; did you mean 'plot'?"),
-        (["xyz"], "there is no command 'xyz'; known are: run, study, plot, show, export, "),
+        (["xyz"], "there is no command 'xyz'; known are: run, study, fit, plot, show, export, "),
         (
             ["run", "necking", "--ouput=a.nc"],
             "'cosserat run' has no option '--ouput'; did you mean '--output'?",

@@ -1,0 +1,68 @@
+"""Results that move with a parameter to first order: their differences over small steps are derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from cosserat.problem import Problem
+from cosserat.problems.critical import RodCriticalLoads
+from cosserat.problems.modes import RodModes
+from cosserat.problems.moving_critical import moving_critical
+from cosserat.problems.moving_modes import moving_modes
+from cosserat.problems.static import RodStatics, equilibrium_solution
+from cosserat.problems.tangents import Body, Motion, Moved, Nearby, move, total_mass
+from cosserat.rods.resolution import check_crossing
+from cosserat.solution import Solution
+from cosserat.solvers.equilibrium import EquilibriumSolver
+
+
+class MovedStatics:
+    """The result of a static problem."""
+
+    lacks = ""
+
+    def __init__(self, moved: Moved, name: str) -> None:
+        self.moved, self.name = moved, name
+
+    def solution(self, step: float) -> Solution:
+        """Fields of the equilibrium after a step, to first order."""
+        body = self.moved.body(step)
+        problem = body.problem
+        assert isinstance(problem, RodStatics)
+        solver = EquilibriumSolver(body.system, problem.newton, self.name)
+        found = equilibrium_solution(problem, body.geometry, self.moved.state(step), solver)
+        fields, labels = total_mass(problem, body.geometry)
+        return replace(found, fields={**found.fields, **fields}, labels={**found.labels, **labels})
+
+
+def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str) -> Motion:
+    """The equilibrium of a problem, moving with each of several parameters.
+
+    Raises
+    ------
+    NotConvergedError, CrossingError : there is no equilibrium.
+    """
+    base = Body.of(problem)
+    point, _ = problem.equilibrium(base.geometry, base.system, name)
+    moved = [Moved(one, base, point) for one in nearby]
+    found = MovedStatics(Moved(lambda _: problem, base, point), name).solution(0.0)
+    check_crossing(base.geometry, found["x"], found["d"], problem.rod.below, name)
+    lost = move(moved) if moved else []
+    return Motion(found, tuple(MovedStatics(one, name) for one in moved), tuple(lost))
+
+
+def moving(problem: Problem, nearby: Sequence[Nearby], name: str) -> Motion | None:
+    """The result of a problem, moving with each of several parameters; None for a kind that has no such form.
+
+    Raises
+    ------
+    CosseratError : there is no result.
+    """
+    if isinstance(problem, RodStatics):
+        return moving_statics(problem, nearby, name)
+    if isinstance(problem, RodModes):
+        return moving_modes(problem, nearby, name)
+    if isinstance(problem, RodCriticalLoads):
+        return moving_critical(problem, nearby, name)
+    return None

@@ -1,0 +1,98 @@
+"""Derivatives of smooth functions of one number by central differences, extrapolated, with a check of their error.
+
+The steps are halved and their differences extrapolated (Richardson), which removes all errors but those of the seventh
+power of the step.  Both sides together also show a kink, where no derivative exists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.errors import InputError
+
+Array = NDArray[np.float64]
+LARGEST = 2.0**-5
+"""Largest first step."""
+_LEVELS = 3
+_SHORTER = 8.0  # factor to the next steps
+_TRIALS = 4
+_GOOD = 1e-8  # error, as a fraction of the largest derivative, at which no shorter steps are tried
+_KINK = 1e-3  # of the largest derivative, by which one from the left and one from the right may differ
+
+
+@dataclass(frozen=True)
+class Slope:
+    """A derivative.
+
+    value : of any shape.  error : the change by the last extrapolation, of the same shape.
+    kink : where the derivatives from both sides differ, of the same shape.
+    relative : the largest error as a fraction of the largest derivative, beyond round-off; zero where all is round-off.
+    """
+
+    value: Array
+    error: Array
+    kink: NDArray[np.bool_]
+    relative: float
+
+    @property
+    def rank(self) -> tuple[bool, float]:
+        """Whether there is a kink, and the largest error; the least is best."""
+        return bool(self.kink.any()), float(self.error.max(initial=0.0))
+
+
+def slope(values: Callable[[float], Array], floor: float) -> Slope:
+    """The derivative of a function at zero.
+
+    values : the function, smooth to steps of at most `LARGEST`.  floor : size of the round-off in its values.
+
+    Raises
+    ------
+    InputError : the function is not defined on both sides of zero.
+    """
+    best: Slope | None = None
+    first: InputError | None = None
+    for trial in range(_TRIALS):
+        try:
+            found = _extrapolated(values, LARGEST / _SHORTER**trial, floor)
+        except InputError as error:
+            first = first or error
+            continue
+        if best is None or found.rank < best.rank:
+            best = found
+        elif not best.kink.any():
+            break  # round-off grows
+        if best.rank <= (False, _GOOD * float(np.abs(best.value).max(initial=0.0))):
+            break
+    if best is None:
+        assert first is not None  # every trial ended in one
+        raise first
+    return best
+
+
+def _extrapolated(values: Callable[[float], Array], step: float, floor: float) -> Slope:
+    middle = np.asarray(values(0.0), dtype=np.float64)
+    steps = [step / 2**level for level in range(_LEVELS)]
+    ahead, behind = ([np.asarray(values(sign * h)) for h in steps] for sign in (1.0, -1.0))
+    odd = [(a - b) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
+    even = [(a + b - 2 * middle) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
+    table, before = odd, odd
+    for order in range(1, _LEVELS):
+        before, table = table, _eliminated(table, 4**order)
+    jump = even
+    for power in (1, 3):
+        jump = _eliminated(jump, 2**power)
+    value, error = table[-1], np.abs(table[-1] - before[-1])
+    size, noise = float(np.abs(value).max(initial=0.0)), 8 * floor / steps[-1]
+    beyond = float(error.max(initial=0.0)) - noise
+    kink = np.abs(jump[-1]) > _KINK * size + noise
+    return Slope(value, error, kink, beyond / size if beyond > 0 else 0.0)
+
+
+def _eliminated(table: list[Array], ratio: float) -> list[Array]:
+    """Neighbouring levels combined so that the error that halving divides by `ratio` is gone."""
+    return [fine + (fine - coarse) / (ratio - 1) for coarse, fine in pairwise(table)]

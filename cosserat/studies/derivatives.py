@@ -1,0 +1,266 @@
+"""Exact derivatives of read-outs by keys of a case, from a result that moves with each key to first order."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosserat.data.variables import VARIABLES
+from cosserat.errors import CosseratError, InputError
+from cosserat.problem import Problem
+from cosserat.problems.moving import moving
+from cosserat.problems.tangents import Motion, Moving, Nearby
+from cosserat.solution import Solution
+from cosserat.solvers.slopes import Slope, slope
+from cosserat.studies.keys import VariedKey, put, table_of, varied_key
+from cosserat.studies.readouts import ReadOut
+from cosserat.text import shown
+
+Array = NDArray[np.float64]
+TANGENT = "the equilibrium's tangent: one solve with its Hessian"
+DIFFERENCES = "differences of whole solves"
+_ROUGH = {TANGENT: 1e-5, DIFFERENCES: 1e-3}
+"""Error of a derivative, as a fraction of it, above which there is none; by method."""
+_ROUND_OFF = {TANGENT: 16 * float(np.finfo(float).eps), DIFFERENCES: 1e-11}
+"""Of the values, in which they are round-off."""
+_TIE = 1e-13  # of the largest value, within which two are the same
+_SAME = 1e-6  # of the largest derivative, within which two are the same
+_ZERO = 1e-9  # of its change with the step, below which a value is zero
+_TIGHT = 1e-14  # tolerance of Newton's method where whole solves are differenced
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A key of a case by which derivatives are taken, and its value in SI units."""
+
+    key: VariedKey
+    value: float
+
+    def after(self, step: float) -> float:
+        """Its value after a step: times exp(step); the step itself for one that is zero."""
+        return self.value * float(np.exp(step)) if self.value else step
+
+    def rate(self, by_step: float) -> float:
+        """A derivative by the value from one by the step."""
+        return by_step / self.value if self.value else by_step
+
+
+@dataclass(frozen=True)
+class Derivative:
+    """A derivative by a key in SI units, and an estimate of its error."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """values : of the read-outs by name.  by : their derivatives, by the names of the read-outs and the paths of keys.
+
+    missing : why there is no derivative, by the same.  method : how they were taken.
+    """
+
+    values: Mapping[str, float]
+    by: Mapping[tuple[str, str], Derivative]
+    missing: Mapping[tuple[str, str], str]
+    method: str
+
+    def matrix(self, names: Sequence[str], keys: Sequence[str]) -> Array:
+        """The derivatives of some read-outs by some keys, (names, keys).
+
+        Raises
+        ------
+        InputError : one does not exist.
+        """
+        for pair in ((name, key) for name in names for key in keys):
+            if pair in self.missing:
+                raise InputError(self.missing[pair])
+        return np.array([[self.by[name, key].value for key in keys] for name in names])
+
+
+def parameter(problem: Problem, path: str, name: str) -> Parameter:
+    """A key of a problem by its path; name : in errors.
+
+    Raises
+    ------
+    InputError : it is no quantity with a value.
+    """
+    key = varied_key(problem, path, name)
+    value: Any = table_of(problem)
+    for part in path.split("."):
+        value = value[int(part)] if isinstance(value, Sequence) else value[part]
+    if key.quantity is None or isinstance(value, bool) or not isinstance(value, int | float):
+        said = "is a count" if key.is_number and key.quantity is None else f"is {shown(value)}"
+        said = "is not given" if value is None or value == "" else said
+        raise InputError(f"{name}: '{path}' {said}; derivatives are by quantities that the case gives")
+    return Parameter(key, float(value))
+
+
+def derivatives(
+    problem: Problem, parameters: Sequence[Parameter], read_outs: Sequence[ReadOut], name: str
+) -> Derivatives:
+    """Read-outs of a problem with their derivatives; one that does not exist is `missing`.
+
+    name : of the case in errors.
+
+    Raises
+    ------
+    CosseratError : the problem has no result, or none with the read-outs.
+    """
+    table = table_of(problem)
+    near = [_nearby(problem, table, one) for one in parameters]
+    motion, method = _motion(problem, near, name)
+    fields = _fields(motion.base, read_outs)
+    values = {one.name: float(one.of(fields.fields, fields.labels)) for one in read_outs}
+    by: dict[tuple[str, str], Derivative] = {}
+    missing: dict[tuple[str, str], str] = {}
+    for own, way, why in zip(parameters, motion.ways, motion.lost, strict=True):
+        known: dict[float, Solution] = {0.0: fields}
+        for one in read_outs:
+            pair = (one.name, own.key.path)
+            try:
+                if why:
+                    raise InputError(why)
+                by[pair] = _derivative(one, own, way, read_outs, known, method)
+            except CosseratError as error:
+                missing[pair] = (
+                    f"{name}: '{one.name}' has no derivative by '{own.key.path}': "
+                    f"{str(error).removeprefix(f'{name}: ')}"
+                )
+    return Derivatives(values, by, missing, method)
+
+
+def _nearby(problem: Problem, table: Mapping[str, Any], own: Parameter) -> Nearby:
+    """The problem after a step of a parameter."""
+    path = own.key.path.split(".")
+
+    def after(step: float) -> Problem:
+        changed = put(table, path, own.after(step))
+        return type(problem).read(changed, f"'{own.key.path}'", units_required=False)
+
+    return cast("Nearby", after)
+
+
+class _Solved:
+    """A result whose problem is solved anew after every step."""
+
+    lacks = ""
+
+    def __init__(self, near: Nearby, name: str) -> None:
+        self.near, self.name = near, name
+
+    def solution(self, step: float) -> Solution:
+        """The result after a step."""
+        return sharp(cast("Problem", self.near(step))).solve(self.name)
+
+
+def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> tuple[Motion, str]:
+    """The result, how it moves with each parameter, and by which method."""
+    found = moving(problem, near, name)
+    if found is not None:
+        return found, TANGENT
+    ways = tuple(_Solved(one, name) for one in near)
+    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways)), DIFFERENCES
+
+
+def sharp(problem: Problem) -> Problem:
+    """A problem whose equilibria, if it has some, are found to round-off."""
+    newton = getattr(problem, "newton", None)
+    if newton is None:
+        return problem
+    return problem.replace(newton=newton.replace(tolerance=min(_TIGHT, newton.tolerance)))
+
+
+def _fields(found: Solution, read_outs: Sequence[ReadOut]) -> Solution:
+    """A result with those fields that follow from it, if they are read."""
+    names = {name for one in read_outs for name in one.needs()}
+    if names <= set(found.fields) or found.derive is None:
+        return found
+    more = found.derive()
+    return Solution({**more.fields, **found.fields}, {}, {**more.labels, **found.labels})
+
+
+def _derivative(
+    one: ReadOut,
+    own: Parameter,
+    way: Moving,
+    read_outs: Sequence[ReadOut],
+    known: dict[float, Solution],
+    method: str,
+) -> Derivative:
+    """One derivative; known : results by step, which several read-outs share.
+
+    Raises
+    ------
+    InputError : it does not exist.
+    """
+
+    def values(step: float) -> Array:
+        if step not in known:
+            known[step] = _fields(way.solution(step), read_outs)
+        if way.lacks and one.variable not in known[step].fields:
+            raise InputError(way.lacks)
+        return one.picked(known[step].fields, known[step].labels)[1]
+
+    now = values(0.0)
+    size = float(np.abs(now).max(initial=0.0))
+    floor = max(_ROUND_OFF[method] * size, VARIABLES[one.variable].floor / 16)
+    found = slope(values, floor)
+    if found.relative > _ROUGH[method]:
+        raise InputError(
+            f"'{one.variable}' does not change smoothly (differences disagree by {found.relative:.2g} of it)"
+        )
+    by_step = _reduced(one, now, found)
+    return Derivative(own.rate(by_step), abs(own.rate(float(found.error.max(initial=0.0)))))
+
+
+def _reduced(one: ReadOut, now: Array, found: Slope) -> float:
+    """The derivative of what a read-out does with the values that are left.
+
+    Raises
+    ------
+    InputError : it has none: a kink, a size at zero, or an extreme that two values share.
+    """
+    rates, kinks = found.value.ravel(), found.kink.ravel()
+    values = now.ravel()
+    if one.where is not None:
+        if kinks.any():
+            raise InputError("its values have a kink there")
+        return float(rates[0])
+    if one.size:
+        still = np.abs(values) < _ZERO * np.abs(rates)
+        kinks = kinks | still
+        rates, values = rates * np.where(values < 0, -1.0, 1.0), np.abs(values)
+    if one.over in ("max", "min"):
+        return _extreme(one.over, values, rates, kinks)
+    if one.over == "range":
+        return _extreme("max", values, rates, kinks) - _extreme("min", values, rates, kinks)
+    if kinks.any():
+        raise InputError("its values have a kink there")
+    if one.over == "mean":
+        return float(rates.mean())
+    if one.over == "norm":
+        norm = float(np.sqrt((values * values).sum()))
+        if norm == 0 and rates.any():
+            raise InputError("a norm has none at zero")
+        return float(values @ rates) / norm if norm else 0.0
+    return float(rates[0])
+
+
+def _extreme(over: str, values: Array, rates: Array, kinks: NDArray[np.bool_]) -> float:
+    """The derivative of the largest or the smallest value."""
+    sign = 1.0 if over == "max" else -1.0
+    size = float(np.abs(values).max())
+    tied = np.flatnonzero(sign * values >= (sign * values).max() - _TIE * size)
+    own = rates[tied]
+    if kinks[tied].any():
+        raise InputError("its values have a kink there")
+    if np.ptp(own) > _SAME * np.abs(rates).max():
+        raise InputError(
+            f"{tied.size} values share the {'largest' if sign > 0 else 'smallest'} one and change differently"
+        )
+    return float(own[0])

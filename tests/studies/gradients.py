@@ -1,0 +1,136 @@
+"""`python -m tests.studies.gradients [CASE...]`: derivatives against differenced solves of the same cases.
+
+The solves have the tolerance 1e-14 and know nothing of tangents.  Their differences use Ridders' method: steps
+shrink, a table of extrapolations grows, and the entry that changes least is taken.  Exit 1 where an error is above
+1e-8 of the largest derivative of the read-out, each times the value of its key.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import cosserat
+
+FILE = Path(__file__).with_suffix(".toml")
+ROD = (
+    "rod.material.young",
+    "rod.material.poisson",
+    "rod.section.width",
+    "rod.section.height",
+    "rod.length",
+)
+BENT = {
+    "tip": "u.E2 at last",
+    "bent": "max |kappa|",
+    "stored": "strain_energy",
+    "size": "norm u.E2",
+    "inside": "u.E2 at 0.33 m",
+    "held": "reaction_moment.first",
+    "stress": "max fibre_stress",
+}
+SHORT = {"tip": "u.E2 at last", "bent": "max |kappa|", "held": "reaction_moment.first"}
+MODES = {
+    "first": "natural_frequency at 0",
+    "third": "natural_frequency at 2",
+    "shape": "norm mode_u.E2 at 0",
+    "shared": "effective_mass.E2 at 0",
+}
+FACTORS = {"linear": "linear_load_factor at 0", "true": "max special_load_factor"}
+CASES = {
+    "bent": ((*ROD, "rod.section.shear_factor", "rod.material.density", "forces.0.force"), BENT),
+    "moved": (
+        (*ROD, "forces.0.force", "prescribed_displacements.0.by", "prescribed_rotations.0.by"),
+        {"middle": "u.E2 at 10", "bent": "max |kappa|", "held": "reaction_force.E3.last"},
+    ),
+    "oblique": (
+        (
+            *ROD,
+            "forces.0.force",
+            "rod.rest.curvature",
+            "springs.0.stiffness",
+            "springs.1.rotational_stiffness",
+            "temperatures.0.gradient",
+        ),
+        SHORT,
+    ),
+    "followed": ((*ROD, "follower_forces.0.force", "gravity.g", "rod.material.density"), SHORT),
+    "published": (
+        ("rod.material.young", "rod.material.poisson", "rod.section.width", "rod.section.height", "rod.length",
+         "gravity.g", "rod.calibration.c3"),
+        {"tip": "u.E2 at last", "bent": "max |kappa|", "turned": "max |phi|"},
+    ),
+    "posed": ((*ROD, "pose.curvature", "forces.0.force"), {"middle": "u.E2 at 10", "held": "reaction_force.E3.last"}),
+    "vibrating": ((*ROD, "rod.material.density", "forces.0.force"), MODES),
+    "fluttering": (
+        (*ROD, "rod.material.density", "follower_forces.0.force"),
+        {"first": "natural_frequency at 0", "third": "natural_frequency at 2"},
+    ),
+    "free": ((*ROD, "rod.material.density"), {"first": "natural_frequency at 3", "second": "natural_frequency at 4"}),
+    "column": (ROD, FACTORS),
+    "arch": ((*ROD, "rod.rest.curvature", "forces.1.force"), FACTORS),
+}  # fmt: skip
+
+
+def read(case, of):
+    """The read-outs of a case solved to round-off."""
+    sharp = {"newton.tolerance": [1e-14]}
+    found = cosserat.study(case, sharp, of, name="one", progress=lambda *_: None)
+    assert found["reason"].item(0) == "" or found["status"].item(0) == 1, found["reason"].item(0)
+    return np.array([found[name].item(0) for name in of])
+
+
+def differenced(case, key, value, of):
+    """Derivatives by a key times its value, by Ridders' method on whole solves, (read-outs,)."""
+    from cosserat.studies.keys import case_with, table_of
+
+    table = table_of(case.problem)
+
+    def at(step):
+        return read(case_with(case, table, {key: value * (1 + step)}, "near"), of)
+
+    best, error, before, step = None, np.full(len(of), np.inf), [], 2.0**-5
+    for _ in range(6):
+        row = [(at(step) - at(-step)) / (2 * step)]
+        for order, coarse in enumerate(before, start=1):
+            row.append(row[-1] + (row[-1] - coarse) / (4**order - 1))
+            change = np.maximum(np.abs(row[-1] - row[-2]), np.abs(row[-1] - coarse))
+            best = row[-1].copy() if best is None else np.where(change < error, row[-1], best)
+            error = np.minimum(change, error)
+        before, step = row, step / 2
+    return best
+
+
+def compared(name, keys=None):
+    """Largest error over the largest scaled derivative of each read-out, its name, and seconds of both ways."""
+    case = cosserat.load_cases(FILE)[name]
+    own, of = CASES[name]
+    keys = keys or own
+    began = time.process_time()
+    found = cosserat.sensitivity(case, keys, of)
+    exact = time.process_time() - began
+    values = {found[name].attrs.get("key"): found[name].item() for name in found.coords if name != "key"}
+    slow = np.array([differenced(case, key, values[key], of) for key in keys])
+    errors = {}
+    for number, read_out in enumerate(of):
+        quick = found[f"{read_out}_scaled"].sel(key=list(keys)).to_numpy()
+        errors[read_out] = np.abs(quick - slow[:, number]).max() / np.abs(slow[:, number]).max()
+    return errors, exact, time.process_time() - began - exact
+
+
+def main(names):
+    worst = 0.0
+    for name in names or CASES:
+        errors, exact, slow = compared(name)
+        worst = max(worst, *errors.values())
+        said = ", ".join(f"{read_out} {error:.1e}" for read_out, error in errors.items())
+        print(f"{name:12s} {exact:6.2f} s against {slow:6.2f} s: {said}", flush=True)
+    print(f"largest error {worst:.1e} of the largest scaled derivative")
+    return int(worst > 1e-8)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

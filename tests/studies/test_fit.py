@@ -1,0 +1,127 @@
+"""Fits: against linear regression in closed form, and true values of noisy data."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+import cosserat
+from cosserat.cli import main
+from cosserat.errors import InputError
+
+from . import fit as coverage
+
+PULLS = np.array([10.0, 20.0, 30.0, 40.0, 50.0, 60.0])
+NOISE = np.array([0.3, -0.2, 0.4, -0.1, -0.35, 0.2]) * 1e-6
+OF = {"end": "u.E3 at last"}
+
+
+def bar(**rod):
+    """A bar pulled at its end: u = F L / (E A), E A = 1e5 N."""
+    section = {"height": 0.01, "width": 0.01}
+    rod = {"vertices": 5, "length": 1.0, "section": section} | rod
+    pull = [{"at": "last", "along": "E3", "force": 1.0}]
+    return cosserat.case("elastica").vary("bar", rod=rod, forces=pull)
+
+
+def test_a_fit_of_a_bar_is_linear_regression_through_the_origin():
+    """The compliance 1 / E has a closed form: estimate, standard error and Student's t."""
+    deviations = np.array([1.0, 2.0, 1.0, 3.0, 2.0, 1.0]) * 1e-7
+    ends = PULLS / 1e5 + NOISE
+    data = {"forces.0.force": PULLS, "end": ends, "end_deviation": deviations}
+    found = cosserat.fit(bar(material={"young": 0.5e9}), data, ["rod.material.young"], OF)
+    per, weights = PULLS / 1e-4, 1 / deviations**2
+    compliance = (weights * per * ends).sum() / (weights * per**2).sum()
+    left = ends - compliance * per
+    variance = (weights * left**2).sum() / (PULLS.size - 1)
+    error = np.sqrt(variance / (weights * per**2).sum()) / compliance**2
+    reach = stats.t.ppf(0.975, PULLS.size - 1) * error
+    assert found["young"].item() == pytest.approx(1 / compliance, rel=1e-7)
+    assert found["young_error"].item() == pytest.approx(error, rel=1e-5)
+    assert found["young_high"].item() - found["young_low"].item() == pytest.approx(2 * reach, rel=1e-5)
+    assert found["end_residual"].to_numpy() == pytest.approx(left, abs=1e-12)
+    assert found.attrs["reduced_chi_square"] == pytest.approx(variance, rel=1e-5)
+
+
+def test_intervals_hold_the_true_values_of_an_elastica():
+    """Seed 0 of those that `python -m tests.studies.fit` counts."""
+    found = coverage.fitted(0)
+    assert all(coverage.holds(found).values())
+    assert found["correlation"].to_numpy() == pytest.approx(found["correlation"].to_numpy().T)
+    assert 0.2 < found.attrs["reduced_chi_square"] < 3
+
+
+def test_a_file_with_units_and_cells_that_were_not_measured(tmp_path):
+    rows = ["forces.0.force [kN], end [um], end_deviation [um]"]
+    rows += [f"{pull / 1e3}, {'' if pull == 30 else pull * 10}, 0.1" for pull in PULLS]
+    (tmp_path / "data.csv").write_text("\n".join(rows))
+    found = cosserat.fit(bar(), tmp_path / "data.csv", {"rod.material.young": ("0.1 GPa", "9 GPa")}, OF)
+    assert found["young"].item() == pytest.approx(1e9, rel=1e-9)
+    assert np.isnan(found["end_measured"].to_numpy()).tolist() == [
+        False,
+        False,
+        True,
+        False,
+        False,
+        False,
+    ]
+    assert found["force"].attrs["units"] == "N"
+    cosserat.save(found, tmp_path / "fit.nc")
+    stored = cosserat.load(tmp_path / "fit.nc")
+    assert stored["young_high"].item() == found["young_high"].item()
+    figure = cosserat.plot(stored, tmp_path / "fit.svg")
+    values, residuals = figure.axes
+    assert values.get_xlabel() == "end, fitted [µm]"
+    shown = residuals.get_lines()[-1].get_ydata() * np.sqrt(found.attrs["reduced_chi_square"]) * 1e-7
+    assert np.nan_to_num(shown) == pytest.approx(np.nan_to_num(found["end_residual"].to_numpy()))
+
+
+@pytest.mark.parametrize(
+    ("data", "free", "said"),
+    [
+        ({"end": [1e-4]}, ["rod.material.young"], "1 measured values cannot determine 1 keys"),
+        ({"end": [1e-4] * 3, "rod.length": [1.0] * 3}, ["rod.length"], "free and a column"),
+        ({"tip": [1e-4] * 3}, ["rod.length"], "no column end"),
+        ({"end": [1e-4] * 3}, {"rod.length": (3.0, 2.0)}, "is empty"),
+        ({"end": [1e-4] * 3}, {"rod.length": (2.0, 3.0)}, "begin inside"),
+        ({"end": [1e-4] * 3, "end_deviation": [1, 0, 1]}, ["rod.length"], "must be above 0"),
+        (
+            {"forces.0.force": PULLS, "end": PULLS / 1e5},
+            ["rod.section.width", "rod.material.young"],
+            "do not determine the relative change",
+        ),
+    ],
+)
+def test_what_cannot_be_fitted_is_said_in_one_sentence(data, free, said):
+    with pytest.raises(InputError, match=said):
+        cosserat.fit(bar(), data, free, OF)
+
+
+def test_a_fit_in_a_case_file_by_the_command_line(tmp_path, capsys):
+    rows = [
+        "forces.0.force [kN], end [um]",
+        *(f"{pull / 1e3}, {pull * 10 + 1e6 * off}" for pull, off in zip(PULLS, NOISE, strict=True)),
+    ]
+    (tmp_path / "measured.csv").write_text("\n".join(rows))
+    (tmp_path / "my.toml").write_text(
+        """
+        [bar]
+        like = "elastica"
+        rod = { vertices = 5, section = { height = "10 mm", width = "10 mm" } }
+        forces = [{ at = "last", along = "E3", force = "1 N" }]
+        [stiffness]
+        kind = "fit"
+        of = "bar"
+        data = "measured.csv"
+        free.rod.material.young = ["0.1 GPa", "10 GPa"]
+        keep.end = "u.E3 at last"
+        """
+    )
+    assert list(cosserat.load_cases(tmp_path / "my.toml")) == ["bar"]
+    ended = main(["fit", "stiffness", "--file", str(tmp_path / "my.toml"), "-o", str(tmp_path)])
+    assert not ended
+    said = capsys.readouterr().out
+    found = cosserat.load(tmp_path / "stiffness.nc")
+    assert f"young = {found['young'].item():.6g} Pa" in said
+    assert found["young_low"].item() < 1e9 < found["young_high"].item()
+    with pytest.raises(InputError, match="is a fit, not a case"):
+        cosserat.cases.catalogue.find("stiffness", tmp_path / "my.toml")

@@ -1,0 +1,104 @@
+"""Derivatives of read-outs: against differenced solves and closed forms, and where there are none."""
+
+import numpy as np
+import pytest
+
+import cosserat
+from cosserat.errors import InputError
+from cosserat.solvers.slopes import slope
+
+from .gradients import FILE, compared
+
+CASES = cosserat.load_cases(FILE)
+
+
+@pytest.mark.parametrize(
+    ("name", "keys"),
+    [
+        ("followed", ["rod.length", "rod.section.height", "follower_forces.0.force"]),
+        ("published", ["rod.section.height", "gravity.g"]),
+        ("moved", ["rod.material.poisson", "prescribed_rotations.0.by"]),
+    ],
+)
+def test_derivatives_are_those_of_differenced_solves(name, keys):
+    errors, _, _ = compared(name, keys)
+    assert max(errors.values()) < 1e-8, errors
+
+
+def test_frequencies_follow_from_modulus_and_density():
+    """A free rod without loads: every frequency goes as sqrt(E / rho) at the same Poisson's ratio."""
+    keys = ["rod.material.young", "rod.material.density"]
+    found = cosserat.sensitivity(CASES["free"], keys, {"first": "natural_frequency at 3"})
+    half = found["first"].item() / 2
+    assert found["first_scaled"].to_numpy() == pytest.approx([half, -half], rel=1e-8)
+    assert found["first_by_young"].attrs["units"] == "Hz Pa-1"
+
+
+def test_both_critical_loads_are_proportional_to_the_modulus():
+    of = {"linear": "linear_load_factor at 0", "true": "max special_load_factor"}
+    found = cosserat.sensitivity(CASES["column"], "rod.material.young", of)
+    for name in of:
+        assert found[f"{name}_scaled"].item() == pytest.approx(found[name].item(), rel=1e-8)
+
+
+def test_units_names_and_values():
+    keys = ["rod.material.young", "forces.0.force", "rod.material.density"]
+    found = cosserat.sensitivity(CASES["bent"], keys, {"tip": "u.E2 at last", "mass": "total_mass.E3"})
+    assert found["tip_by_young"].attrs["units"] == "m Pa-1"
+    assert found["mass_by_density"].attrs["units"] == "kg kg-1 m3"
+    assert found["young"].item() == 1e9
+    assert found["young"].attrs["key"] == keys[0]
+    assert found["mass"].item() == pytest.approx(1100 * 0.012 * 0.009, rel=1e-14)
+    assert found["mass_scaled"].to_numpy() == pytest.approx([0, 0, found["mass"].item()], abs=1e-13)
+
+
+def unloaded():
+    return CASES["bent"].vary("unloaded", forces=[{"at": "last", "along": "E2", "force": 0.0}])
+
+
+def at_euler():
+    """A perfect column at its critical load to the last digits."""
+    load = cosserat.run(CASES["column"])["special_load_factor"].item()
+    table = CASES["column"].problem.model_dump()
+    push = [{"at": "last", "along": "-E3", "force": load * (1 - 1e-11)}]
+    return CASES["bent"].vary("euler", rod=table["rod"], forces=push)
+
+
+@pytest.mark.parametrize(
+    ("case", "key", "read_out", "said"),
+    [
+        (lambda: CASES["bent"], "rod.vertices", "u.E2 at last", "is a count"),
+        (lambda: CASES["bent"], "rod.material.shear_modulus", "u.E2 at last", "is not given"),
+        (lambda: CASES["bent"], "rod.length", "u.E2 at 0.5 m", "a kink"),
+        (unloaded, "forces.0.force", "max |u.E2|", "a kink"),
+        (at_euler, "rod.length", "u.E3 at last", "a limit point or a bifurcation"),
+        (lambda: CASES["column"], "rod.length", "max linear_u", "only load factors"),
+    ],
+)
+def test_what_has_no_derivative_is_said_in_one_sentence(case, key, read_out, said):
+    with pytest.raises(InputError, match=said):
+        cosserat.sensitivity(case(), key, {"it": read_out})
+
+
+def test_a_slope_knows_its_error_and_its_kinks():
+    smooth = slope(lambda s: np.array([np.exp(7 * s), np.sin(s)]), 1e-16)
+    assert smooth.value == pytest.approx([7.0, 1.0], rel=1e-10)
+    assert not smooth.kink.any()
+    bent = slope(lambda s: np.array([abs(s) + s, s]), 1e-16)
+    assert bent.kink.tolist() == [True, False]
+
+
+def test_a_study_stores_derivatives_of_its_members():
+    of = {"tip": "u.E2 at last", "bent": "max |kappa|"}
+    vary = {"rod.material.young": [1e9, 2e9], "forces.0.force": [0.0, 3.0]}
+    found = cosserat.study(CASES["bent"], vary, of, sensitivities=True, progress=lambda *_: None)
+    alone = CASES["bent"].vary(
+        "alone", rod={"material": {"young": 2e9}}, forces=[{"at": "last", "along": "E2", "force": 3.0}]
+    )
+    one = cosserat.sensitivity(alone, list(vary), of)
+    for word in ("tip_by_young", "tip_by_force", "bent_by_young", "bent_by_force"):
+        assert found[word][1, 1].item() == one[word].item()
+        assert found[word].attrs["units"] == one[word].attrs["units"]
+    assert np.isnan(found["bent_by_force"][0, 0].item())  # the largest size of nothing
+    assert "'bent' has no derivative by 'forces.0.force'" in found["reason"][0, 0].item()
+    assert found["tip_by_force"][0, 0].item() > 0
