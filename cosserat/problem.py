@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cosserat.parameters import Parameters
-from cosserat.solution import Solution
+from cosserat.solution import Many, Solution
 
 Progress = Callable[[float, str], None]
 """Called with the fraction done, from 0 to 1, and a few words."""
@@ -78,6 +81,15 @@ class Problem(Parameters, ABC):
     def forecast(self) -> Forecast:
         """What solving it will take; nothing worth naming by default."""
         return Forecast()
+
+    def solve_many(
+        self, columns: Mapping[str, NDArray[np.float64]], wanted: Sequence[str]
+    ) -> Many | None:
+        """The problem for many values of some keys at once; None where each is solved by itself, as by default.
+
+        columns : values (M,) by dotted keys, in SI units.  wanted : names of the fields to give.
+        """
+        return None
 
     @abstractmethod
     def solve(self, name: str, run: Run = ALONE) -> Solution:

@@ -5,8 +5,9 @@ Units and meaning of the names are in `cosserat.data.variables`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,3 +68,20 @@ class Solution:
     def __contains__(self, name: str) -> bool:
         """Whether there is a field of that name."""
         return name in self.fields
+
+
+@dataclass(frozen=True)
+class Many:
+    """Solutions of many problems that differ in some numbers.
+
+    fields : by name, with the dimension "member" before those of one solution.  statistics : by name, (M,).
+    labels : as in `Solution`.
+    solved : (M,) which members are; each of the others is left to its own problem, which solves it or says why not.
+    warnings : sentences by the number of a member.
+    """
+
+    fields: Mapping[str, Field]
+    statistics: Mapping[str, NDArray[Any]]
+    labels: Mapping[str, tuple[str, ...]]
+    solved: NDArray[np.bool_]
+    warnings: Mapping[int, Sequence[str]]

@@ -8,7 +8,7 @@ member gets the bits of its single run, because `cosserat.solvers.many` solves o
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, get_args
 
 import numpy as np
@@ -28,7 +28,7 @@ from cosserat.rods.resolution import coarse, surface_stretch
 from cosserat.rods.rod import Rod
 from cosserat.rods.sections.plain import Circle, Ellipse, Rectangle, Square
 from cosserat.rods.space import RodSpace
-from cosserat.solution import Field
+from cosserat.solution import Field, Many
 from cosserat.solvers.banded import Mask
 from cosserat.solvers.many import Family, member
 from cosserat.solvers.members import REACHED, Answers, Members
@@ -46,23 +46,6 @@ OF_BODY = (
 """Keys of the rod that may differ between members."""
 _SECTIONS = (Rectangle, Square, Ellipse, Circle)
 _CHUNK = 2048  # members whose constants are in memory at once
-
-
-@dataclass(frozen=True)
-class Many:
-    """Equilibria of many members.
-
-    fields : by name, as in `cosserat.problems.static.equilibrium_solution`, with the dimension "member" before those
-    of one state.  statistics : by name, (M,).  labels : as there.
-    solved : (M,) which members are; each of the others is left to its own problem, which solves it or says why not.
-    warnings : sentences by the number of a member.
-    """
-
-    fields: Mapping[str, Field]
-    statistics: Mapping[str, NDArray[Any]]
-    labels: Mapping[str, tuple[str, ...]]
-    solved: Mask
-    warnings: Mapping[int, Sequence[str]]
 
 
 def solve_many(

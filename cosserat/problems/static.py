@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Literal
@@ -19,7 +19,7 @@ from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, Strains, strains
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.rods.rod import Rod
-from cosserat.solution import Solution
+from cosserat.solution import Many, Solution
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.loading import coupled_energy
 from cosserat.solvers.modes import Modes, modes
@@ -50,6 +50,12 @@ class RodStatics(PosedProblem):
         found = equilibrium_solution(self, geometry, point, solver)
         check_crossing(geometry, found["x"], found["d"], self.rod.below, name)
         return replace(found, warnings=(*solver.warnings(), *coarse(found["d"])))
+
+    def solve_many(self, columns: Mapping[str, Array], wanted: Sequence[str]) -> Many | None:
+        """The equilibria of many rods in one compiled loop, where it and its formulas fit them."""
+        from cosserat.problems.many import solve_many
+
+        return solve_many(self, columns, wanted) if set(wanted) <= set(FIELDS) else None
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

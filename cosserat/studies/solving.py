@@ -22,9 +22,7 @@ from cosserat.errors import (
     UnstableError,
 )
 from cosserat.problem import Problem, silent
-from cosserat.problems.many import Many, solve_many
-from cosserat.problems.static import FIELDS, RodStatics
-from cosserat.solution import Field, Solution
+from cosserat.solution import Field, Many, Solution
 from cosserat.studies.family import Task, derivative_name
 from cosserat.studies.keys import put, table_of
 from cosserat.text import printable
@@ -118,9 +116,9 @@ def _solve_together(
     """Solve what compiled loops can solve, by threads; returns the members that are left."""
     every, problem = np.arange(task.size), task.base.problem
     names = sorted({name for one in task.keep for name in one.needs()} | set(task.keep_whole))
-    names += [name for name in PLACES if task.keep_whole and name in FIELDS and name not in names]
-    numbers = all(column.dtype.kind == "f" for column in task.columns)
-    if not isinstance(problem, RodStatics) or not numbers or not set(names) <= set(FIELDS):
+    along = {dim for name in task.keep_whole for dim in VARIABLES[name].dims}
+    names += [name for name in PLACES if set(VARIABLES[name].dims) <= along and name not in names]
+    if not all(column.dtype.kind == "f" for column in task.columns):
         return every
     parts = [every[begin : begin + _CHUNK] for begin in range(0, task.size, _CHUNK)]
     left = []
@@ -138,10 +136,10 @@ def _solve_together(
 
 
 def _solve_part(
-    task: Task, problem: RodStatics, names: Sequence[str], part: NDArray[np.int64]
+    task: Task, problem: Problem, names: Sequence[str], part: NDArray[np.int64]
 ) -> Many | None:
     columns = {key: column[part] for key, column in zip(task.keys, task.columns, strict=True)}
-    return solve_many(problem, columns, names)
+    return problem.solve_many(columns, names)
 
 
 def _keep_many(task: Task, many: Many, part: NDArray[np.int64], found: Solved) -> None:
