@@ -23,6 +23,8 @@ from cosserat.solvers.system import MechanicalSystem
 
 Fields = NDArray[np.float64]
 address: Any = function_type._get_wrapper_address  # what a compiled function would look up at every call
+_MOST_WORK = 2e5
+"""Most DOFs times load increments: the loop takes seconds then, in which it cannot be stopped."""
 types: Any = numba_types  # which says nothing of its own types
 
 
@@ -85,6 +87,8 @@ class Family:
         if not own.symmetric or own.history.size or own.level is not None:
             return None
         if not all(p.linear and p.level is None and not p.history.size for p in system.external):
+            return None
+        if system.constrained.size * settings.load_increments > _MOST_WORK:
             return None
         kernel, _, parts = space
         return cls(
