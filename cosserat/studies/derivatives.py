@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError
 from cosserat.problem import Problem
-from cosserat.problems.moving import moving
+from cosserat.problems.moving import moves_exactly, moving
 from cosserat.problems.tangents import Motion, Moving, Nearby
 from cosserat.solution import Solution
 from cosserat.solvers.slopes import Slope, slope
@@ -113,7 +113,7 @@ def derivatives(
     """
     table = table_of(problem)
     near = [_nearby(problem, table, one) for one in parameters]
-    motion, method = _motion(problem, near, name)
+    motion, method = _motion(problem, near, name), method_of(problem)
     fields = _fields(motion.base, read_outs)
     values = {one.name: float(one.of(fields.fields, fields.labels)) for one in read_outs}
     by: dict[tuple[str, str], Derivative] = {}
@@ -158,13 +158,18 @@ class _Solved:
         return sharp(cast("Problem", self.near(step))).solve(self.name)
 
 
-def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> tuple[Motion, str]:
-    """The result, how it moves with each parameter, and by which method."""
+def method_of(problem: Problem) -> str:
+    """How derivatives of a problem are taken."""
+    return TANGENT if moves_exactly(problem) else DIFFERENCES
+
+
+def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> Motion:
+    """The result, and how it moves with each parameter."""
     found = moving(problem, near, name)
     if found is not None:
-        return found, TANGENT
+        return found
     ways = tuple(_Solved(one, name) for one in near)
-    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways)), DIFFERENCES
+    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways))
 
 
 def sharp(problem: Problem) -> Problem:
