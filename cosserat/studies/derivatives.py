@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError
 from cosserat.problem import Problem
+from cosserat.problems.many import put_inside
 from cosserat.problems.moving import moves_exactly, moving
 from cosserat.problems.tangents import Motion, Moving, Nearby
 from cosserat.solution import Solution
@@ -136,11 +137,16 @@ def derivatives(
 
 def _nearby(problem: Problem, table: Mapping[str, Any], own: Parameter) -> Nearby:
     """The problem after a step of a parameter."""
-    path = own.key.path.split(".")
+    path, valid = own.key.path.split("."), {True: 0.0, False: 0.0}
 
     def after(step: float) -> Problem:
+        ahead = step > 0
+        if abs(step) < valid[ahead]:  # between valid values: a copy that is not validated again
+            return cast("Problem", put_inside(problem, path, own.after(step)))
         changed = put(table, path, own.after(step))
-        return type(problem).read(changed, f"'{own.key.path}'", units_required=False)
+        found = type(problem).read(changed, f"'{own.key.path}'", units_required=False)
+        valid[ahead] = abs(step)
+        return found
 
     return cast("Nearby", after)
 
