@@ -129,15 +129,15 @@ def _child(at: Any, part: str) -> Any:
     return getattr(at, part, None)
 
 
-def _put(at: Any, path: Sequence[str], values: Array) -> Any:
+def put_inside(at: Any, path: Sequence[str], values: Array | float) -> Any:
     """A copy of a parameter object or a list with values in place of a number, not validated."""
     if not path:
         return values
     head, *rest = path
     if isinstance(at, tuple):
-        changed = _put(at[int(head)], rest, values)
+        changed = put_inside(at[int(head)], rest, values)
         return (*at[: int(head)], changed, *at[int(head) + 1 :])
-    return at.model_copy(update={head: _put(getattr(at, head), rest, values)})
+    return at.model_copy(update={head: put_inside(getattr(at, head), rest, values)})
 
 
 def in_range(problem: RodStatics, columns: Mapping[str, Array]) -> Mask:
@@ -160,7 +160,7 @@ def in_range(problem: RodStatics, columns: Mapping[str, Array]) -> Mask:
 def _with(problem: RodStatics, columns: Mapping[str, Array]) -> RodStatics:
     """A copy with columns (M, 1) in place of numbers."""
     for key, values in columns.items():
-        problem = _put(problem, key.split("."), values[:, None])
+        problem = put_inside(problem, key.split("."), values[:, None])
     return problem
 
 

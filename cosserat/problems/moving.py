@@ -52,6 +52,11 @@ def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str) -> 
     return Motion(found, tuple(MovedStatics(one, name) for one in moved), tuple(lost))
 
 
+def moves_exactly(problem: Problem) -> bool:
+    """Whether `moving` has a form for the kind of a problem."""
+    return isinstance(problem, RodStatics | RodModes | RodCriticalLoads)
+
+
 def moving(problem: Problem, nearby: Sequence[Nearby], name: str) -> Motion | None:
     """The result of a problem, moving with each of several parameters; None for a kind that has no such form.
 

@@ -120,6 +120,7 @@ class Moved:
     ) -> None:
         self.nearby, self.base, self.point, self.made = nearby, base, point, made
         self.known: dict[float, Body] = {0.0: base}
+        self.with_strains: dict[float, Array] = {}
         self.rate = self.reaction_rate = np.zeros_like(point.q)
 
     def body(self, step: float) -> Body:
@@ -140,7 +141,9 @@ class Moved:
 
     def carried(self, step: float) -> Array:
         """The DOFs after a step with the rotations and stretches of no step, (n,)."""
-        return self._placed(step, np.zeros_like(self.point.q))
+        if step not in self.with_strains:
+            self.with_strains[step] = self._placed(step, np.zeros_like(self.point.q))
+        return self.with_strains[step]
 
     def q(self, step: float) -> Array:
         """The DOFs after a step, to first order, (n,): edges and directors rotate and stretch at the rates."""

@@ -27,6 +27,7 @@ def answer(found: Family, solved: Solved) -> xr.Dataset:
     for factor, dim in zip(found.factors, dims, strict=True):
         coords |= _coordinates(found, factor, dim)
     variables: dict[str, Any] = {}
+    method = _method(found)
     for one in found.keep:
         about = {"units": one.units, "long_name": one.long_name, "read_out": one.text}
         variables[one.name] = (dims, solved.values[one.name].reshape(shape), about)
@@ -35,6 +36,7 @@ def answer(found: Family, solved: Solved) -> xr.Dataset:
                 "units": derivative_unit(one.units, cf_unit(key.unit)),
                 "long_name": f"derivative of {one.name} by {key.path}",
                 "key": key.path,
+                "method": method,
             }
             values = solved.values[derivative_name(one.name, key.path)].reshape(shape)
             variables[f"{one.name}_by_{found.names[key.path]}"] = (dims, values, told)
@@ -71,6 +73,15 @@ def answer(found: Family, solved: Solved) -> xr.Dataset:
         "environment": json.dumps(environment(), sort_keys=True),
     }
     return stamped(dataset)
+
+
+def _method(found: Family) -> str:
+    """How derivatives are taken, if there are some."""
+    if not found.by:
+        return ""
+    from cosserat.studies.derivatives import method_of
+
+    return method_of(found.base.problem)
 
 
 _STATUS = {

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError
 from cosserat.problem import Problem
-from cosserat.problems.moving import moving
+from cosserat.problems.many import put_inside
+from cosserat.problems.moving import moves_exactly, moving
 from cosserat.problems.tangents import Motion, Moving, Nearby
 from cosserat.solution import Solution
 from cosserat.solvers.slopes import Slope, slope
@@ -113,7 +114,7 @@ def derivatives(
     """
     table = table_of(problem)
     near = [_nearby(problem, table, one) for one in parameters]
-    motion, method = _motion(problem, near, name)
+    motion, method = _motion(problem, near, name), method_of(problem)
     fields = _fields(motion.base, read_outs)
     values = {one.name: float(one.of(fields.fields, fields.labels)) for one in read_outs}
     by: dict[tuple[str, str], Derivative] = {}
@@ -136,11 +137,16 @@ def derivatives(
 
 def _nearby(problem: Problem, table: Mapping[str, Any], own: Parameter) -> Nearby:
     """The problem after a step of a parameter."""
-    path = own.key.path.split(".")
+    path, valid = own.key.path.split("."), {True: 0.0, False: 0.0}
 
     def after(step: float) -> Problem:
+        ahead = step > 0
+        if abs(step) < valid[ahead]:  # between valid values: a copy that is not validated again
+            return cast("Problem", put_inside(problem, path, own.after(step)))
         changed = put(table, path, own.after(step))
-        return type(problem).read(changed, f"'{own.key.path}'", units_required=False)
+        found = type(problem).read(changed, f"'{own.key.path}'", units_required=False)
+        valid[ahead] = abs(step)
+        return found
 
     return cast("Nearby", after)
 
@@ -158,13 +164,18 @@ class _Solved:
         return sharp(cast("Problem", self.near(step))).solve(self.name)
 
 
-def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> tuple[Motion, str]:
-    """The result, how it moves with each parameter, and by which method."""
+def method_of(problem: Problem) -> str:
+    """How derivatives of a problem are taken."""
+    return TANGENT if moves_exactly(problem) else DIFFERENCES
+
+
+def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> Motion:
+    """The result, and how it moves with each parameter."""
     found = moving(problem, near, name)
     if found is not None:
-        return found, TANGENT
+        return found
     ways = tuple(_Solved(one, name) for one in near)
-    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways)), DIFFERENCES
+    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways))
 
 
 def sharp(problem: Problem) -> Problem:

@@ -176,7 +176,7 @@ def _solve_one(task: Task, table: Mapping[str, object], member: int, found: Solv
         return
     try:
         solution = problem.solve("the member")
-        _keep(task, _needed(task, solution), member, found)
+        _keep(task, _needed(task, problem, solution), member, found)
         lost = _differentiate(task, problem, member, found)
     except NotConvergedError as error:
         found.iterations[member] = error.iterations
@@ -210,13 +210,23 @@ def _differentiate(task: Task, problem: Problem, member: int, found: Solved) -> 
     return [sentence.removeprefix("the member: ") for sentence in exact.missing.values()]
 
 
-def _needed(task: Task, solution: Solution) -> Solution:
+def _needed(task: Task, problem: Problem, solution: Solution) -> Solution:
     """A solution with the fields that are kept, also those that follow from others."""
     names = {name for one in task.keep for name in one.needs()} | set(task.keep_whole)
-    if names <= set(solution.fields) or solution.derive is None:
+    if names <= set(solution.fields):
         return solution
-    more = solution.derive()
-    return Solution({**more.fields, **solution.fields}, {}, {**more.labels, **solution.labels})
+    fields, labels = dict(solution.fields), dict(solution.labels)
+    if solution.derive is not None:
+        more = solution.derive()
+        fields, labels = {**more.fields, **fields}, {**more.labels, **labels}
+    if "total_mass" in names - set(fields):
+        from cosserat.problems.tangents import total_mass
+        from cosserat.rods.problem import RodProblem
+
+        if isinstance(problem, RodProblem):
+            own, words = total_mass(problem, problem.geometry)
+            fields, labels = fields | own, labels | words
+    return Solution(fields, {}, labels)
 
 
 def _keep(task: Task, solution: Solution, member: int, found: Solved) -> None:

@@ -63,7 +63,7 @@ CASES = {
          "gravity.g", "rod.calibration.c3"),
         {"tip": "u.E2 at last", "bent": "max |kappa|", "turned": "max |phi|"},
     ),
-    "posed": ((*ROD, "pose.curvature", "forces.0.force"), {"middle": "u.E2 at 10", "held": "reaction_force.E3.last"}),
+    "posed": ((*ROD, "pose.curvature", "forces.0.force"), {"middle": "u.E2 at 10", "held": "reaction_moment.first"}),
     "vibrating": ((*ROD, "rod.material.density", "forces.0.force"), MODES),
     "fluttering": (
         (*ROD, "rod.material.density", "follower_forces.0.force"),
