@@ -47,6 +47,26 @@
 # .. autofunction:: cosserat.animate
 # ```
 #
+# ## Studies
+#
+# ```{eval-rst}
+# .. autofunction:: cosserat.study
+#
+# .. autofunction:: cosserat.indices
+#
+# .. autofunction:: cosserat.bands
+#
+# .. autofunction:: cosserat.orders
+#
+# .. autofunction:: cosserat.estimate_error
+#
+# .. autofunction:: cosserat.sensitivity
+#
+# .. autofunction:: cosserat.fit
+#
+# .. autofunction:: cosserat.design
+# ```
+#
 # ## Errors
 #
 # ```{eval-rst}

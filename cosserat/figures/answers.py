@@ -193,7 +193,7 @@ def lines(data: xr.Dataset, names: tuple[str, ...], along: str | None) -> Figure
         along, dims = dims[-1], dims[:-1]
     rows = -(-len(names) // 2) if len(names) > 1 else 1
     columns = min(2, len(names))
-    figure, axes = canvas(3.6 * columns + (1.6 if columns == 1 else 0), 2.6 * rows + 0.4, rows, columns)
+    figure, axes = canvas(3.6 * columns + (1.5 if columns == 1 else 0), 2.6 * rows + 0.4, rows, columns)
     every = choices(data, dims)
     if len(every) > len(COLOURS):
         raise InputError(

@@ -49,7 +49,7 @@ def picture(data: xr.Dataset) -> Figure:
         )
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)
-    figure, axes = canvas(3.6 * columns + (1.6 if columns == 1 else 0), 2.6 * rows + 0.4, rows, columns)
+    figure, axes = canvas(3.6 * columns + (1.5 if columns == 1 else 0), 2.6 * rows + 0.4, rows, columns)
     place = next((data[p] for p in _PLACES if p in data.coords and data[p].dims == (along[0],)), None)
     x: Array = (np.arange(data.sizes[along[0]]) if place is None else place.to_numpy()).astype(
         np.float64

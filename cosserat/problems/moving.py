@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import cast
 
 from cosserat.problem import Problem
-from cosserat.problems.critical import RodCriticalLoads
-from cosserat.problems.modes import RodModes
-from cosserat.problems.moving_critical import moving_critical
-from cosserat.problems.moving_modes import moving_modes
 from cosserat.problems.static import RodStatics, equilibrium_solution
 from cosserat.problems.tangents import Body, Motion, Moved, Nearby, move, total_mass
+from cosserat.publications import kinds
 from cosserat.rods.resolution import check_crossing
 from cosserat.solution import Solution
 from cosserat.solvers.equilibrium import EquilibriumSolver
@@ -28,8 +26,7 @@ class MovedStatics:
     def solution(self, step: float) -> Solution:
         """Fields of the equilibrium after a step, to first order."""
         body = self.moved.body(step)
-        problem = body.problem
-        assert isinstance(problem, RodStatics)
+        problem = cast("RodStatics", body.problem)
         solver = EquilibriumSolver(body.system, problem.newton, self.name)
         found = equilibrium_solution(problem, body.geometry, self.moved.state(step), solver)
         fields, labels = total_mass(problem, body.geometry)
@@ -54,7 +51,7 @@ def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str) -> 
 
 def moves_exactly(problem: Problem) -> bool:
     """Whether `moving` has a form for the kind of a problem."""
-    return isinstance(problem, RodStatics | RodModes | RodCriticalLoads)
+    return kinds()[problem.kind].moving_function() is not None
 
 
 def moving(problem: Problem, nearby: Sequence[Nearby], name: str) -> Motion | None:
@@ -64,10 +61,5 @@ def moving(problem: Problem, nearby: Sequence[Nearby], name: str) -> Motion | No
     ------
     CosseratError : there is no result.
     """
-    if isinstance(problem, RodStatics):
-        return moving_statics(problem, nearby, name)
-    if isinstance(problem, RodModes):
-        return moving_modes(problem, nearby, name)
-    if isinstance(problem, RodCriticalLoads):
-        return moving_critical(problem, nearby, name)
-    return None
+    function = kinds()[problem.kind].moving_function()
+    return None if function is None else cast("Motion", function(problem, nearby, name))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,8 +101,7 @@ class MovedModes:
     def solution(self, step: float) -> Solution:
         """The equilibrium and its modes after a step, to first order."""
         body, state = self.moved.body(step), self.moved.state(step)
-        problem = body.problem
-        assert isinstance(problem, RodModes)
+        problem = cast("RodModes", body.problem)
         k = self.modes.k + step * self.rates[0]
         found = rooted(k, self.modes.vectors + step * self.rates[1])
         solver = EquilibriumSolver(body.system, problem.newton, self.name)

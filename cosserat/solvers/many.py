@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 from numba import types as numba_types
+from numba.core.dispatcher import Dispatcher
 from numba.experimental import function_type
 from numpy.typing import NDArray
 
@@ -85,6 +86,8 @@ class Family:
         if not plain or space is None or system.began is not None or system.damping_rate:
             return None
         if not own.symmetric or own.history.size or own.level is not None:
+            return None
+        if not isinstance(own.evaluate, Dispatcher):  # plain Python in place of a compiled kernel
             return None
         if not all(p.linear and p.level is None and not p.history.size for p in system.external):
             return None

@@ -14,11 +14,11 @@ import cosserat
 from cosserat.cases import catalogue
 from cosserat.cases.tables import Tables
 from cosserat.cli import main
-from cosserat.describe.keys import common_keys, keys
+from cosserat.describe.keys import common_keys, described, keys
 from cosserat.describe.schema import as_written, merged
 from cosserat.errors import InputError
 from cosserat.parameters import Dropped
-from cosserat.publications import kinds, published_tables, titles
+from cosserat.publications import published_tables, titles
 
 FILES = [(ROOT / f"cosserat/thesis/cases/{name}.toml").read_text() for name in ("chapter2", "chapter3")]
 README = re.findall(r"```toml\n(.*?)```", (ROOT / "README.md").read_text(), flags=re.DOTALL)
@@ -283,12 +283,12 @@ def test_an_editor_is_shown_every_key_with_its_meaning_unit_and_default(written)
     found = {}
     for path, node in shown({"properties": case["properties"]}):
         found.setdefault(path, []).append(node)
-    listed = [key for kind in kinds() for key in (*common_keys(), *keys(kind))]
+    listed = [key for kind in described() for key in (*common_keys(), *keys(kind))]
     assert {path for path in found if "like" not in path} == {key.path for key in listed} - {"like"}
     for key in listed:
         assert any(is_of(node, key) for node in found[key.path]), key.path
     together = {choice["title"]: choice["propertyNames"]["enum"] for choice in case["anyOf"]}
-    for kind in kinds():
+    for kind in described():
         assert set(together[kind]) == {
             key.path for key in (*common_keys(), *keys(kind)) if not re.search(r"\W", key.path)
         }

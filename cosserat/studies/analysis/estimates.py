@@ -16,7 +16,6 @@ from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError, OverLimitError
 from cosserat.limits import Limits
 from cosserat.problem import Progress, silent
-from cosserat.problems.motion import RodMotion
 from cosserat.progress import bar
 from cosserat.runner import run
 from cosserat.solution import Field
@@ -280,7 +279,7 @@ def _dataset(
         }
         made[f"{name}_state"] = (along, np.array([c.state for c in each], dtype=np.int8), meaning)
     said = [f"{m.how.paths[0]}: {sentence}" for m in found for sentence in m.said]
-    if isinstance(case.problem, RodMotion) and case.problem.integrator.method == "rk45":
+    if getattr(getattr(case.problem, "integrator", None), "method", "") == "rk45":
         said.append(f"integrator.step: {_RK45}")
     solved = [f"{m.how.paths[0]}: {', '.join(map(m.how.said, sorted(m.values)))}" for m in found]
     made.attrs = {"title": f"{case.title}: errors", "meshes": "\n".join(solved)}

@@ -8,6 +8,7 @@ from typing import Any
 from cosserat.problem import Problem
 from cosserat.problems.crawl import Crawl, CrawlerProblem
 from cosserat.problems.motion import RodMotion
+from cosserat.publications import kinds
 from cosserat.rods.problem import RodProblem
 from cosserat.solvers.integrate import step_count
 from cosserat.studies.keys import put, table_of
@@ -45,27 +46,42 @@ class Refinement:
 
 
 def refinements(problem: Problem) -> tuple[Refinement, ...]:
-    """The ways to refine a problem: the vertices of a rod, the steps of a motion, elements and instants of a crawl."""
-    found: list[Refinement] = []
-    if isinstance(problem, RodProblem):
-        inner = ("start_from.rod.vertices",) if getattr(problem, "start_from", None) is not None else ()
-        found.append(Refinement(("rod.vertices", *inner), problem.rod.vertices - 1, 2, more=1))
-    if isinstance(problem, RodMotion) and problem.integrator.method != "rk45":
-        count = step_count(problem.between_frames, problem.integrator)
-        found.append(Refinement(("integrator.step",), count, 1, whole=problem.between_frames))
-    if isinstance(problem, CrawlerProblem) and problem.solver == "banded":
-        found.append(Refinement(("mesh.elements",), problem.mesh.elements, 3))
-    if isinstance(problem, Crawl):
-        found.append(Refinement(("step",), 4, 2, whole=4 * problem.step))
-    return tuple(found)
+    """The ways to refine a problem, by its kind."""
+    function = kinds()[problem.kind].refined_function()
+    return () if function is None else tuple(function(problem))
+
+
+def of_rod(problem: RodProblem) -> list[Refinement]:
+    """More vertices."""
+    inner = ("start_from.rod.vertices",) if getattr(problem, "start_from", None) is not None else ()
+    return [Refinement(("rod.vertices", *inner), problem.rod.vertices - 1, 2, more=1)]
+
+
+def of_motion(problem: RodMotion) -> list[Refinement]:
+    """More vertices, and shorter steps where the method has them."""
+    if problem.integrator.method == "rk45":
+        return of_rod(problem)
+    count = step_count(problem.between_frames, problem.integrator)
+    return [*of_rod(problem), Refinement(("integrator.step",), count, 1, whole=problem.between_frames)]
+
+
+def of_crawler(problem: CrawlerProblem) -> list[Refinement]:
+    """More elements, where the solver has them."""
+    if problem.solver != "banded":
+        return []
+    return [Refinement(("mesh.elements",), problem.mesh.elements, 3)]
+
+
+def of_crawl(problem: Crawl) -> list[Refinement]:
+    """More elements and more instants."""
+    return [*of_crawler(problem), Refinement(("step",), 4, 2, whole=4 * problem.step)]
 
 
 def by_place(problem: Problem) -> dict[str, Any]:
     """The table of a problem whose places are no numbers of vertices, which are other places on other meshes."""
-    table = table_of(problem)
-    if not isinstance(problem, RodProblem):
+    table, arc = table_of(problem), getattr(problem, "arc_length", None)
+    if arc is None:
         return table
-    arc = problem.arc_length
     for prefix, owner in (("", problem), ("start_from.", getattr(problem, "start_from", None))):
         for name, items in dict(owner).items() if owner is not None else ():
             for k, item in enumerate(items if isinstance(items, tuple) else ()):

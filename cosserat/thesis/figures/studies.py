@@ -43,7 +43,7 @@ def fig_worm_stride(data: Data) -> Figure:
         left.hlines(places + shift, low, high, color=INK, linewidth=1)
     left.set_yticks(places, [_KEYS[name] for name in names])
     left.invert_yaxis()
-    left.set(xlabel="Sobol's index [1]", title="(a) share of the variance")
+    left.set(xlabel="Sobol's index [1]", ylabel="input [name]", title="(a) share of the variance")
     left.set_xlim(right=1.05)
     left.legend(fontsize=7, loc="upper right")
     order = np.argsort(-found["total"].to_numpy())[:2]
