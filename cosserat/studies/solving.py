@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +23,14 @@ from cosserat.errors import (
     UnstableError,
 )
 from cosserat.problem import Problem, silent
+from cosserat.problems.tangents import total_mass
 from cosserat.solution import Field, Many, Solution
 from cosserat.studies.family import Task, derivative_name
 from cosserat.studies.keys import put, table_of
 from cosserat.text import printable
+
+if TYPE_CHECKING:
+    from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
 SOLVED, WARNED, NOT_CONVERGED, NO_STATE, REFUSED, FAULT, NOT_YET = range(7)
@@ -219,13 +224,9 @@ def _needed(task: Task, problem: Problem, solution: Solution) -> Solution:
     if solution.derive is not None:
         more = solution.derive()
         fields, labels = {**more.fields, **fields}, {**more.labels, **labels}
-    if "total_mass" in names - set(fields):
-        from cosserat.problems.tangents import total_mass
-        from cosserat.rods.problem import RodProblem
-
-        if isinstance(problem, RodProblem):
-            own, words = total_mass(problem, problem.geometry)
-            fields, labels = fields | own, labels | words
+    if "total_mass" in names - set(fields) and hasattr(problem, "rod"):
+        own, words = total_mass(rod_problem := cast("RodProblem", problem), rod_problem.geometry)
+        fields, labels = fields | own, labels | words
     return Solution(fields, {}, labels)
 
 
