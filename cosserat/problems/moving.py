@@ -2,30 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import replace
 from typing import cast
 
+import numpy as np
+
 from cosserat.problem import Problem
-from cosserat.problems.static import RodStatics, equilibrium_solution
+from cosserat.problems.static import FIELDS, RodStatics, State, equilibrium_solution
 from cosserat.problems.tangents import Body, Motion, Moved, Nearby, move, total_mass
 from cosserat.publications import kinds
 from cosserat.rods.resolution import check_crossing
 from cosserat.solution import Solution
 from cosserat.solvers.equilibrium import EquilibriumSolver
 
+_QUICK = {*FIELDS, "total_mass"} - {"applied_force"}
+"""Fields that need no more than the state."""
+
 
 class MovedStatics:
-    """The result of a static problem."""
+    """The result of a static problem; wanted : the fields that are read."""
 
     lacks = ""
 
-    def __init__(self, moved: Moved, name: str) -> None:
-        self.moved, self.name = moved, name
+    def __init__(self, moved: Moved, name: str, wanted: Set[str]) -> None:
+        self.moved, self.name, self.wanted = moved, name, wanted
 
     def solution(self, step: float) -> Solution:
-        """Fields of the equilibrium after a step, to first order."""
+        """Fields of the equilibrium after a step, to first order, at least those that are wanted."""
         body = self.moved.body(step)
+        return self._few(step, body) if self.wanted <= _QUICK else self._whole(step, body)
+
+    def _few(self, step: float, body: Body) -> Solution:
+        """The wanted ones alone."""
+        rod = body.problem.rod
+        point = self.moved.state(step).unframed(body.system)
+        state = State(rod, body.geometry, point.q, np.zeros_like(point.q), point.reaction)
+        fields = {name: (FIELDS[name][0], FIELDS[name][1](state)) for name in self.wanted & set(FIELDS)}
+        labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs}
+        if "total_mass" in self.wanted:
+            fields |= total_mass(body.problem, body.geometry)[0]
+        return Solution(fields, {}, labels)
+
+    def _whole(self, step: float, body: Body) -> Solution:
         problem = cast("RodStatics", body.problem)
         solver = EquilibriumSolver(body.system, problem.newton, self.name)
         found = equilibrium_solution(problem, body.geometry, self.moved.state(step), solver)
@@ -33,7 +52,7 @@ class MovedStatics:
         return replace(found, fields={**found.fields, **fields}, labels={**found.labels, **labels})
 
 
-def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str) -> Motion:
+def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str, wanted: Set[str]) -> Motion:
     """The equilibrium of a problem, moving with each of several parameters.
 
     Raises
@@ -43,10 +62,10 @@ def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str) -> 
     base = Body.of(problem)
     point, _ = problem.equilibrium(base.geometry, base.system, name)
     moved = [Moved(one, base, point) for one in nearby]
-    found = MovedStatics(Moved(lambda _: problem, base, point), name).solution(0.0)
+    found = MovedStatics(Moved(lambda _: problem, base, point), name, {"every"}).solution(0.0)
     check_crossing(base.geometry, found["x"], found["d"], problem.rod.below, name)
     lost = move(moved) if moved else []
-    return Motion(found, tuple(MovedStatics(one, name) for one in moved), tuple(lost))
+    return Motion(found, tuple(MovedStatics(one, name, wanted) for one in moved), tuple(lost))
 
 
 def moves_exactly(problem: Problem) -> bool:
@@ -54,12 +73,14 @@ def moves_exactly(problem: Problem) -> bool:
     return kinds()[problem.kind].moving_function() is not None
 
 
-def moving(problem: Problem, nearby: Sequence[Nearby], name: str) -> Motion | None:
+def moving(problem: Problem, nearby: Sequence[Nearby], name: str, wanted: Set[str]) -> Motion | None:
     """The result of a problem, moving with each of several parameters; None for a kind that has no such form.
+
+    wanted : names of the fields that move, at least.
 
     Raises
     ------
     CosseratError : there is no result.
     """
     function = kinds()[problem.kind].moving_function()
-    return None if function is None else cast("Motion", function(problem, nearby, name))
+    return None if function is None else cast("Motion", function(problem, nearby, name, wanted))

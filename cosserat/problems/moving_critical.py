@@ -55,8 +55,12 @@ class MovedFactors:
         return Solution(fields, {}, {**self.base.labels, **labels})
 
 
-def moving_critical(problem: RodCriticalLoads, nearby: Sequence[Nearby], name: str) -> Motion:
+def moving_critical(
+    problem: RodCriticalLoads, nearby: Sequence[Nearby], name: str, wanted: Set[str] = frozenset()
+) -> Motion:
     """The critical loads of a problem, moving with each of several parameters.
+
+    wanted : names of fields; all of them move.
 
     Raises
     ------

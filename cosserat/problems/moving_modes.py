@@ -8,7 +8,7 @@ k' = v . (K' - k M') v.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -141,8 +141,12 @@ def _single(k: Complex, more: Complex) -> NDArray[np.bool_]:
     return np.asarray((near.sum(axis=1) <= 1) & (k != 0))
 
 
-def moving_modes(problem: RodModes, nearby: Sequence[Nearby], name: str) -> Motion:
+def moving_modes(
+    problem: RodModes, nearby: Sequence[Nearby], name: str, wanted: Set[str] = frozenset()
+) -> Motion:
     """The modes of a problem, moving with each of several parameters.
+
+    wanted : names of fields; all of them move.
 
     Raises
     ------

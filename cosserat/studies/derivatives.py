@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -114,7 +114,8 @@ def derivatives(
     """
     table = table_of(problem)
     near = [_nearby(problem, table, one) for one in parameters]
-    motion, method = _motion(problem, near, name), method_of(problem)
+    wanted = {word for one in read_outs for word in one.needs()}
+    motion, method = _motion(problem, near, name, wanted), method_of(problem)
     fields = _fields(motion.base, read_outs)
     values = {one.name: float(one.of(fields.fields, fields.labels)) for one in read_outs}
     by: dict[tuple[str, str], Derivative] = {}
@@ -169,9 +170,9 @@ def method_of(problem: Problem) -> str:
     return TANGENT if moves_exactly(problem) else DIFFERENCES
 
 
-def _motion(problem: Problem, near: Sequence[Nearby], name: str) -> Motion:
+def _motion(problem: Problem, near: Sequence[Nearby], name: str, wanted: Set[str]) -> Motion:
     """The result, and how it moves with each parameter."""
-    found = moving(problem, near, name)
+    found = moving(problem, near, name, wanted)
     if found is not None:
         return found
     ways = tuple(_Solved(one, name) for one in near)

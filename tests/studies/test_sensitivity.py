@@ -15,9 +15,9 @@ CASES = cosserat.load_cases(FILE)
 @pytest.mark.parametrize(
     ("name", "keys"),
     [
-        ("followed", ["rod.length", "rod.section.height", "follower_forces.0.force"]),
+        ("followed", ["rod.length", "follower_forces.0.force"]),
         ("published", ["rod.section.height", "gravity.g"]),
-        ("moved", ["rod.material.poisson", "prescribed_rotations.0.by"]),
+        ("moved", ["prescribed_rotations.0.by"]),
     ],
 )
 def test_derivatives_are_those_of_differenced_solves(name, keys):
