@@ -27,11 +27,13 @@ from cosserat.solvers.slopes import slope
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 Nearby = Callable[[float], Any]
 """The problem after a step of its parameter; a step of zero is the problem itself."""
 
 _SINGULAR = 1e-8  # of the load, within which of a critical one the equilibrium has no derivative
 _ROUGH = 1e-5  # of the largest derivative, above which its error says that there is none
+_ROUNDED = 1e-12  # of the largest reaction, below which a force is round-off
 _BESIDE = 1e-6  # of the load, to the Hessian that shows how fast the softest eigenvalue changes
 _INVERSE_ITERATIONS = 12
 
@@ -98,9 +100,18 @@ class Body:
         return tangent
 
 
-def _turned(vectors: Array) -> NDArray[np.complex128]:
+def _turned(vectors: Array) -> Complex:
     """Vectors (..., 2) as complex numbers, whose quotients are rotations and stretches."""
     return vectors[..., 0] + 1j * vectors[..., 1]
+
+
+def _shifted(before: Complex, after: Complex, away: Complex, moved: Complex) -> Complex:
+    """Displacements of vectors `after` a step that turn and stretch as displacements `away` from those `before` it.
+
+    moved : further changes of these.  Nothing large is subtracted, so that small displacements keep their digits.
+    """
+    strain = away / before
+    return np.asarray((strain + (1 + strain) * np.expm1(moved / (before + away))) * after)
 
 
 class Moved:
@@ -155,16 +166,17 @@ class Moved:
         body, base = self.body(step), self.base
         split, out = base.problem.rod.kinematics.split, base.system.frame.out
         before, after = _turned(base.reference), _turned(body.reference)
-        now, moving = before + _turned(split(out(self.point.q))), _turned(split(out(rate)))
-        edges, way = np.diff(now[:, 0]), np.diff(moving[:, 0])
-        edges = edges / np.diff(before[:, 0]) * np.diff(after[:, 0]) * np.exp(step * way / edges)
-        first = after[0, 0] + now[0, 0] - before[0, 0] + step * moving[0, 0]
-        placed = np.empty_like(now)
-        placed[:, 0] = first + np.concatenate([[0], np.cumsum(edges)])
-        own = now[:, 1:]
-        placed[:, 1:] = own / before[:, 1:] * after[:, 1:] * np.exp(step * moving[:, 1:] / own)
-        away = placed - after
-        return body.system.frame.into(np.stack([away.real, away.imag], axis=-1).ravel())
+        away, moving = _turned(split(out(self.point.q))), _turned(split(out(rate)))
+        found = np.empty_like(away)
+        edges = _shifted(
+            np.diff(before[:, 0]),
+            np.diff(after[:, 0]),
+            np.diff(away[:, 0]),
+            step * np.diff(moving[:, 0]),
+        )
+        found[:, 0] = away[0, 0] + step * moving[0, 0] + np.concatenate([[0], np.cumsum(edges)])
+        found[:, 1:] = _shifted(before[:, 1:], after[:, 1:], away[:, 1:], step * moving[:, 1:])
+        return body.system.frame.into(np.stack([found.real, found.imag], axis=-1).ravel())
 
     def state(self, step: float) -> Equilibrium:
         """The equilibrium after a step, to first order."""
@@ -186,9 +198,10 @@ class Moved:
         InputError : it has none, or the parameter is at an end of its range.
         """
         history, factor = self.point.history, self.point.factor
+        held = float(np.abs(self.point.reaction).max(initial=0.0))
         found = slope(
             lambda step: self.body(step).tangent(self.carried(step), history, factor).gradient,
-            self.point.rounding,
+            max(self.point.rounding, _ROUNDED * held),
         )
         free = ~self.base.system.constrained
         if found.relative > _ROUGH or found.kink[free].any():
