@@ -118,7 +118,8 @@ def _here(found: Family, folder: Path, names: list[str]) -> None:
             def tell(fraction: float, words: str, begin: float = begin, share: float = share) -> None:
                 report(begin + share * fraction, words)
 
-            write_solved(answer_file(folder, name), task, solve_members(task, tell))
+            solved = solve_members(task, tell, os.cpu_count() or 1)
+            write_solved(answer_file(folder, name), task, solved)
 
 
 def _by_snakemake(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -95,9 +96,9 @@ def study(
 def solved(found: Family, progress: Progress | None = None) -> xr.Dataset:
     """The answer of a study, solved here and now."""
     if progress is not None:
-        return answer(found, solve_members(found.task(), progress))
+        return answer(found, solve_members(found.task(), progress, os.cpu_count() or 1))
     with bar(found.name) as report:
-        return answer(found, solve_members(found.task(), report))
+        return answer(found, solve_members(found.task(), report, os.cpu_count() or 1))
 
 
 def family_of(
