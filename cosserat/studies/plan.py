@@ -190,15 +190,7 @@ def _put(whole: Solved, part: Solved, rows: NDArray[np.int64], at: NDArray[np.in
     for name, values in part.values.items():
         whole.values[name][to] = values[rows]
     for name, (dims, values) in part.whole.items():
-        if name not in whole.whole:
-            whole.whole[name] = (dims, np.full((whole.status.size, *values.shape[1:]), np.nan))
-        stored = whole.whole[name][1]
-        if stored.shape[1:] != values.shape[1:]:
-            raise InputError(
-                f"'{name}' has the shape {values.shape[1:]} in some members and {stored.shape[1:]} in others; keep "
-                "read-outs of it in place of 'keep_whole'"
-            )
-        stored[to] = values[rows]
+        whole.keep(name, dims[1:], to, values[rows])
     whole.beside |= part.beside
     whole.labels |= part.labels
     for name in ("status", "reason", "iterations"):

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,6 +95,23 @@ class Solved:
             np.full(members, -1, dtype=np.int32),
         )
 
+    def keep(self, name: str, dims: tuple[str, ...], members: NDArray[np.int64], values: Array) -> None:
+        """Keep a whole variable of some members, (k, ...); where sizes differ, ends are filled with no number."""
+        size = values.shape[1:]
+        stored = (
+            self.whole[name][1]
+            if name in self.whole
+            else np.empty((self.status.size, *(0 for _ in size)))
+        )
+        largest = tuple(map(max, stored.shape[1:], size))
+        if largest != stored.shape[1:]:
+            larger = np.full((self.status.size, *largest), np.nan)
+            larger[tuple(map(slice, stored.shape))] = stored
+            stored = larger
+        place: tuple[Any, ...] = (members, *map(slice, size))
+        stored[place] = values
+        self.whole[name] = (("member", *dims), stored)
+
 
 def solve_members(
     task: Task, progress: Callable[[float, str], None] = silent, threads: int = 1
@@ -159,10 +176,8 @@ def _keep_many(task: Task, many: Many, part: NDArray[np.int64], found: Solved) -
         found.values[one.name][to] = one.of(fields, many.labels, rows.size)
     for name in task.keep_whole:
         dims, values = fields[name]
-        if name not in found.whole:
-            found.whole[name] = (dims, np.full((found.status.size, *values.shape[1:]), np.nan))
-            found.labels |= {dim: tuple(many.labels[dim]) for dim in dims if dim in many.labels}
-        found.whole[name][1][to] = values
+        found.keep(name, dims[1:], to, values)
+        found.labels |= {dim: tuple(many.labels[dim]) for dim in dims if dim in many.labels}
         _keep_places(task, found, dims[1:], {own: (d[1:], v[0]) for own, (d, v) in many.fields.items()})
     found.iterations[to] = many.statistics["iterations"][rows]
     found.status[to] = SOLVED
@@ -239,36 +254,11 @@ def _keep(task: Task, solution: Solution, member: int, found: Solved) -> None:
         if name not in solution.fields:
             raise InputError(f"the result has no variable '{name}'")
         dims, own = solution.fields[name]
-        keep_whole(found, name, dims, own, member, solution.labels)
+        found.keep(name, dims, np.array([member]), own[None])
+        found.labels |= {dim: tuple(solution.labels[dim]) for dim in dims if dim in solution.labels}
         _keep_places(task, found, dims, solution.fields)
     for name, value in values.items():
         found.values[name][member] = value
-
-
-def keep_whole(
-    found: Solved,
-    name: str,
-    dims: tuple[str, ...],
-    own: Array,
-    member: int,
-    labels: Mapping[str, Sequence[str]],
-) -> None:
-    """Keep a whole variable of one member.
-
-    Raises
-    ------
-    InputError : it has another size than that of the members before.
-    """
-    if name not in found.whole:
-        found.whole[name] = (("member", *dims), np.full((found.status.size, *own.shape), np.nan))
-        found.labels |= {dim: tuple(labels[dim]) for dim in dims if dim in labels}
-    stored = found.whole[name][1]
-    if stored.shape[1:] != own.shape:
-        raise InputError(
-            f"'{name}' has the shape {own.shape}, and {stored.shape[1:]} in other members; keep read-outs of it in "
-            "place of 'keep_whole'"
-        )
-    stored[member] = own
 
 
 def _keep_places(task: Task, found: Solved, dims: tuple[str, ...], fields: Mapping[str, Field]) -> None:

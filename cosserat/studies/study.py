@@ -103,7 +103,7 @@ class Study(Parameters):
     keep: dict[str, str] = {}  # noqa: RUF012 - pydantic copies it
     """Read-outs by name: a variable of the result, such as "u.E2 at last" or "max |kappa|"."""
     keep_whole: Annotated[tuple[str, ...], Items(0, 50)] = ()
-    """Variables of the result that are kept whole."""
+    """Variables of the result that are kept whole; where sizes differ between members, ends are filled with NaN."""
     sensitivities: Annotated[bool, Strict()] = False
     """Whether the exact derivative of each read-out by each varied quantity is stored with it."""
 

@@ -202,6 +202,18 @@ def test_one_batch_or_many_extended_and_back_give_the_same_bytes(short, tmp_path
     assert bytes_of(parts) == first
 
 
+def test_whole_variables_of_several_sizes_do_not_depend_on_the_batches(short, tmp_path, monkeypatch):
+    found = family_of(short, {"rod.vertices": [6, 9, 7]}, TIP, keep_whole=["x"], name="s")
+    solve_left(found, tmp_path / "whole")
+    monkeypatch.setattr(plan, "batch_size", lambda members, seconds: 1)
+    solve_left(found, tmp_path / "parts")
+    assert bytes_of(tmp_path / "whole") == bytes_of(tmp_path / "parts")
+    data = answer(*plan.gathered(tmp_path / "parts"))
+    assert data["x"].shape == (3, 9, 2)
+    assert list(np.isfinite(data["x"][..., 0]).sum("vertex").to_numpy()) == [6, 9, 7]
+    assert (data["status"] == 0).all()
+
+
 def test_what_is_missing_is_not_yet(short, tmp_path, monkeypatch):
     monkeypatch.setattr(plan, "batch_size", lambda members, seconds: 3)
     found = family_of(short, [POINTS], TIP, name="s")
