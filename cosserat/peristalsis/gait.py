@@ -228,7 +228,16 @@ class Gait(Parameters):
 
     def instants(self, step: float) -> list[Instant]:
         """The instants of one stride: its breaks, and between them at most `step` [s] apart."""
-        return [Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in self._divided(step)]
+        if step not in self._known:
+            self._known[step] = [
+                Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in self._divided(step)
+            ]
+        return self._known[step]
+
+    @functools.cached_property
+    def _known(self) -> dict[float, list[Instant]]:
+        """The instants by step, which the cases of a study share."""
+        return {}
 
     def telling_phases(self, step: float) -> list[float]:
         """Phases of its breaks and of one instant between each two: all that tell which loads ever act."""

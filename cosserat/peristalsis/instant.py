@@ -139,7 +139,7 @@ class InstantProblem:
         InputError : the loads collapse a section.
         """
         mu, layer = self._homogeneous
-        return mu.mean(axis=1), layer
+        return (mu[:, 0] + mu[:, 1]) / 2, layer
 
     @functools.cached_property
     def _homogeneous(self) -> tuple[Array, float]:

@@ -6,6 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 Muscle = Literal["anchoring", "advancing", "relaxed"]
 
 
@@ -50,3 +54,23 @@ def continued(forces: Sequence[float | None]) -> list[float | None]:
             if found[number] is None:
                 found[number] = found[number - 1 if order.step > 0 else number + 1]
     return found
+
+
+def strength_along(
+    regions: Sequence[Region], z: Array, load: Muscle, usual: float | None = None
+) -> Array:
+    """Force or pressure of the muscles of one kind at places z [N or Pa], zero where the others act.
+
+    usual : where a region has none of its own; by default one wherever these muscles act.
+    """
+    cuts = [r.right for r in regions[:-1]]
+    own = [
+        0.0
+        if r.load != load
+        else 1.0
+        if usual is None
+        else (usual if r.own is None else r.own) * r.amplitude
+        for r in regions
+    ]
+    result: Array = np.array(own)[np.searchsorted(cuts, z, side="right")]
+    return result
