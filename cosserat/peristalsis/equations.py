@@ -182,3 +182,25 @@ def fastest(df: Array, gradient: Array) -> float:
         size = abs(half) + math.sqrt(root) if root >= 0 else math.hypot(half, math.sqrt(-root))
         found = max(found, size / gradient[k])
     return found
+
+
+@njit(cache=True, nogil=True)
+def layered(z: Array, span: Ints, ends: Array, plateaus: Array, layer: float) -> Array:
+    """Plateaus joined by layers, (K, 2), at places z in the spans with these numbers.
+
+    ends : (S, 2) of the spans.  plateaus : (S, 2, 2) mu_1, mu_2 at the left and at the right end of each.
+    """
+    mu = np.empty((z.size, 2))
+    for k in range(z.size):
+        s = span[k]
+        left, right = ends[s]
+        along = (z[k] - left) / (right - left)
+        before = math.exp(-abs(z[k] - left) / (2 * layer)) if s > 0 else 0.0
+        after = math.exp(-abs(z[k] - right) / (2 * layer)) if s < len(ends) - 1 else 0.0
+        for c in range(2):
+            mu[k, c] = plateaus[s, 0, c] + along * (plateaus[s, 1, c] - plateaus[s, 0, c])
+            if s > 0:
+                mu[k, c] -= before * ((plateaus[s, 0, c] - plateaus[s - 1, 1, c]) / 2)
+            if s < len(ends) - 1:
+                mu[k, c] += after * ((plateaus[s + 1, 0, c] - plateaus[s, 1, c]) / 2)
+    return mu

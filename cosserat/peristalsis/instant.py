@@ -209,15 +209,8 @@ class InstantProblem:
     def guess(self, z: Array, span: Ints) -> Array:
         """Plateaus joined by layers, shape (K, 2), at places z in the spans with these indices."""
         mu, layer = self._homogeneous
-        left, right = self._ends[span].T
-        along = (z - left) / (right - left)
-        result: Array = mu[span, 0] + along[:, None] * (mu[span, 1] - mu[span, 0])
-        for number, junction in enumerate(self.spans[:-1]):
-            jump = (mu[number + 1, 0] - mu[number, 1]) / 2
-            for side, sign in ((number, 1.0), (number + 1, -1.0)):
-                fade = np.exp(-np.abs(z - junction.right) / (2 * layer)) * (span == side)
-                result = result + sign * fade[:, None] * jump
-        return result
+        guessed: Array = equations.layered(z, span, self._ends, mu, layer)
+        return guessed
 
     def _first_guess(self, mesh: Mesh) -> Array:
         """The guess at the nodes of a mesh."""

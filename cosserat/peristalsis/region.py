@@ -74,3 +74,23 @@ def strength_along(
     ]
     result: Array = np.array(own)[np.searchsorted(cuts, z, side="right")]
     return result
+
+
+def changed(before: Sequence[Region], after: Sequence[Region]) -> float:
+    """The fraction of the body on which two sets of regions have different loads."""
+    return sum(
+        max(0.0, min(a.right, b.right) - max(a.left, b.left))
+        for a in before
+        for b in after
+        if a.load != b.load
+    )
+
+
+def load_behind(front: str) -> Muscle:
+    """The load behind a front, "gamma" or "eta"."""
+    return "anchoring" if front == "gamma" else "advancing"
+
+
+def load_ahead(front: str) -> Muscle:
+    """The load before a front."""
+    return "advancing" if front == "gamma" else "anchoring"

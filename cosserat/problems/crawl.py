@@ -90,8 +90,9 @@ class CrawlerProblem(Problem):
     def pressure(self, mu: Array, multiplier: Array) -> Array:
         """Coelomic pressure, eqs. (2.8.8), (2.8.9), of an incompressible body with its own radius and modulus [Pa]."""
         k_i, k_g = self.crawler.incompressible_stiffnesses
-        reactive = multiplier * k_g / self.crawler.length**2 - k_i * (2 - mu.sum(axis=-1))
-        result: Array = -reactive * mu.prod(axis=-1) / self.crawler.area
+        mu_1, mu_2 = mu[..., 0], mu[..., 1]
+        reactive = multiplier * k_g / self.crawler.length**2 - k_i * (2 - (mu_1 + mu_2))
+        result: Array = -reactive * (mu_1 * mu_2) / self.crawler.area
         return result
 
     def fields(
@@ -234,13 +235,13 @@ class Crawl(CrawlerProblem):
         pulls = self.loads.anchoring > 0 or any(chamber.force for chamber in self.gait.chambers)
         if not (pulls and holds_force(self.crawler, self.loads)):
             return self
-        for phase in self.gait.telling_phases(self.step):
-            if not any(region.load == "anchoring" for region in self.gait.regions(phase)):
-                raise PydanticCustomError(
-                    "gait",
-                    f"at phase {phase:g} no region anchors, and the force in the advancing ones would jump to "
-                    "zero; keep an anchoring region, or set loads.advancing_force = 'none'",
-                )
+        phase = self.gait.idle_phase(self.step)
+        if phase is not None:
+            raise PydanticCustomError(
+                "gait",
+                f"at phase {phase:g} no region anchors, and the force in the advancing ones would jump to "
+                "zero; keep an anchoring region, or set loads.advancing_force = 'none'",
+            )
         return self
 
     def thin_anchors(self) -> list[Instant]:
