@@ -24,7 +24,7 @@ from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
-_SECONDS = {"banded": 2e-3, "collocation": 0.05}  # about the time of an instant
+_SECONDS = {"banded": 5e-4, "collocation": 0.05}  # about the time of an instant
 _STORED = 10  # about so many numbers are stored of each section at each instant
 _MIN_REGION_LENGTH = 1e-6  # as a fraction of the length; a shorter region is empty
 _EQUAL_LOADS_TOLERANCE = 1e-3  # loads that differ on less of the body are the same
