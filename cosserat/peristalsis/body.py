@@ -151,6 +151,11 @@ def scales_at(body: Sequence[Piece], number: Ints, z: Array) -> Scales:
     return Scales(*np.moveaxis(values, -1, 0))
 
 
+def tabulated(body: Sequence[Piece]) -> Array:
+    """A row for each piece, (P, 10): left, right, and the scales at its rear and at its front."""
+    return np.array([(p.left, p.right, *p.rear, *p.front) for p in body])
+
+
 def piece_at(body: Sequence[Piece], z: Array) -> Ints:
     """The number of the piece at places z, at a joint that ahead of it."""
     return np.searchsorted([p.right for p in body[:-1]], z, side="right")
@@ -172,6 +177,8 @@ def spans(regions: Sequence[Any], body: Sequence[Piece]) -> tuple[Span, ...]:
     A joint nearer than NEAR to a front is moved onto it.
     """
     cuts = [regions[0].left, *(r.right for r in regions)]
+    if body is UNIFORM:
+        return tuple(Span(a, b, number, 0) for number, (a, b) in enumerate(itertools.pairwise(cuts)))
     joints = [p.right for p in body[:-1] if min(abs(p.right - cut) for cut in cuts) > NEAR]
     edges = sorted([*cuts, *joints])
     middles = np.array([(a + b) / 2 for a, b in itertools.pairwise(edges)])

@@ -14,12 +14,12 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Parameters, Quantity
+from cosserat.peristalsis import equations
 from cosserat.peristalsis.body import UNIFORM, BodySegment, Piece, check_segments, mean_square, pieces
 from cosserat.rods.directed_rod import Section, integrated_stiffnesses
 
@@ -242,9 +242,9 @@ class Groups:
     def compressible_source(
         self, mu: Array, n: Array, c: Array, own: tuple[Array, Array] | None = None
     ) -> tuple[Array, Array, Array]:
-        """f, its derivative and mu_3 of the compressible rod: see `_compressible`; own : g and m at each point."""
+        """f, its derivative and mu_3 by `equations.compressible`; own : g and m at each point."""
         g, m = own or self._everywhere(mu)
-        return _compressible(mu, n, c, g, self.p, m, self.printed_contact)
+        return equations.compressible(mu, n, c, g, self.p, m, self.printed_contact)
 
     def incompressible_source(
         self,
@@ -254,66 +254,9 @@ class Groups:
         c: Array,
         own: tuple[Array, Array] | None = None,
     ) -> tuple[Array, Array, Array]:
-        """f, its derivative and mu_3 of the incompressible rod: see `_incompressible`; own : i and m at each point."""
+        """f, its derivative and mu_3 by `equations.incompressible`; own : i and m at each point."""
         i, m = own or self._everywhere(mu)
-        return _incompressible(mu, multiplier, exponent, c, i, m, self.printed_contact)
+        return equations.incompressible(mu, multiplier, exponent, c, i, m, self.printed_contact)
 
     def _everywhere(self, mu: Array) -> tuple[Array, Array]:
         return np.full(mu.shape[0], self.stiffness), np.full(mu.shape[0], self.m)
-
-
-@njit(cache=True)
-def _compressible(
-    mu: Array, n: Array, c: Array, g: Array, p: float, m: Array, printed_contact: bool
-) -> tuple[Array, Array, Array]:
-    """Right-hand sides of eqs. (2.3.6) and (2.3.9) at K points.
-
-    mu : (K, 2).  n : (K,) contact force over k_S, -d or 0.  c : (K,) advancing load, or 0.  g, m : (K,).
-    Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
-    """
-    f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
-    for k in range(mu.shape[0]):
-        mu_1, mu_2 = mu[k, 0], mu[k, 1]
-        mu_3[k] = (
-            1 + n[k] - p * (mu_1 + mu_2 - 2)
-        )  # n of (2.3.2), for (2.3.5) and (2.3.10); erratum E2.1
-        contact = m[k] / mu_3[k] if printed_contact else m[k]
-        d_contact = m[k] * p / mu_3[k] ** 2 if printed_contact else 0.0
-        # k^alpha of (2.3.2) over k_S with mu_3 substituted, to keep digits as nu tends to 1/2
-        k_1 = (1 - p) * ((1 + p) * (mu_1 - 1) + p * (mu_2 - 1)) + p * n[k]
-        k_2 = (1 - p) * ((1 + p) * (mu_2 - 1) + p * (mu_1 - 1)) + p * n[k]
-        f[k, 0] = contact + g[k] * k_1 + c[k]
-        f[k, 1] = g[k] * k_2 + c[k]
-        df[k, 0, 0] = d_contact + g[k] * (1 - p) * (1 + p)
-        df[k, 0, 1] = d_contact + p * g[k] * (1 - p)
-        df[k, 1, 0] = p * g[k] * (1 - p)
-        df[k, 1, 1] = g[k] * (1 - p) * (1 + p)
-    return f, df, mu_3
-
-
-@njit(cache=True)
-def _incompressible(
-    mu: Array, multiplier: Array, exponent: Array, c: Array, i: Array, m: Array, printed_contact: bool
-) -> tuple[Array, Array, Array]:
-    """Right-hand sides of eqs. (2.4.10) and (2.4.13) at K points.
-
-    mu : (K, 2).  multiplier : (K,) lambda_c, which goes as (mu_1 mu_2)^-exponent.  c : (K,) advancing load, or 0.
-    i, m : (K,).
-    Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
-    """
-    f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
-    for k in range(mu.shape[0]):
-        mu_1, mu_2 = mu[k, 0], mu[k, 1]
-        lam, s = multiplier[k], exponent[k]
-        mu_3[k] = 1 / (mu_1 * mu_2)  # (2.4.1)
-        contact = m[k] * mu_1 * mu_2 if printed_contact else m[k]
-        f[k, 0] = c[k] + contact + lam / mu_1 + i[k] * (2 * mu_1 + mu_2 - 3)
-        f[k, 1] = c[k] + lam / mu_2 + i[k] * (2 * mu_2 + mu_1 - 3)
-        df[k, 0, 0] = 2 * i[k] - (1 + s) * lam / (mu_1 * mu_1)
-        df[k, 0, 1] = i[k] - s * lam / (mu_1 * mu_2)
-        df[k, 1, 0] = i[k] - s * lam / (mu_1 * mu_2)
-        df[k, 1, 1] = 2 * i[k] - (1 + s) * lam / (mu_2 * mu_2)
-        if printed_contact:
-            df[k, 0, 0] += m[k] * mu_2
-            df[k, 0, 1] += m[k] * mu_1
-    return f, df, mu_3

@@ -20,8 +20,16 @@ from cosserat.parameters import Items, Parameters, Quantity
 from cosserat.peristalsis import chambers as scheduled
 from cosserat.peristalsis.chambers import Chamber, RampForm, State
 from cosserat.peristalsis.measured import Measured
-from cosserat.peristalsis.region import Muscle, Region
-from cosserat.peristalsis.tracks import PHASE_TOLERANCE, Track, check_track, check_work, follow, place_of
+from cosserat.peristalsis.region import Muscle, Region, changed, load_ahead, load_behind
+from cosserat.peristalsis.tracks import (
+    PHASE_TOLERANCE,
+    Track,
+    check_track,
+    check_work,
+    distinct,
+    follow,
+    place_of,
+)
 
 _BREAK_OFFSET = 1e-7  # distance from a break at which its two sides are compared, in phases
 _CHANGE_TOLERANCE = 1e-4  # fraction of the body that fronts pass between those sides, and the clearance
@@ -87,6 +95,12 @@ class Gait(Parameters):
 
     @model_validator(mode="after")
     def _is_a_gait(self) -> Self:
+        _ = self._checked  # once, however many cases share this gait
+        return self
+
+    @functools.cached_property
+    def _checked(self) -> bool:
+        """True, or what a gait may not be is raised."""
         if not self.phases:
             raise PydanticCustomError(
                 "gait", "'phases' is empty; give the duration of at least one phase"
@@ -104,7 +118,7 @@ class Gait(Parameters):
                 self._refuse_overlap(phase)
         for phase in self.breaks():
             self._refuse_sudden_change(phase)
-        return self
+        return True
 
     @property
     def duration(self) -> float:
@@ -135,7 +149,7 @@ class Gait(Parameters):
             found += scheduled.breaks(self.chambers, self.at_rest, self.last, self._a_ramp_from)
         elif self.ramp:
             found.append(self.phase(self.ramp))
-        return _distinct(found)
+        return distinct(found)
 
     @property
     def last(self) -> float:
@@ -169,9 +183,7 @@ class Gait(Parameters):
 
     def first_change(self) -> float:
         """The fraction of the body whose load at the start of the first stride is not that at the end of a stride."""
-        return (
-            0.0 if self.chambers or self.ramp else _changed(self.regions(self.last), self.regions(0.0))
-        )
+        return 0.0 if self.chambers or self.ramp else changed(self.regions(self.last), self.regions(0.0))
 
     def _a_ramp_from(self, phase: float, ramps: float) -> float:
         return self.phase(self.time(phase) + ramps * self.ramp)
@@ -206,11 +218,11 @@ class Gait(Parameters):
         load: Muscle = self.at_rest
         fronts = self.fronts(phase)
         if fronts:
-            load = _load_behind(fronts[0][1])
+            load = load_behind(fronts[0][1])
         cuts = [0.0]
         loads = [load]
         for place, kind in fronts:
-            load = _load_ahead(kind)
+            load = load_ahead(kind)
             if place < self.clearance:
                 loads[-1] = load
             elif place <= 1 - self.clearance:
@@ -226,9 +238,13 @@ class Gait(Parameters):
                 return place
         raise AssertionError("the tracks of the anchor were checked to cover the stride")
 
-    def instants(self, step: float) -> list[Instant]:
+    def instants(self, step: float) -> tuple[Instant, ...]:
         """The instants of one stride: its breaks, and between them at most `step` [s] apart."""
-        return [Instant(p, self.time(p), self.regions(p), self.anchored(p)) for p in self._divided(step)]
+        return _instants(self, step)
+
+    def idle_phase(self, step: float) -> float | None:
+        """The first phase at which no region anchors, if there is one."""
+        return _idle_phase(self, step)
 
     def telling_phases(self, step: float) -> list[float]:
         """Phases of its breaks and of one instant between each two: all that tell which loads ever act."""
@@ -254,7 +270,7 @@ class Gait(Parameters):
         for number, duration in enumerate(self.phases):
             count = max(1, math.ceil(duration / step - PHASE_TOLERANCE))
             phases.extend(number + k / count for k in range(count + 1))
-        return _distinct(phases)
+        return distinct(phases)
 
     def _check_measured(self) -> None:
         for number, measured in enumerate(self.measured):
@@ -311,11 +327,11 @@ class Gait(Parameters):
         last = self.last
         before = self.regions((last if phase == 0 else phase) - _BREAK_OFFSET)
         after = self.regions((0.0 if phase == last else phase) + _BREAK_OFFSET)
-        changed = _changed(before, after)
-        if changed > self.sudden + _CHANGE_TOLERANCE:
+        part = changed(before, after)
+        if part > self.sudden + _CHANGE_TOLERANCE:
             raise PydanticCustomError(
                 "gait",
-                f"at phase {phase % last:g} the load on {changed:.3g} of the body changes at once; let fronts enter "
+                f"at phase {phase % last:g} the load on {part:.3g} of the body changes at once; let fronts enter "
                 "and leave at the ends and the stride end as it began, set 'at_rest', or allow it with 'sudden'",
             )
 
@@ -364,25 +380,20 @@ class Gait(Parameters):
                 )
 
 
-def _changed(before: tuple[Region, ...], after: tuple[Region, ...]) -> float:
-    """The fraction of the body on which two sets of regions have different loads."""
-    return sum(
-        max(0.0, min(a.right, b.right) - max(a.left, b.left))
-        for a in before
-        for b in after
-        if a.load != b.load
+@functools.lru_cache(maxsize=4)
+def _instants(gait: Gait, step: float) -> tuple[Instant, ...]:
+    return tuple(
+        Instant(p, gait.time(p), gait.regions(p), gait.anchored(p)) for p in gait._divided(step)
     )
 
 
-def _distinct(phases: list[float]) -> list[float]:
-    """Phases in increasing order, without duplicates."""
-    ordered = sorted(phases)
-    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > PHASE_TOLERANCE]
-
-
-def _load_behind(kind: str) -> Muscle:
-    return "anchoring" if kind == "gamma" else "advancing"
-
-
-def _load_ahead(kind: str) -> Muscle:
-    return "advancing" if kind == "gamma" else "anchoring"
+@functools.lru_cache(maxsize=4)
+def _idle_phase(gait: Gait, step: float) -> float | None:
+    return next(
+        (
+            phase
+            for phase in gait.telling_phases(step)
+            if not any(region.load == "anchoring" for region in gait.regions(phase))
+        ),
+        None,
+    )

@@ -8,14 +8,17 @@ conditions where the body itself changes.
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import InputError, NotConvergedError
-from cosserat.peristalsis.body import UNIFORM, Ints, mean_square, scales_at, spans
+from cosserat.peristalsis import equations
+from cosserat.peristalsis.body import UNIFORM, Ints, Piece, mean_square, spans, tabulated
 from cosserat.peristalsis.crawler import Crawler, Groups, Incompressible, Loads
 from cosserat.peristalsis.profile import Profile
 from cosserat.peristalsis.region import Region, continued, merged
@@ -26,8 +29,6 @@ from cosserat.solvers.regions import RegionSettings, Remote, Source, solve
 Array = NDArray[np.float64]
 
 _MIN_STRETCH = 0.02  # a plateau with a stretch below this has collapsed
-_MAX_PLATEAU_STEPS = 60
-_PLATEAU_TOLERANCE = 1e-12  # largest correction of a converged plateau
 
 
 def holds_force(body: Crawler, loads: Loads) -> bool:
@@ -37,11 +38,31 @@ def holds_force(body: Crawler, loads: Loads) -> bool:
 
 
 @dataclass(frozen=True)
-class Local:
+class Common:
+    """What all instants of a body under the same loads have in common.
+
+    pieces : of the body; table : the same as `body.tabulated`.  weight : m where the radius is that of the body.
+    """
+
+    groups: Groups
+    pieces: tuple[Piece, ...]
+    table: Array
+    weight: float
+    holds_force: bool
+
+    @classmethod
+    def of(cls, body: Crawler, loads: Loads) -> Common:
+        """Of a body under loads."""
+        groups, pieces = Groups.of(body, loads), body.pieces
+        weight = groups.m / mean_square(pieces)
+        return cls(groups, pieces, tabulated(pieces), weight, holds_force(body, loads))
+
+
+class Local(NamedTuple):
     """What the equations have at K points, each (K,), with k_G and l_0 of the body itself as units.
 
-    force : n over k_S of this place, or lambda_c mu_1 mu_2 l_0^2 / k_G.  pressure : c.  exponent : of `_multiplier`.
-    stiffness, weight : g or i, and m.  gradient : k_G over that of the body itself.
+    force : n over k_S of this place, or lambda_c mu_1 mu_2 l_0^2 / k_G.  pressure : c.  exponent : that of mu_1 mu_2.
+    stiffness, weight : g or i, and m.  gradient : k_G over that of the body itself.  radius : likewise.
     """
 
     force: Array
@@ -50,31 +71,44 @@ class Local:
     stiffness: Array
     weight: Array
     gradient: Array
+    radius: Array
 
 
 class InstantProblem:
-    """One boundary value problem: a body, its loads, and the regions in which they act."""
+    """One boundary value problem: a body, its loads, and the regions in which they act.
 
-    def __init__(self, body: Crawler, loads: Loads, regions: Sequence[Region], name: str) -> None:
+    common : that of the body under the loads, if it is known.
+    """
+
+    def __init__(
+        self,
+        body: Crawler,
+        loads: Loads,
+        regions: Sequence[Region],
+        name: str,
+        common: Common | None = None,
+    ) -> None:
         self.body, self.loads, self.name = body, loads, name
+        self.common = common or Common.of(body, loads)
+        self.groups, self.pieces = self.common.groups, self.common.pieces
         self.regions = regions = merged(regions)
-        self.groups = Groups.of(body, loads)
-        self.advancing = np.array([r.load == "advancing" for r in regions])
+        self.advancing = [r.load == "advancing" for r in regions]
         pulling = [
             self.groups.force_of(self._strength(r)) if r.load == "anchoring" else None for r in regions
         ]
-        if holds_force(body, loads):
+        if self.common.holds_force:
             pulling = continued(pulling)
-        self.force = np.array([-(force or 0.0) for force in pulling])
-        squeezing = [
+        self.force = [-(force or 0.0) for force in pulling]
+        self.pressure = [
             self.groups.c_of(self._strength(r)) if r.load == "advancing" else 0.0 for r in regions
         ]
-        self.pressure = np.array(squeezing)
         printed = self.groups.incompressible and loads.multiplier == "printed"
-        lengths = np.array([r.right - r.left for r in regions])
-        self.exponent = np.where(self.advancing & printed, lengths, 1.0)
-        self.pieces = body.pieces
+        self.exponent = [r.right - r.left if printed and r.load == "advancing" else 1.0 for r in regions]
         self.spans = spans(regions, self.pieces)
+        self._ends = np.array([(s.left, s.right) for s in self.spans])
+        self._piece = np.array([s.piece for s in self.spans])
+        per_region = np.array([self.force, self.pressure, self.exponent])
+        self._per_span = per_region[:, [s.region for s in self.spans]]
 
     def _strength(self, region: Region) -> float:
         """The force [N] or the pressure [Pa] of the muscles of a region."""
@@ -85,20 +119,16 @@ class InstantProblem:
 
     def local(self, span: Ints, z: Array) -> Local:
         """The equations at places z, each in the span of that number."""
-        region, piece = (
-            np.array([getattr(s, n) for s in self.spans])[span] for n in ("region", "piece")
+        return Local(*self._rows(span, z))
+
+    def _rows(self, span: Ints, z: Array) -> Array:
+        """The same as an array (7, K)."""
+        of_body = self.groups.stiffness, self.common.weight
+        divided = not self.groups.incompressible
+        rows: Array = equations.local_terms(
+            z, span, self._per_span, self._piece, self.common.table, of_body, divided
         )
-        scales = scales_at(self.pieces, piece, z)
-        force = self.force[region] * scales.anchoring
-        weight = self.groups.m * (scales.radius**3 / mean_square(self.pieces))
-        return Local(
-            force=force if self.groups.incompressible else force / scales.stretching,
-            pressure=self.pressure[region] * (scales.advancing * scales.radius**2),
-            exponent=self.exponent[region],
-            stiffness=self.groups.stiffness * scales.stretching,
-            weight=weight,
-            gradient=scales.gradient,
-        )
+        return rows
 
     @property
     def plateaus(self) -> tuple[Array, float]:
@@ -109,34 +139,27 @@ class InstantProblem:
         InputError : the loads collapse a section.
         """
         mu, layer = self._homogeneous
-        return mu.mean(axis=1), layer
+        return (mu[:, 0] + mu[:, 1]) / 2, layer
 
     @functools.cached_property
     def _homogeneous(self) -> tuple[Array, float]:
         """mu_1, mu_2 of a long body with the loads and the section of either end of every span, shape (S, 2, 2)."""
-        ends = np.array([[s.left, s.right] for s in self.spans]).ravel()
-        count = np.repeat(np.arange(len(self.spans)), 2)
-        local = self.local(count, ends)
-        mu = np.ones((ends.size, 2))
-        for _ in range(_MAX_PLATEAU_STEPS):
-            f, df, mu_3 = self._source(mu, np.ones_like(local.exponent), local)
-            step = -np.linalg.solve(df, f[:, :, None])[:, :, 0]
-            if np.abs(step).max() < _PLATEAU_TOLERANCE:
-                break
-            bound = np.where(step < 0, -0.9 * mu / np.minimum(step, -1e-300), 1.0)
-            mu = mu + np.minimum(1.0, bound.min(axis=1))[:, None] * step
-        for span, (mu_1, mu_2), along, at in zip(count, mu, mu_3, ends, strict=True):
-            for number, value in ((1, mu_1), (2, mu_2), (3, along)):
-                if not value > _MIN_STRETCH:
-                    raise self._collapse(self.regions[self.spans[span].region], number, at)
-        if not np.abs(step).max() < _PLATEAU_TOLERANCE:
+        ends = self._ends.ravel()
+        rows = self._rows(np.repeat(np.arange(len(self.spans)), 2), ends)
+        groups = self.groups
+        mu, mu_3, df, left = equations.homogeneous(
+            rows, groups.p, groups.incompressible, groups.printed_contact
+        )
+        for k, number in np.argwhere(~(np.column_stack([mu, mu_3]) > _MIN_STRETCH)):
+            raise self._collapse(self.regions[self.spans[k // 2].region], number + 1, ends[k])
+        if not left < equations.PLATEAU_TOLERANCE:
             raise NotConvergedError(
-                f"{self.asked}: no homogeneous state found in {_MAX_PLATEAU_STEPS} steps; take weaker loads",
-                iterations=_MAX_PLATEAU_STEPS,
-                residual=float(np.abs(step).max()),
+                f"{self.asked}: no homogeneous state found in {equations.MOST_PLATEAU_STEPS} steps; take weaker loads",
+                iterations=equations.MOST_PLATEAU_STEPS,
+                residual=left,
             )
-        fastest = (np.abs(np.linalg.eigvals(df)) / local.gradient[:, None]).max()
-        return mu.reshape(-1, 2, 2), float(1 / np.sqrt(fastest))
+        layer = 1 / math.sqrt(equations.fastest(df, Local(*rows).gradient))
+        return mu.reshape(-1, 2, 2), layer
 
     @property
     def asked(self) -> str:
@@ -169,33 +192,25 @@ class InstantProblem:
             f"{self.body.material_young:g} Pa"
         )
 
-    def _source(self, mu: Array, exponent: Array, local: Local) -> tuple[Array, Array, Array]:
-        """f, its derivative and mu_3 at K points."""
+    def source(self, mu: Array, local: Local, multiplier: Array) -> tuple[Array, Array, Array]:
+        """f, its derivative and mu_3 at K points; multiplier : (K,) lambda_c there, if incompressible."""
         own = local.stiffness, local.weight
         if not self.groups.incompressible:
             return self.groups.compressible_source(mu, local.force, local.pressure, own)
-        multiplier = local.force * (mu[:, 0] * mu[:, 1]) ** -exponent
-        return self.groups.incompressible_source(mu, multiplier, exponent, local.pressure, own)
+        return self.groups.incompressible_source(mu, multiplier, local.exponent, local.pressure, own)
 
     def mesh(self, settings: RegionSettings) -> Mesh:
         """The mesh of this instant."""
         _, layer = self._homogeneous
-        edges = [self.spans[0].left, *(s.right for s in self.spans)]
+        edges = [self._ends[0, 0], *self._ends[:, 1]]
         varies = self.pieces is not UNIFORM  # then there are layers at the ends too
         return graded(edges, layer, settings.elements, settings.degree, fine_ends=varies)
 
     def guess(self, z: Array, span: Ints) -> Array:
         """Plateaus joined by layers, shape (K, 2), at places z in the spans with these indices."""
         mu, layer = self._homogeneous
-        left, right = np.array([[s.left, s.right] for s in self.spans])[span].T
-        along = (z - left) / (right - left)
-        result: Array = mu[span, 0] + along[:, None] * (mu[span, 1] - mu[span, 0])
-        for number, junction in enumerate(self.spans[:-1]):
-            jump = (mu[number + 1, 0] - mu[number, 1]) / 2
-            for side, sign in ((number, 1.0), (number + 1, -1.0)):
-                fade = np.exp(-np.abs(z - junction.right) / (2 * layer)) * (span == side)
-                result = result + sign * fade[:, None] * jump
-        return result
+        guessed: Array = equations.layered(z, span, self._ends, mu, layer)
+        return guessed
 
     def _first_guess(self, mesh: Mesh) -> Array:
         """The guess at the nodes of a mesh."""
@@ -223,15 +238,15 @@ class InstantProblem:
                 solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked, weight)
         mu = mesh.split(solved.u)
         mu_3, multiplier = equation.along(mu)
-        return self._profile(mesh, mu, mesh.slope(mu), mu_3, multiplier, solved.iterations), solved.u
+        return self._profile(equation, mu, mesh.slope(mu), mu_3, multiplier, solved.iterations), solved.u
 
     def _profile(
-        self, mesh: Mesh, mu: Array, slope: Array, mu_3: Array, multiplier: Array, effort: int
+        self, equation: _Equation, mu: Array, slope: Array, mu_3: Array, multiplier: Array, effort: int
     ) -> Profile:
-        piece = np.array([s.piece for s in self.spans])[mesh.region]
-        scales = scales_at(self.pieces, np.repeat(piece, mesh.degree + 1), mesh.places.ravel())
-        radius = (scales.radius * self.body.radius).reshape(mu_3.shape)
-        return Profile(mesh, mu, slope, mu_3, multiplier, radius, effort, self.groups.incompressible)
+        radius = (equation.local.radius * self.body.radius).reshape(mu_3.shape)
+        return Profile(
+            equation.mesh, mu, slope, mu_3, multiplier, radius, effort, self.groups.incompressible
+        )
 
     def collocate(self, settings: RegionSettings, tolerance: float) -> Profile:
         """The thesis's way: first-order systems on a common domain, eqs. (2.3.17)-(2.3.18), (2.4.18)-(2.4.19).
@@ -258,11 +273,12 @@ class InstantProblem:
             found.solution(int(r), z).T for r, z in zip(mesh.region, mesh.places, strict=True)
         ]  # (p + 1, 4 or 5) each
         mu, slope = np.array([v[:, 0:3:2] for v in y]), np.array([v[:, 1:4:2] for v in y])
-        mu_3, multiplier = _Equation(self, mesh).along(mu)
+        equation = _Equation(self, mesh)
+        mu_3, multiplier = equation.along(mu)
         for e, values in enumerate(y):
             if values.shape[1] > 4:
                 multiplier[e] = values[:, 4]
-        return self._profile(mesh, mu, slope, mu_3, multiplier, found.nodes)
+        return self._profile(equation, mu, slope, mu_3, multiplier, found.nodes)
 
     def _system(self, number: int) -> RegionSystem:
         region = self.regions[number]
@@ -330,25 +346,19 @@ class _Equation:
         if not (u > 0).all():
             return None
         mu = u.reshape(-1, 2)
-        groups, local, own = self.instant.groups, self.local, self._own
-        if not groups.incompressible:
-            f, df, mu_3 = groups.compressible_source(mu, local.force, local.pressure, own)
-            if not (mu_3 > 0).all():
-                return None
-            return Source(f.reshape(u.shape), df.reshape(*u.shape, 2))
         multiplier = self._multiplier(u)
-        f, df, _ = groups.incompressible_source(mu, multiplier, local.exponent, local.pressure, own)
+        f, df, mu_3 = self.instant.source(mu, self.local, multiplier)
+        if not (mu_3 > 0).all():
+            return None
         remote = tuple(self._remote(u, multiplier, number, node) for number, node in self.far)
         return Source(f.reshape(u.shape), df.reshape(*u.shape, 2), remote)
 
-    @property
-    def _own(self) -> tuple[Array, Array]:
-        return self.local.stiffness, self.local.weight
-
     def _multiplier(self, u: Array) -> Array:
-        """lambda_c at every point, shape (M (p + 1),)."""
-        volume = (u[..., 0] * u[..., 1]).ravel()
-        multiplier: Array = self.local.force * volume**-self.local.exponent
+        """lambda_c at every point, shape (M (p + 1),); zero if compressible."""
+        local = self.local
+        if not self.instant.groups.incompressible:
+            return np.zeros_like(local.force)
+        multiplier: Array = equations.multiplier_of(u.reshape(-1, 2), local.force, local.exponent)
         for number, node in self.far:
             at_junction = self._node_value(u, node).prod()
             inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
@@ -368,10 +378,6 @@ class _Equation:
 
     def along(self, u: Array) -> tuple[Array, Array]:
         """mu_3 and lambda_c, shape (M, p + 1) each."""
-        groups, shape = self.instant.groups, u.shape[:2]
-        if not groups.incompressible:
-            _, _, mu_3 = groups.compressible_source(
-                u.reshape(-1, 2), self.local.force, self.local.pressure, self._own
-            )
-            return mu_3.reshape(shape), np.zeros(shape)
-        return 1 / (u[..., 0] * u[..., 1]), self._multiplier(u).reshape(shape)
+        shape, multiplier = u.shape[:2], self._multiplier(u)
+        _, _, mu_3 = self.instant.source(u.reshape(-1, 2), self.local, multiplier)
+        return mu_3.reshape(shape), multiplier.reshape(shape)

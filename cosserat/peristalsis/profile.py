@@ -39,10 +39,12 @@ class Profile:
         The stretches and n = lambda_c mu_1 mu_2, constant in balance, are interpolated.  mu_3 and lambda_c follow from
         them, so (2.4.1) holds to round-off there too.
         """
-        scalars = np.stack([self.mu_3, self.multiplier * self.mu.prod(axis=2)], axis=2)
-        found = self.mesh.interpolate(np.concatenate([self.mu, self.slope, scalars], axis=2), z)
+        columns = np.empty((*self.mu_3.shape, 6))
+        columns[..., :2], columns[..., 2:4], columns[..., 4] = self.mu, self.slope, self.mu_3
+        columns[..., 5] = self.multiplier * (self.mu[..., 0] * self.mu[..., 1])
+        found = self.mesh.interpolate(columns, z)
         mu, slope, mu_3, force = found[:, :2], found[:, 2:4], found[:, 4], found[:, 5]
-        volume = mu.prod(axis=1)
+        volume = mu[:, 0] * mu[:, 1]
         return mu, slope, 1 / volume if self.incompressible else mu_3, force / volume
 
 

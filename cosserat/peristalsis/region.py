@@ -6,6 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 Muscle = Literal["anchoring", "advancing", "relaxed"]
 
 
@@ -50,3 +54,43 @@ def continued(forces: Sequence[float | None]) -> list[float | None]:
             if found[number] is None:
                 found[number] = found[number - 1 if order.step > 0 else number + 1]
     return found
+
+
+def strength_along(
+    regions: Sequence[Region], z: Array, load: Muscle, usual: float | None = None
+) -> Array:
+    """Force or pressure of the muscles of one kind at places z [N or Pa], zero where the others act.
+
+    usual : where a region has none of its own; by default one wherever these muscles act.
+    """
+    cuts = [r.right for r in regions[:-1]]
+    own = [
+        0.0
+        if r.load != load
+        else 1.0
+        if usual is None
+        else (usual if r.own is None else r.own) * r.amplitude
+        for r in regions
+    ]
+    result: Array = np.array(own)[np.searchsorted(cuts, z, side="right")]
+    return result
+
+
+def changed(before: Sequence[Region], after: Sequence[Region]) -> float:
+    """The fraction of the body on which two sets of regions have different loads."""
+    return sum(
+        max(0.0, min(a.right, b.right) - max(a.left, b.left))
+        for a in before
+        for b in after
+        if a.load != b.load
+    )
+
+
+def load_behind(front: str) -> Muscle:
+    """The load behind a front, "gamma" or "eta"."""
+    return "anchoring" if front == "gamma" else "advancing"
+
+
+def load_ahead(front: str) -> Muscle:
+    """The load before a front."""
+    return "advancing" if front == "gamma" else "anchoring"

@@ -68,3 +68,9 @@ def check_track(name: str, track: Track, phases: int) -> None:
                 "gait",
                 f"{name} is at {place:g} at phase {phase:g}, off the body; places run from 0 to 1",
             )
+
+
+def distinct(phases: list[float]) -> list[float]:
+    """Phases in increasing order, without duplicates."""
+    ordered = sorted(phases)
+    return [p for k, p in enumerate(ordered) if k == 0 or p - ordered[k - 1] > PHASE_TOLERANCE]

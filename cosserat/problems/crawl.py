@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
@@ -13,22 +11,23 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Items, Parameters, Quantity
+from cosserat.peristalsis import anchors
 from cosserat.peristalsis.body import piece_at, scales_at
 from cosserat.peristalsis.crawler import Crawler, Loads
 from cosserat.peristalsis.gait import Gait, Instant
-from cosserat.peristalsis.instant import InstantProblem, holds_force
+from cosserat.peristalsis.ground import Pose, Step, placed
+from cosserat.peristalsis.instant import Common, InstantProblem, holds_force
 from cosserat.peristalsis.profile import Profile, check_tilt
-from cosserat.peristalsis.region import Muscle, Region
+from cosserat.peristalsis.region import Muscle, Region, strength_along
 from cosserat.problem import ALONE, Forecast, Problem, Run
 from cosserat.solution import Field, Solution
 from cosserat.solvers.regions import RegionSettings
 
 Array = NDArray[np.float64]
-_SECONDS = {"banded": 2e-3, "collocation": 0.05}  # about the time of an instant
+_SECONDS = {"banded": 5e-4, "collocation": 0.05}  # about the time of an instant
 _STORED = 10  # about so many numbers are stored of each section at each instant
 _MIN_REGION_LENGTH = 1e-6  # as a fraction of the length; a shorter region is empty
 _EQUAL_LOADS_TOLERANCE = 1e-3  # loads that differ on less of the body are the same
-_EQUAL_STRETCH_TOLERANCE = 1e-3  # regions whose mu_1 differs by less are equally thick
 
 
 class CrawlerProblem(Problem):
@@ -73,15 +72,14 @@ class CrawlerProblem(Problem):
         return np.linspace(0.0, 1.0, self.sections)
 
     def solve_instant(
-        self, regions: Sequence[Region], before: Array | None, name: str
+        self, problem: InstantProblem, before: Array | None
     ) -> tuple[Profile, Array | None, float]:
-        """Stretches under loads in these regions, the start of the next solve, and the largest sine of tilt."""
-        problem = InstantProblem(self.crawler, self.loads, regions, name)
+        """Stretches of an instant, the start of the next solve, and the largest sine of tilt."""
         if self.solver == "banded":
             profile, nodal = problem.solve(self.mesh, before)
         else:
             profile, nodal = problem.collocate(self.mesh, self.collocation_tolerance), None
-        return profile, nodal, check_tilt(profile, self.crawler, name)
+        return profile, nodal, check_tilt(profile, self.crawler, problem.name)
 
     def length_along(self, profile: Profile) -> Array:
         """Distance along the ground from the rear end, eq. (2.5.8), at the points of the mesh [m]."""
@@ -92,8 +90,9 @@ class CrawlerProblem(Problem):
     def pressure(self, mu: Array, multiplier: Array) -> Array:
         """Coelomic pressure, eqs. (2.8.8), (2.8.9), of an incompressible body with its own radius and modulus [Pa]."""
         k_i, k_g = self.crawler.incompressible_stiffnesses
-        reactive = multiplier * k_g / self.crawler.length**2 - k_i * (2 - mu.sum(axis=-1))
-        result: Array = -reactive * mu.prod(axis=-1) / self.crawler.area
+        mu_1, mu_2 = mu[..., 0], mu[..., 1]
+        reactive = multiplier * k_g / self.crawler.length**2 - k_i * (2 - (mu_1 + mu_2))
+        result: Array = -reactive * (mu_1 * mu_2) / self.crawler.area
         return result
 
     def fields(
@@ -113,7 +112,7 @@ class CrawlerProblem(Problem):
             "mu_1_slope": slope[..., 0] / body.length,
             "height": radius * (mu[..., 0] - 1),  # (2.5.7)
             "along": np.array([p.mesh.interpolate(s, z) for p, s in zip(profiles, placed, strict=True)]),
-            "advancing": np.array([_advancing(r, z) for r in regions]),
+            "advancing": np.array([strength_along(r, z, "advancing") for r in regions]),
         }
         if body.material.kind == "incompressible":
             own = scales.stretching  # (2.8.8) with k_I, k_G and A of the place
@@ -122,11 +121,12 @@ class CrawlerProblem(Problem):
         if body.segments:
             fields["resting_radius"] = (("section",), radius)
         if any(r.state != (r.load, 1.0, None) or r.load == "relaxed" for row in regions for r in row):
-            for name, load, usual, scale in (
+            muscles: tuple[tuple[str, Muscle, float, Array], ...] = (
                 ("muscle_force", "anchoring", self.loads.anchoring, scales.anchoring),
                 ("muscle_pressure", "advancing", self.loads.advancing, scales.advancing),
-            ):
-                strengths = [scale * _strength(row, z, load, usual) for row in regions]
+            )
+            for name, load, usual, scale in muscles:
+                strengths = [scale * strength_along(row, z, load, usual) for row in regions]
                 fields[name] = (("time", "section"), np.array(strengths))
         return fields | {"xi_section": (("section",), z * body.length)}
 
@@ -208,23 +208,14 @@ class Posture(CrawlerProblem):
             Region(r.begin, r.end, r.load, own=r.force if r.load == "anchoring" else r.pressure)
             for r in self.regions
         ]
-        profile, _, tilt = self.solve_instant(regions, None, name)
+        problem = InstantProblem(self.crawler, self.loads, regions, name)
+        profile, _, tilt = self.solve_instant(problem, None)
         fields = self.fields([profile], [self.length_along(profile)], [regions])
         flat = {
             key: (dims[1:], values[0]) if dims[0] == "time" else (dims, values)
             for key, (dims, values) in fields.items()
         }
-        return Solution(flat, _statistics(self, [profile], tilt))
-
-
-@dataclass(frozen=True)
-class _Step:
-    """One time of a crawl and the body there, its points placed along the ground."""
-
-    stride: int
-    instant: Instant
-    profile: Profile
-    placed: Array
+        return Solution(flat, _statistics(self, 1, [profile.effort], tilt))
 
 
 class Crawl(CrawlerProblem):
@@ -244,49 +235,33 @@ class Crawl(CrawlerProblem):
         pulls = self.loads.anchoring > 0 or any(chamber.force for chamber in self.gait.chambers)
         if not (pulls and holds_force(self.crawler, self.loads)):
             return self
-        for phase in self.gait.telling_phases(self.step):
-            if not any(region.load == "anchoring" for region in self.gait.regions(phase)):
-                raise PydanticCustomError(
-                    "gait",
-                    f"at phase {phase:g} no region anchors, and the force in the advancing ones would jump to "
-                    "zero; keep an anchoring region, or set loads.advancing_force = 'none'",
-                )
+        phase = self.gait.idle_phase(self.step)
+        if phase is not None:
+            raise PydanticCustomError(
+                "gait",
+                f"at phase {phase:g} no region anchors, and the force in the advancing ones would jump to "
+                "zero; keep an anchoring region, or set loads.advancing_force = 'none'",
+            )
         return self
 
     def thin_anchors(self) -> list[Instant]:
-        """The instants of a stride whose anchor lies in a thin region, by the homogeneous states of that instant.
-
-        A worm anchors where it thickens, section 2.1: in its anchoring regions.  Under artificial muscles with negative
-        pressure the advancing regions are the thicker ones.  Thin: mu_1 is nearer to the least than to the largest.
-        """
-        thin = []
-        for instant in self.gait.instants(self.step):
-            problem = InstantProblem(self.crawler, self.loads, instant.regions, "the anchor")
-            mu = problem.plateaus[0][:, 0]
-            holding = next(
-                mu[n] for n, s in enumerate(problem.spans) if s.left <= instant.anchor <= s.right
-            )
-            apart = np.ptp(mu) > _EQUAL_STRETCH_TOLERANCE
-            if apart and holding < (mu.min() + mu.max()) / 2:
-                thin.append(instant)
-        return thin
+        """The instants of a stride whose anchor lies in a thin region, by `anchors.lies_thin`."""
+        return _thin(self._problems(self.gait.instants(self.step), "the anchor"))
 
     def thin_anchor_warning(self) -> str | None:
         """One sentence on `thin_anchors`, None if there are none."""
-        thin = self.thin_anchors()
-        if not thin:
-            return None
-        found = {m.time for m in thin}
-        held = [m.anchor * self.crawler.length for m in thin]
-        places = f"{min(held):.4g}" + (f" to {max(held):.4g}" if max(held) > min(held) else "")
-        times = [m.time for m in self.gait.instants(self.step)]
-        runs = [list(run) for is_thin, run in itertools.groupby(times, found.__contains__) if is_thin]
-        spans = " and ".join(f"{run[0]:.4g} to {run[-1]:.4g} s" for run in runs)
-        return (
-            f"thin anchor: at {len(found)} of {len(times)} instants of a stride (t = {spans}) the point that holds on, "
-            f"xi = {places} m, lies where the body is thin, and crawlers hold on where they are fat; "
-            "move 'gait.anchor' to a thicker part, or exchange 'gait.gamma' and 'gait.eta'"
-        )
+        return anchors.warning(self.thin_anchors(), self.gait.instants(self.step), self.crawler.length)
+
+    def _problems(
+        self, instants: Sequence[Instant], name: str, start: float = 0.0
+    ) -> list[tuple[Instant, InstantProblem]]:
+        """Instants and their problems, in a stride that begins at the time `start` [s]."""
+        body, loads = self.crawler, self.loads
+        common = Common.of(body, loads)
+        return [
+            (m, InstantProblem(body, loads, m.regions, f"{name} at t = {start + m.time:.4g} s", common))
+            for m in instants
+        ]
 
     @property
     def forecast(self) -> Forecast:
@@ -305,30 +280,54 @@ class Crawl(CrawlerProblem):
         OutOfReachError : the surface cannot stay on the ground.
         """
         instants = self.gait.instants(self.step)
-        self.check_collapse(instants, name)
-        steps: list[_Step] = []
-        nodal, tilt = None, 0.0
-        for stride in range(self.strides):
-            first = [instant.risen(self.gait.rise(instant.time)) for instant in instants]
-            for number, instant in enumerate(first if stride == 0 else instants[1:], start=1):
-                when = f"{name} at t = {stride * self.gait.duration + instant.time:.4g} s"
-                profile, nodal, sine = self.solve_instant(instant.regions, nodal, when)
-                placed = self.length_along(profile)
-                if steps:
-                    at = np.array([instant.anchor])
-                    before, after = steps[-1].profile.mesh, profile.mesh
-                    held = before.interpolate(steps[-1].placed, at)
-                    placed = placed + float((held - after.interpolate(placed, at))[0])
-                steps.append(_Step(stride, instant, profile, placed))
-                tilt = max(tilt, sine)
-                done = (stride + (number + (stride > 0)) / len(instants)) / self.strides
-                run.progress(done, f"stride {stride + 1} of {self.strides}")
-        said = (self.thin_anchor_warning(), self.first_stride_warning())
+        whole = self._problems(instants, name)
+        for _, problem in whole:
+            problem.check_collapse()
+        strides = self._poses(whole, name, run)
+        steps = placed(strides, self.gait.duration)
+        solved = {id(pose): pose for poses in strides for pose in poses}.values()
+        said = (
+            anchors.warning(_thin(whole), instants, self.crawler.length),
+            self.first_stride_warning(),
+        )
         return Solution(
             self._fields(steps),
-            _statistics(self, [s.profile for s in steps], tilt),
+            _statistics(
+                self, len(steps), [p.profile.effort for p in solved], max(p.tilt for p in solved)
+            ),
             warnings=tuple(warning for warning in said if warning is not None),
         )
+
+    def _poses(
+        self, whole: list[tuple[Instant, InstantProblem]], name: str, run: Run
+    ) -> list[list[Pose]]:
+        """The poses of every stride; those of instants with the same loads are the same."""
+        rises = [self.gait.rise(m.time) for m, _ in whole]
+        if min(rises) == 1:
+            first = self._solved(whole, [], run, len(whole))
+            return [first, *[first[1:]] * (self.strides - 1)]
+        risen = [m.risen(rise) for (m, _), rise in zip(whole, rises, strict=True)]
+        again = [m for m, _ in whole[1:]] if self.strides > 1 else []
+        total = len(risen) + len(again)
+        first = self._solved(self._problems(risen, name), [], run, total)
+        later = self._solved(self._problems(again, name, self.gait.duration), first, run, total)
+        return [first, *[later] * (self.strides - 1)]
+
+    def _solved(
+        self,
+        problems: list[tuple[Instant, InstantProblem]],
+        before: list[Pose],
+        run: Run,
+        total: int,
+    ) -> list[Pose]:
+        """The poses of a stride, each solved from the one before; total : how many the run solves."""
+        poses: list[Pose] = []
+        nodal = before[-1].nodal if before else None
+        for number, (instant, problem) in enumerate(problems, start=len(before) + 1):
+            profile, nodal, tilt = self.solve_instant(problem, nodal)
+            poses.append(Pose(instant, profile, self.length_along(profile), nodal, tilt))
+            run.progress(number / total, f"{number} of {total} instants")
+        return poses
 
     def first_stride_warning(self) -> str | None:
         """One sentence if the first stride begins in another state than the later ones, else None."""
@@ -341,60 +340,39 @@ class Crawl(CrawlerProblem):
             "with 'gait.ramp'"
         )
 
-    def check_collapse(self, instants: Sequence[Instant], name: str) -> None:
-        """Check the homogeneous states of all instants, before anything is solved.
-
-        In a uniform body they depend on which loads act, not on where: each such set is checked once, at its first
-        instant.
+    def check_collapse(self, name: str) -> None:
+        """Check the homogeneous states of all instants of a stride, before anything is solved.
 
         Raises
         ------
         InputError : the loads collapse a section; names the load and that instant.
         """
-        seen: set[frozenset[object]] = set()
-        for instant in instants:
-            acting = frozenset(region.state for region in instant.regions)
-            if acting not in seen or self.crawler.segments:
-                seen.add(acting)
-                when = f"{name} at t = {instant.time:.4g} s"
-                InstantProblem(self.crawler, self.loads, instant.regions, when).check_collapse()
+        for _, problem in self._problems(self.gait.instants(self.step), name):
+            problem.check_collapse()
 
-    def _fields(self, steps: list[_Step]) -> dict[str, Field]:
+    def _fields(self, steps: list[Step]) -> dict[str, Field]:
         fields = self.fields(
-            [s.profile for s in steps], [s.placed for s in steps], [s.instant.regions for s in steps]
+            [s.pose.profile for s in steps],
+            [s.pose.along + s.rear for s in steps],
+            [s.pose.instant.regions for s in steps],
         )
-        anchors = np.array([s.instant.anchor for s in steps])
-        ground = [s.profile.mesh.interpolate(s.placed, np.array([s.instant.anchor]))[0] for s in steps]
+        places = np.array([s.pose.instant.anchor for s in steps])
         return {
-            "time": (
-                ("time",),
-                np.array([s.stride * self.gait.duration + s.instant.time for s in steps]),
-            ),
+            "time": (("time",), np.array([s.time for s in steps])),
             **fields,
-            "anchor": (("time",), anchors * self.crawler.length),
-            "anchor_along": (("time",), np.array(ground)),
+            "anchor": (("time",), places * self.crawler.length),
+            "anchor_along": (("time",), np.array([s.anchor for s in steps])),
         }
 
 
-def _strength(regions: Sequence[Region], z: Array, load: str, usual: float) -> Array:
-    """Force or pressure of the muscles of one kind at the sections [N or Pa], zero where the others act."""
-    cuts = np.array([r.right for r in regions[:-1]])
-    own = [(usual if r.own is None else r.own) * r.amplitude if r.load == load else 0.0 for r in regions]
-    result: Array = np.array(own)[np.searchsorted(cuts, z, side="right")]
-    return result
+def _thin(problems: Sequence[tuple[Instant, InstantProblem]]) -> list[Instant]:
+    return [instant for instant, problem in problems if anchors.lies_thin(problem, instant.anchor)]
 
 
-def _advancing(regions: Sequence[Region], z: Array) -> Array:
-    """One where the advancing loads act, else zero."""
-    cuts = np.array([r.right for r in regions[:-1]])
-    kinds = np.array([float(r.load == "advancing") for r in regions])
-    result: Array = kinds[np.searchsorted(cuts, z, side="right")]
-    return result
-
-
-def _statistics(problem: CrawlerProblem, profiles: list[Profile], tilt: float) -> dict[str, int | float]:
-    effort = [profile.effort for profile in profiles]
-    statistics: dict[str, int | float] = {"instants": len(profiles), "largest_sine_of_tilt": tilt}
+def _statistics(
+    problem: CrawlerProblem, instants: int, effort: Sequence[int], tilt: float
+) -> dict[str, int | float]:
+    statistics: dict[str, int | float] = {"instants": instants, "largest_sine_of_tilt": tilt}
     if problem.solver == "banded":
         return statistics | {"newton_iterations": sum(effort)}
     return statistics | {"most_nodes": max(effort)}

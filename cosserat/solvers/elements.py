@@ -6,15 +6,16 @@ Fields live at the points of every element, arrays of shape (elements, degree + 
 from __future__ import annotations
 
 import functools
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _FINEST_SPAN = 6.0  # shortest decay lengths that `per_side` elements of the finest size span
+_AT_POINT = 1e-14  # local coordinates closer to a point than this are there
 _SWEEPS = 60  # fixed-point sweeps for the growth of element sizes; the sizes need not be exact
 
 
@@ -65,7 +66,8 @@ class Mesh:
     @functools.cached_property
     def sizes(self) -> Array:
         """Lengths of the elements, shape (M,)."""
-        return np.diff(self.ends)
+        sizes: Array = self.ends[1:] - self.ends[:-1]
+        return sizes
 
     @functools.cached_property
     def places(self) -> Array:
@@ -80,15 +82,14 @@ class Mesh:
 
     def split(self, nodal: Array) -> Array:
         """Values at distinct points, shape (nodes, ...), as values at the points of every element."""
-        local = np.arange(self.region.size)[:, None] * self.degree + np.arange(self.degree + 1)
-        values: Array = nodal[local]
-        return values
+        shape = self.region.size, self.degree + 1, *nodal.shape[1:]
+        split: Array = _split(nodal.reshape(nodal.shape[0], -1), self.degree).reshape(shape)
+        return split
 
     def slope(self, values: Array) -> Array:
         """Derivative of a field (M, p + 1, ...), element by element."""
-        by_point = np.einsum("ij,ej...->ei...", rule(self.degree).derivative, values)
-        scale = (2 / self.sizes).reshape(-1, *[1] * (values.ndim - 1))
-        slopes: Array = by_point * scale
+        columns = values.reshape(*values.shape[:2], -1)
+        slopes: Array = _slopes(columns, rule(self.degree).derivative, self.sizes).reshape(values.shape)
         return slopes
 
     def cumulative(self, values: Array) -> Array:
@@ -100,22 +101,60 @@ class Mesh:
 
     def interpolate(self, values: Array, at: Array) -> Array:
         """A field (M, p + 1, ...) at given coordinates, shape (len(at), ...)."""
-        element, weights = self._weights(at)
-        shape = values.shape[2:]
-        inside = values[element].reshape(at.size, self.degree + 1, -1)
-        result: Array = (weights[:, None, :] @ inside)[:, 0].reshape(at.size, *shape)
-        return result
+        known, columns = rule(self.degree), values.reshape(*values.shape[:2], -1)
+        found = _interpolated(columns, at, self.ends, known.points, known.barycentric)
+        interpolated: Array = found.reshape(at.size, *values.shape[2:])
+        return interpolated
 
-    def _weights(self, at: Array) -> tuple[NDArray[np.int64], Array]:
-        """The element of each coordinate and its nodal polynomials there, shape (len(at), p + 1)."""
-        element = np.clip(np.searchsorted(self.ends, at, side="right") - 1, 0, self.region.size - 1)
-        local = 2 * (at - self.ends[element]) / self.sizes[element] - 1
-        known = rule(self.degree)
-        gaps = local[:, None] - known.points
-        hit = np.abs(gaps) < 1e-14
-        weights = known.barycentric / np.where(hit, 1.0, gaps)
-        weights = np.where(hit.any(axis=1, keepdims=True), hit, weights)
-        return element, weights / weights.sum(axis=1, keepdims=True)
+
+@njit(cache=True, nogil=True)
+def _split(nodal: Array, degree: int) -> Array:
+    elements, components = (nodal.shape[0] - 1) // degree, nodal.shape[1]
+    values = np.empty((elements, degree + 1, components))
+    for e in range(elements):
+        for a in range(degree + 1):
+            for c in range(components):
+                values[e, a, c] = nodal[e * degree + a, c]
+    return values
+
+
+@njit(cache=True, nogil=True)
+def _slopes(values: Array, derivative: Array, sizes: Array) -> Array:
+    """Derivative at the points of every element, shape (M, p + 1, m) like the values."""
+    elements, points, components = values.shape
+    slopes = np.zeros((elements, points, components))
+    for e in range(elements):
+        for a in range(points):
+            for c in range(components):
+                total = 0.0
+                for b in range(points):
+                    total += derivative[a, b] * values[e, b, c]
+                slopes[e, a, c] = total * (2 / sizes[e])
+    return slopes
+
+
+@njit(cache=True, nogil=True)
+def _interpolated(values: Array, at: Array, ends: Array, points: Array, barycentric: Array) -> Array:
+    """Values (M, p + 1, m) at coordinates, shape (K, m), by the barycentric formula."""
+    last, components = values.shape[0] - 1, values.shape[2]
+    found = np.zeros((at.size, components))
+    weights = np.empty(points.size)
+    for k in range(at.size):
+        e = min(max(np.searchsorted(ends, at[k], side="right") - 1, 0), last)
+        local = 2 * (at[k] - ends[e]) / (ends[e + 1] - ends[e]) - 1
+        total = 0.0
+        for a in range(points.size):
+            gap = local - points[a]
+            if abs(gap) < _AT_POINT:
+                weights[:] = 0.0
+                weights[a] = total = 1.0
+                break
+            weights[a] = barycentric[a] / gap
+            total += weights[a]
+        for a in range(points.size):
+            for c in range(components):
+                found[k, c] += weights[a] / total * values[e, a, c]
+    return found
 
 
 def graded(
@@ -128,30 +167,47 @@ def graded(
     divided evenly.  The number of elements depends only on the number of regions, so a solution on one mesh is a first
     guess on the next.
     """
-    first = _FINEST_SPAN * layer / per_side
-    ends: list[float] = [edges[0]]
-    region: list[int] = []
-    last = len(edges) - 2
-    for number, (left, right) in enumerate(itertools.pairwise(edges)):
-        length = right - left
-        if number in (0, last) and not fine_ends:
-            places = _geometric(length, first, per_side)
-            inner = left + places if number == last and last > 0 else right - places[::-1]
-        else:
-            half = _geometric(length / 2, first, per_side)
-            inner = np.concatenate([left + half, right - half[-2::-1]])
-        inner[0], inner[-1] = left, right
-        ends.extend(inner[1:].tolist())
-        region.extend([number] * (inner.size - 1))
-    return Mesh(np.array(ends), np.array(region), degree)
+    ends, region = _graded(np.array(edges), _FINEST_SPAN * layer / per_side, per_side, fine_ends)
+    return Mesh(ends, region, degree)
 
 
+@njit(cache=True, nogil=True)
+def _graded(
+    edges: Array, first: float, per_side: int, fine_ends: bool
+) -> tuple[Array, NDArray[np.int64]]:
+    """Ends of the elements, and the region of each."""
+    regions, count = edges.size - 1, 0
+    cuts = np.empty(2 * per_side * regions + 1)
+    region = np.empty(2 * per_side * regions, dtype=np.int64)
+    cuts[0] = edges[0]
+    for number in range(regions):
+        left, right, before = edges[number], edges[number + 1], count
+        fine_left = number > 0 or fine_ends
+        fine_right = number < regions - 1 or fine_ends or regions == 1
+        both = fine_left and fine_right
+        places = _geometric((right - left) / 2 if both else right - left, first, per_side)
+        if fine_left:
+            for k in range(1, per_side + 1):
+                cuts[count + k] = left + places[k]
+            count += per_side
+        if fine_right:
+            for k in range(1, per_side + 1):
+                cuts[count + k] = right - places[per_side - k]
+            count += per_side
+        cuts[count] = right
+        region[before:count] = number
+    return cuts[: count + 1].copy(), region[:count].copy()
+
+
+@njit(cache=True, nogil=True)
 def _geometric(length: float, first: float, count: int) -> Array:
     """Ends of `count` elements on [0, length] that grow from `first` by a constant factor."""
     if count * first >= length:
-        return np.linspace(0.0, length, count + 1)
+        return np.arange(count + 1.0) * (length / count)
     growth = 2.0
     for _ in range(_SWEEPS):
         growth = (1 + length / first * (growth - 1)) ** (1 / count)
-    ends: Array = (growth ** np.arange(count + 1.0) - 1) / (growth**count - 1) * length
+    ends = np.empty(count + 1)
+    for k in range(count + 1):
+        ends[k] = (growth ** float(k) - 1) / (growth ** float(count) - 1) * length
     return ends

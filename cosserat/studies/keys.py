@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -129,9 +129,31 @@ def _is_of(key: Key, owner: Any) -> bool:
     return not key.when or not key.by or str(getattr(owner, key.by, key.when)) == key.when
 
 
-def table_of(problem: Problem) -> dict[str, Any]:
-    """The keys of a problem as nested tables in SI units, for `put` and `case_with`."""
-    return given(problem.model_dump())
+def table_of(problem: Problem, paths: Iterable[str] | None = None) -> dict[str, Any]:
+    """The keys of a problem as nested tables in SI units, for `put` and `case_with`.
+
+    paths : of the keys that will be put, by default any.  What none of them enters stays an object, which is not read
+    again.
+    """
+    if paths is None:
+        return given(problem.model_dump())
+    table: dict[str, Any] = _opened(problem, [path.split(".") for path in paths])
+    return table
+
+
+def _opened(owner: Any, paths: Sequence[Sequence[str]]) -> Any:
+    """What is at a place: a table or a list if paths go on from there."""
+    entering = [path for path in paths if path]
+    if not entering:
+        return owner
+
+    def inside(part: str, value: Any) -> Any:
+        return _opened(value, [rest for first, *rest in entering if first == part])
+
+    if isinstance(owner, BaseModel):
+        found = {name: inside(name, getattr(owner, name)) for name in type(owner).model_fields}
+        return given(found)
+    return [inside(str(number), item) for number, item in enumerate(owner)]
 
 
 def put(table: Mapping[str, Any], path: Sequence[str], value: object) -> dict[str, Any]:

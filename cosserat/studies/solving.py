@@ -124,7 +124,7 @@ def solve_members(
     with warnings.catch_warnings(), threadpool_limits(1):
         warnings.simplefilter("ignore")
         left = np.arange(task.size) if task.by else _solve_together(task, found, progress, threads)
-        table = table_of(task.base.problem)
+        table = table_of(task.base.problem, task.keys)
         for number, member in enumerate(left):
             _solve_one(task, table, int(member), found)
             done = task.size - len(left) + number + 1

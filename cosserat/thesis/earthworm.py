@@ -127,7 +127,7 @@ class BodyMasses(Problem):
         """
         worms = [(self.scaled(mass), f"{name}, {1e3 * mass:g} g") for mass in self.masses]
         for worm, called in worms:
-            worm.check_collapse(worm.gait.instants(worm.step), called)
+            worm.check_collapse(called)
         rows = []
         for worm, called in worms:
             rows.append(_measure(worm, called))

@@ -11,6 +11,7 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Quantity
+from cosserat.peristalsis.instant import InstantProblem
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.crawl import Crawl
 from cosserat.solution import Field, Solution
@@ -106,6 +107,8 @@ class WormCalibration(Problem):
 
     def _segment(self, worm: Crawl, phase: float, name: str) -> tuple[float, float, float]:
         """mu_1, mu_3 and pressure of segment 50."""
-        profile, _, _ = worm.solve_instant(worm.gait.regions(phase), None, name)
+        regions = worm.gait.regions(phase)
+        problem = InstantProblem(worm.crawler, worm.loads, regions, name)
+        profile, _, _ = worm.solve_instant(problem, None)
         mu, _, mu_3, multiplier = profile.at(np.array([SEGMENT_50]))
         return float(mu[0, 0]), float(mu_3[0]), float(worm.pressure(mu, multiplier)[0])

@@ -461,14 +461,43 @@ def test_progress_is_reported_and_a_failing_instant_is_named():
         WORM.vary("x", strides=2, step=1),
         progress=lambda fraction, words: told.append((fraction, words)),
     )
-    assert [words for _, words in told] == 7 * ["stride 1 of 2"] + 6 * ["stride 2 of 2"]
-    np.testing.assert_allclose(
-        [fraction for fraction, _ in told], (np.arange(13) + 1 + (np.arange(13) > 6)) / 14
-    )
+    assert told == [(k / 7, f"{k} of 7 instants") for k in range(1, 8)]  # of both strides
     with pytest.raises(
         InputError, match=r"case 'x' at t = 5.25 s: 'loads.advancing' = 60000 Pa and a weight"
     ):
         cosserat.run(cosserat.case("soft_robot").vary("x", loads={"advancing": 6e4}))
+
+
+@pytest.mark.parametrize("ramp", [0, 3.15])
+def test_strides_are_those_of_a_gait_that_says_each_of_them(ramp):
+    """An instant is solved once for all strides; a gait of three strides as one solves every one of them."""
+    gait = WORM.problem.gait
+    one = WORM.problem.replace(gait=gait.replace(ramp=ramp), step=0.8, strides=3).solve("x")
+    long = {
+        name: tuple(
+            tuple((phase + 2 * stride, place) for phase, place in track)
+            for stride in range(3)
+            for track in getattr(gait, name)
+        )
+        for name in ("gamma", "eta", "anchor")
+    }
+    whole = gait.replace(phases=3 * gait.phases, ramp=ramp, **long)
+    every = WORM.problem.replace(gait=whole, step=0.8, strides=1).solve("x")
+    assert every.statistics["newton_iterations"] > one.statistics["newton_iterations"]
+    for name in ("time", "mu_1", "mu_2", "mu_3", "along", "anchor", "anchor_along", "p_coelom"):
+        scale = np.abs(every[name]).max()
+        np.testing.assert_allclose(one[name] / scale, every[name] / scale, rtol=0, atol=1e-10)
+
+
+def test_a_gait_is_checked_and_divided_once_for_all_cases_that_share_it(monkeypatch):
+    worm = WORM.problem.replace(step=0.3)
+    before = worm.gait.instants(0.3)
+    monkeypatch.setattr(Gait, "_check_anchor", None)
+    monkeypatch.setattr(Gait, "regions", None)
+    heavier = worm.replace(loads=worm.loads.replace(gravity=20))
+    assert heavier.gait.instants(0.3) is before
+    with pytest.raises(TypeError):
+        heavier.gait.replace(clearance=1e-7)
 
 
 @pytest.mark.parametrize(

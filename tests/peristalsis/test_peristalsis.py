@@ -39,6 +39,22 @@ def instant(problem, pattern, **loads):
     return InstantProblem(problem.crawler, problem.loads.replace(**loads), regions, "test")
 
 
+@pytest.mark.parametrize("contact", ["weight", "printed"])
+@pytest.mark.parametrize("name", BODIES)
+def test_a_long_body_is_in_balance_with_its_loads_and_its_layers_decay_by_the_largest_eigenvalue(
+    name, contact
+):
+    """The compiled states: the right-hand sides are zero there, and LAPACK finds the same eigenvalues."""
+    problem = instant(BODIES[name], "six", contact=contact)
+    (mu, shortest), spans = problem.plateaus, np.arange(6)
+    local = problem.local(spans, spans / 6 + 0.1)
+    f, df, _ = problem.source(mu, local, local.force / mu.prod(axis=1))
+    assert np.abs(f / problem.groups.stiffness).max() < 1e-14
+    assert np.ptp(mu[:, 0]) > 0.1  # of loads that matter
+    fastest = np.abs(np.linalg.eigvals(df)).max()
+    assert shortest == pytest.approx(1 / np.sqrt(fastest), rel=1e-13)
+
+
 # ---------------------------------------------------------------- materials (section 2.6)
 
 

@@ -11,6 +11,7 @@ from cosserat.errors import InputError
 from cosserat.studies import command, plan, stored
 from cosserat.studies.answer import answer
 from cosserat.studies.door import family_of, find_study
+from cosserat.studies.keys import case_with, table_of
 from cosserat.studies.solving import STATUS
 
 YOUNG, HEIGHT, FORCE = "rod.material.young", "rod.section.height", "forces.0.force"
@@ -54,6 +55,31 @@ def test_a_member_is_bit_equal_to_its_case_solved_alone(short, grid):
         assert float(own["tip"]) == float(alone["u"].sel(axis="E2")[-1])
         assert float(own["most"]) == float(np.abs(alone["kappa"]).max())
         np.testing.assert_array_equal(own["x"], alone["x"])
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "values", "shared"),
+    [
+        ("worm", "crawler.material.young", (1e3, -1.0), "gait"),
+        ("worm", "gait.phases", ((1.0, 2.0), (1.0,)), "crawler"),
+        ("elastica", "forces.0.force", (2.0, "far"), "rod"),
+        ("elastica", "rod.vertices", (9, 1), "newton"),
+    ],
+)
+def test_a_member_reads_again_only_what_its_keys_enter(name, path, values, shared):
+    """It is the case that is read from all keys, with the same refusals, and shares the rest with its base."""
+    base = cosserat.case(name)
+    whole, opened = table_of(base.problem), table_of(base.problem, [path])
+    good, bad = values
+    member = case_with(base, opened, {path: good}, "m")
+    assert member == case_with(base, whole, {path: good}, "m")
+    assert getattr(member.problem, shared) is getattr(base.problem, shared)
+    refused = []
+    for table in (whole, opened):
+        with pytest.raises(InputError) as error:
+            case_with(base, table, {path: bad}, "m")
+        refused.append(str(error.value))
+    assert refused[0] == refused[1]
 
 
 def test_a_stiffer_cantilever_bends_less_as_its_stiffness_says():

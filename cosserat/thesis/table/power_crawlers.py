@@ -10,7 +10,7 @@ from unittest import mock
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.peristalsis import crawler
+from cosserat.peristalsis import equations
 from cosserat.peristalsis.crawler import Crawler
 from cosserat.peristalsis.profile import Profile
 from cosserat.problems.crawl import Crawl, CrawlerProblem
@@ -95,8 +95,8 @@ def _mu_3_as_printed() -> contextlib.AbstractContextManager[object]:
         shorter = np.where(c != 0, 2 * p, 0.0)  # the loss of mu_3
         return f - (p * g * shorter)[:, None], df, mu_3 - shorter
 
-    known = crawler._compressible
-    return mock.patch.object(crawler, "_compressible", compressible)
+    known = equations.compressible
+    return mock.patch.object(equations, "compressible", compressible)
 
 
 def _without_tilt() -> contextlib.AbstractContextManager[object]:
