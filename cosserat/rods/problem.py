@@ -250,7 +250,7 @@ class RodProblem(Problem):
             body.mass,
             attached=(attached_energy(attached, body),) if attached else (),
         )
-        return framed(system, frame)
+        return framed(system, frame).prepared()
 
     def moves(self, geometry: Geometry) -> tuple[PrescribedPart, ...]:
         """The prescribed motions of its constraints."""

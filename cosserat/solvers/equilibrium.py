@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Annotated
 
 import numpy as np
@@ -83,7 +84,6 @@ class EquilibriumSolver:
 
     def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
         self.system, self.settings, self.name = system, settings, name
-        self.tangent = Tangent(system)
         self.iterations = self.cutbacks = self.branch_switches = 0
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
@@ -96,6 +96,11 @@ class EquilibriumSolver:
             "try a smaller load or more 'newton.max_iterations', follow the path with kind = 'rod path', and "
             "check supports and loads"
         )
+
+    @cached_property
+    def tangent(self) -> Tangent:
+        """Gradient and Hessian assembled last."""
+        return Tangent(self.system)
 
     def warnings(self) -> Iterator[str]:
         """Warnings of an answer: open sides of buckling, and whether it lies beyond a limit load."""

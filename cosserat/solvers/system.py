@@ -233,6 +233,12 @@ class MechanicalSystem:
         size = self._reference_loads[1]
         return float(size.max()), float(size.sum())
 
+    def prepared(self) -> MechanicalSystem:
+        """The same, with the sizes of its loads and of its DOFs computed, which every solver asks for."""
+        for known in (self.load_sizes, self.potentials, self.space.scale):
+            assert known is not None
+        return self
+
     def unloaded(self) -> MechanicalSystem:
         """The same body without loads, as it is attached."""
         plain = None if self.plain is None else self.plain.unloaded()
