@@ -180,7 +180,7 @@ def _manifest(options: argparse.Namespace) -> None:
     from cosserat.thesis.table.tolerances import read_table
 
     path = options.references / manifest.NAME
-    manifest.store_texts(options.results, options.references)
+    manifest.store_copies(options.results, options.references)
     rows = read_table(options.results / "tolerances.csv")
     outputs = manifest.make(options.results, options.references, rows)
     manifest.write(outputs, path)

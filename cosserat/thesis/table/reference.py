@@ -13,6 +13,7 @@ from cosserat.data.dataset import case_of, without_derived
 from cosserat.data.netcdf import load, save
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
+from cosserat.studies.readouts import read_out
 
 RELATIVE = 1e-9
 """Change allowed in a variable, relative to its largest stored value; the variable's round-off floor is added."""
@@ -70,6 +71,8 @@ def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
     ------
     InputError : different variables, shapes, units or parameters, or a value that is not finite.
     """
+    if "study" in stored.attrs:
+        return _compare_answers(fresh, stored)
     fresh, stored = thin(fresh), without_derived(stored)
     if set(fresh.variables) != set(stored.variables):
         raise InputError(
@@ -85,7 +88,27 @@ def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
     return [_change(str(name), fresh, stored) for name in stored.variables if name in VARIABLES]
 
 
-def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset) -> Change:
+def _compare_answers(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
+    """Changes of every read-out of a study.
+
+    Raises
+    ------
+    InputError : it is another study, or other members have an answer.
+    """
+    if fresh.attrs.get("study") != stored.attrs["study"]:
+        raise InputError("the study differs from the stored one; run 'cosserat manifest'")
+    if not (fresh["status"].to_numpy() == stored["status"].to_numpy()).all():
+        raise InputError("other members have an answer than in the stored study")
+    return [_change(name, fresh, stored, variable) for name, variable in variables_read(stored).items()]
+
+
+def variables_read(answer: xr.Dataset) -> dict[str, str]:
+    """The variable of a result that each read-out of a study reads, by the name of the read-out."""
+    texts = {str(name): one.attrs.get("read_out") for name, one in answer.data_vars.items()}
+    return {name: read_out(name, text, "the study").variable for name, text in texts.items() if text}
+
+
+def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset, variable: str = "") -> Change:
     new, old = fresh[name], stored[name]
     if new.dims != old.dims or new.shape != old.shape:
         raise InputError(f"variable '{name}' has shape {new.shape}, stored {old.shape}")
@@ -100,7 +123,7 @@ def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset) -> Change:
         units=old.attrs["units"],
         largest=float(difference.max()),
         where={str(dim): int(index) for dim, index in zip(old.dims, place, strict=True)},
-        allowed=RELATIVE * float(np.abs(old).max()) + VARIABLES[name].floor,
+        allowed=RELATIVE * float(np.abs(old).max()) + VARIABLES[variable or name].floor,
     )
 
 
