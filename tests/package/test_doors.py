@@ -211,7 +211,7 @@ def test_a_run_shows_a_bar_on_a_terminal_and_cleans_up(monkeypatch):
     cosserat.run(cosserat.case(SHORT[0]).vary("x", **SHORT[1]))
     shown = screen.getvalue()
     assert re.search(r"x: +0%\|", shown)
-    assert re.search(r"x: +50%\|.*stride 1 of 2.*x: 100%\|.*stride 2 of 2", shown, flags=re.DOTALL)
+    assert re.search(r"x: +14%\|.*1 of 7 instants.*x: 100%\|.*7 of 7 instants", shown, flags=re.DOTALL)
     assert shown.endswith("\r")
     assert shown.split("\r")[-2].strip() == "", "the bar stays on the screen"
 
@@ -228,7 +228,7 @@ def test_a_quick_run_a_pipe_and_a_caller_with_a_report_have_no_bar(monkeypatch):
     told, screen = [], Terminal()
     monkeypatch.setattr(sys, "stderr", screen)
     cosserat.run(case, progress=lambda fraction, words: told.append(words))
-    assert list(dict.fromkeys(told)) == ["stride 1 of 2", "stride 2 of 2"]
+    assert [w for w in told if "instants" in w] == [f"{k} of 7 instants" for k in range(1, 8)]
     assert screen.getvalue() == ""
 
 

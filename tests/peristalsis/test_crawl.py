@@ -461,7 +461,8 @@ def test_progress_is_reported_and_a_failing_instant_is_named():
         WORM.vary("x", strides=2, step=1),
         progress=lambda fraction, words: told.append((fraction, words)),
     )
-    assert told == [(k / 7, f"{k} of 7 instants") for k in range(1, 8)]  # of both strides
+    done = [one for one in told if "instants" in one[1]]  # beside iterations where the machine is slow
+    assert done == [(k / 7, f"{k} of 7 instants") for k in range(1, 8)]  # of both strides
     with pytest.raises(
         InputError, match=r"case 'x' at t = 5.25 s: 'loads.advancing' = 60000 Pa and a weight"
     ):
