@@ -8,6 +8,7 @@ import subprocess
 import zipfile
 from datetime import date
 from importlib import resources
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,9 +18,12 @@ from conftest import ROOT, save_own
 import cosserat
 from cosserat.cli import main
 from cosserat.data.variables import VARIABLES
+from cosserat.errors import InputError
+from cosserat.studies.door import find_study
 from cosserat.thesis.outputs import archive, crate, manifest
 from cosserat.thesis.outputs.manifest import COLUMNS, Output
 from cosserat.thesis.outputs.verify import DIFFERS, MISSING, SAME_BYTES, SAME_VALUES, WITHIN, verify
+from cosserat.thesis.table.reference import compare
 from cosserat.thesis.table.tolerances import read_report, read_table
 
 REFERENCES = ROOT / "results/reference"
