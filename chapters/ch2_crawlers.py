@@ -27,13 +27,13 @@
 import numpy as np
 
 import cosserat
-from cosserat.problems import crawl
+from cosserat.peristalsis import ground
 from cosserat.thesis import earthworm
 from cosserat.thesis.book import page
 from cosserat.thesis.table import crawl_readouts
 
 # %% tags=["remove-input"]
-page.excerpt(crawl.Crawl.solve, "for stride in", "run.progress")
+page.source(ground.placed)
 
 # %% [markdown]
 # A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor. The case file of the robot has this
