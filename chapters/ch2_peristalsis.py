@@ -30,7 +30,7 @@ import numpy as np
 
 import cosserat
 from cosserat.data.dataset import case_of, statistics_of
-from cosserat.peristalsis import crawler, doublets, nearly_incompressible, profile
+from cosserat.peristalsis import crawler, doublets, equations, nearly_incompressible, profile
 from cosserat.solvers import regions
 from cosserat.thesis.book import page
 
@@ -105,7 +105,7 @@ page.source(crawler.Groups.of)
 # $$
 
 # %% tags=["remove-input"]
-page.excerpt(crawler._compressible, "for k in range", "return f")
+page.excerpt(equations.compressible, "for k in range", "return f")
 
 # %% [markdown]
 # The equations of the worm are
@@ -123,7 +123,7 @@ page.excerpt(crawler._compressible, "for k in range", "return f")
 # constant, and the answer depends on the length of the region (erratum E2.5). The published numbers contain this error.
 
 # %% tags=["remove-input"]
-page.excerpt(crawler._incompressible, "for k in range", "return f")
+page.excerpt(equations.incompressible, "for k in range", "return f")
 
 # %% [markdown]
 # ## Regions
