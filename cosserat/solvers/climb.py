@@ -12,20 +12,38 @@ from typing import Any
 
 import numpy as np
 from numba import njit
+from numba.core.cgutils import create_struct_proxy, voidptr_t
+from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from cosserat.solvers.members import (
+    BALANCED,
+    CHANGE,
+    COUNT,
+    FACTOR,
     FRACTION,
+    INDEFINITE,
     LEFT,
+    NEGATIVE,
     PREDICTED,
     RATES,
     REACHED,
+    RESIDUAL,
+    ROUNDING,
+    SPACE_KERNEL,
+    STEPS,
+    TOLERANCE,
+    UNDEFINED,
     Answers,
+    Around,
     Body,
     Limits,
     Members,
+    Numbers,
+    Plane,
+    types,
 )
-from cosserat.solvers.potential import GRADIENT, HESSIAN
+from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL
 
 Vector = NDArray[np.float64]
 Fields = NDArray[np.float64]
@@ -175,6 +193,130 @@ def _assemble(body: Body, q: Vector, factor: float, task: int) -> float:
     for i in range(q.size):
         body.gradient[i] -= factor * body.dead[i]
     return energy
+
+
+@njit(cache=True, error_model="numpy")
+def keep_on_plane(q: Vector, plane: Plane, step: Vector, rate: Vector, state: Vector) -> None:
+    """Overwrite Newton's step, at a fixed load, by that within the plane, and the change of the load factor.
+
+    rate : (n,) of the DOFs with the load factor.
+    """
+    part = plane.weight * plane.slope
+    missing = state[FACTOR] - plane.factor - plane.ds * plane.slope
+    across, along, beside = part * missing, 0.0, part
+    for i in range(q.size):
+        across += plane.direction[i] * (q[i] - plane.start[i] - plane.ds * plane.direction[i])
+        along += plane.direction[i] * step[i]
+        beside += plane.direction[i] * rate[i]
+    state[CHANGE] = -(across + along) / beside
+    for i in range(q.size):
+        step[i] += state[CHANGE] * rate[i]
+
+
+@njit(cache=True)
+def respond(
+    around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector, state: Vector, symmetric: bool
+) -> int:
+    """Overwrite the step within a plane from q, where the Hessian is known, and the rate with the load factor.
+
+    Where the forces are BALANCED the step is Newton's own.  Where the Hessian is not positive, the outcome is
+    INDEFINITE, or BALANCED with `state[NEGATIVE]`, and step and rate are right-hand sides.
+    """
+    n = q.size
+    residual, reaction = balance(around.gradient, around.held, step)
+    rounding = _EPS * largest_product(around.band, q, around.scale, around.room[:n])
+    for i in range(n):
+        rate[i] = 0.0 if around.held[i] else -around.rate[i]
+    around.factor[:n] = around.band
+    positive = symmetric and factorise(around.factor, around.held)
+    if positive:
+        substitute(around.factor, step, around.room)
+        substitute(around.factor, rate, around.room)
+    last, scale = state[RESIDUAL], max(abs(state[FACTOR]) * plane.load, reaction)
+    tolerance = max(plane.tolerance * scale, rounding)
+    state[RESIDUAL], state[TOLERANCE], state[ROUNDING] = residual, tolerance, rounding
+    state[NEGATIVE] = 0.0 if positive else 1.0
+    if residual <= tolerance or stalled(residual, last, rounding):
+        return BALANCED
+    if not positive:
+        return INDEFINITE
+    keep_on_plane(q, plane, step, rate, state)
+    return STEPS
+
+
+def _at_address(signature: Any) -> Any:
+    """What makes a function of this signature of its address: to take one as an argument costs as much as a step."""
+    kind = types.FunctionType(signature)
+
+    @intrinsic
+    def function(_: Any, address: Any) -> Any:
+        def code(context: Any, builder: Any, __: Any, arguments: Any) -> Any:
+            made = create_struct_proxy(kind)(context, builder)  # type: ignore[no-untyped-call]
+            made.c_addr = builder.inttoptr(arguments[0], voidptr_t)
+            return made._getvalue()
+
+        return kind(types.int64), code
+
+    return function
+
+
+_potential_at, _space_at = _at_address(KERNEL), _at_address(SPACE_KERNEL)
+
+
+@njit(cache=True, nogil=True)
+def follow(
+    kernel_address: int,
+    space_address: int,
+    numbers: Numbers,
+    around: Around,
+    plane: Plane,
+    answer: tuple[Vector, Vector, Vector, Vector],
+) -> int:
+    """Correct a body from q until its forces are balanced within a plane, or the loop is in doubt; the outcome.
+
+    answer : q, step, rate and state, which are overwritten.
+    """
+    kernel, space = _potential_at(kernel_address), _space_at(space_address)
+    q, step, rate, state = answer
+    at, none, skew = np.empty(q.size), np.empty(0), np.empty((0, 1))
+    body = Body(
+        kernel,
+        space,
+        numbers.data,
+        numbers.origin,
+        numbers.placed,
+        around.scale,
+        numbers.dead,
+        around.held,
+        plane.load,
+        plane.load,
+        at,
+        around.gradient,
+        around.room,
+        around.band,
+        skew,
+        np.empty(numbers.terms),
+        none,
+    )
+    outcome = STEPS
+    while state[COUNT] < plane.most:
+        if not np.isfinite(_assemble(body, q, state[FACTOR], HESSIAN)):
+            return UNDEFINED
+        outcome = respond(around, q, plane, step, rate, state, True)
+        if outcome != STEPS:
+            return outcome
+        fraction = min(1.0, space(FRACTION, numbers.placed, q, step, around.held, skew))
+        move_on(q, step, state, fraction)
+    return outcome
+
+
+@njit(cache=True)
+def move_on(q: Vector, step: Vector, state: Vector, fraction: float) -> None:
+    """Take a fraction of a step."""
+    for i in range(q.size):
+        q[i] += fraction * step[i]
+    state[FACTOR] += fraction * state[CHANGE]
+    state[COUNT] += 1.0
 
 
 @njit(cache=True)

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import isfinite, sqrt
 
 import numpy as np
 
 from cosserat.errors import NotConvergedError
 from cosserat.solvers.banded import Vector
-from cosserat.solvers.climb import stalled
+from cosserat.solvers.corrector import Corrector
 from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver
+from cosserat.solvers.members import Plane
 from cosserat.solvers.system import ConfigurationSpace
 
 _BISECTION_TOLERANCE = 0.02  # fraction of the first arc to which a bifurcation is located
@@ -229,8 +231,8 @@ def _cosine(one: tuple[Vector, float], other: tuple[Vector, float]) -> float:
     """Cosine of the angle between two tangents."""
     weight = _weight(one[0])
     product = float(one[0] @ other[0]) + weight * one[1] * other[1]
-    sizes = (float(t @ t) + weight * slope**2 for t, slope in (one, other))
-    return product / float(np.sqrt(np.prod(list(sizes))))
+    first, second = (float(t @ t) + weight * slope**2 for t, slope in (one, other))
+    return product / sqrt(first * second)
 
 
 def _locate_bifurcation(
@@ -275,7 +277,7 @@ def _goes_on(solver: EquilibriumSolver, before: Equilibrium, found: Equilibrium)
 def step_size(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
     """Length of a step, in step limits."""
     fraction = space.max_step_fraction(q, step)
-    return 1 / fraction if np.isfinite(fraction) else 0.0
+    return 1 / fraction if isfinite(fraction) else 0.0
 
 
 def _distance(space: ConfigurationSpace, one: Equilibrium, other: Equilibrium) -> float:
@@ -286,13 +288,15 @@ def _distance(space: ConfigurationSpace, one: Equilibrium, other: Equilibrium) -
 def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | None:
     """Derivative of the DOFs by the load factor at a point; None if the Hessian is singular."""
     system, tangent = solver.system, solver.tangent
-    system.assemble(point.q, point.history, point.factor, tangent)
-    rate = system.rate(point.factor, tangent)
-    tangent.constrain(system.constrained)
-    right = np.where(system.constrained, 0.0, -rate)
-    change = tangent.solve(right, positive=point.stable)
+    change = solver.rate_at(point)
     if change is None:
-        return None
+        system.assemble(point.q, point.history, point.factor, tangent)
+        rate = system.rate(point.factor, tangent)
+        tangent.constrain(system.constrained)
+        right = np.where(system.constrained, 0.0, -rate)
+        change = tangent.solve(right, positive=point.stable)
+    if change is None or not system.constraints.moving:
+        return change
     return np.where(system.constrained, system.prescribed_rate(point.factor), change)
 
 
@@ -326,42 +330,28 @@ def corrected(
     stray: float,
 ) -> Equilibrium | None:
     """The equilibrium on the plane normal to a direction at an arc of ds; None if it is farther than `stray`."""
-    system, space, tangent = solver.system, solver.system.space, solver.tangent
-    constrained = system.constrained
-    q, factor = point.q + ds * direction, point.factor + ds * slope
-    weight, last = _weight(direction), np.inf
-    for _ in range(2 * _MAX_TARGET_ITERATIONS):
-        q = system.prescribe(q, factor)
-        if not system.assemble(q, point.history, factor, tangent):
-            return None
-        unbalanced, residual, reaction = solver.unbalanced()
-        rounding = solver.rounding(q)
-        scale = max(abs(factor) * system.load_sizes[0], reaction)
-        tolerance = max(solver.settings.tolerance * scale, rounding)
-        rate = system.rate(factor, tangent)
-        tangent.constrain(constrained)
-        if residual <= tolerance or stalled(residual, last, rounding):
-            strayed = np.hypot(
-                step_size(space, q, q - point.q - ds * direction), factor - point.factor - ds * slope
-            )
-            if strayed > stray:
-                return None  # an equilibrium of another path
-            solver.residual, solver.tolerance = residual, tolerance
-            return solver.accepted(q, factor, point.history, rounding)
-        last = residual
-        both = tangent.solve(np.column_stack([unbalanced, np.where(constrained, 0.0, -rate)]))
-        if both is None:
-            return None
-        a, b = both.T
-        across = float(direction @ (q - point.q - ds * direction)) + weight * slope * (
-            factor - point.factor - ds * slope
-        )
-        change = -(across + float(direction @ a)) / (float(direction @ b) + weight * slope)
-        step = a + change * b
-        fraction = min(1.0, space.max_step_fraction(q, step))
-        q, factor = q + fraction * step, factor + fraction * change
-        solver.iterations += 1
-    return None
+    system = solver.system
+    corrector = solver.corrector or Corrector(solver)
+    start = point.q + ds * direction
+    plane = Plane(
+        point.q,
+        direction,
+        point.factor,
+        slope,
+        ds,
+        _weight(direction),
+        system.load_sizes[0],
+        solver.settings.tolerance,
+        2 * _MAX_TARGET_ITERATIONS,
+    )
+    found = corrector.balanced(start.copy(), plane, point.history)
+    if found is None:
+        return None
+    missing = found.factor - point.factor - ds * slope
+    strayed = np.hypot(step_size(system.space, found.q, found.q - start), missing)
+    if strayed > stray:
+        return None  # an equilibrium of another path
+    return corrector.accepted(found, point.history)
 
 
 def _switch_branch(

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
@@ -21,6 +21,9 @@ from cosserat.solvers.climb import MAX_ROUND_OFF_FRACTION, balance, largest_prod
 from cosserat.solvers.heartbeat import beat
 from cosserat.solvers.indefinite import lowest_eigenvector
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
+
+if TYPE_CHECKING:
+    from cosserat.solvers.corrector import Corrector
 
 _EPS = float(np.finfo(float).eps)
 SMALLEST = 2.0**-24  # fraction of the first arc below which halving stops
@@ -84,6 +87,8 @@ class EquilibriumSolver:
 
     def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
         self.system, self.settings, self.name = system, settings, name
+        self.corrector: Corrector | None = None  # once there are arcs
+        self._rate: tuple[Equilibrium, Vector] | None = None  # at the last point, if it is known
         self.iterations = self.cutbacks = self.branch_switches = 0
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
@@ -162,6 +167,14 @@ class EquilibriumSolver:
         """Unbalanced forces (n,) by the tangent assembled last, the largest, and the largest reaction [N]."""
         forces = np.empty_like(self.tangent.gradient)
         return forces, *balance(self.tangent.gradient, self.system.constrained, forces)
+
+    def rate_at(self, point: Equilibrium) -> Vector | None:
+        """The rate of the free DOFs with the load factor at a point that was found last, if it is known."""
+        return self._rate[1] if self._rate is not None and self._rate[0] is point else None
+
+    def know_rate(self, point: Equilibrium, rate: Vector) -> None:
+        """Keep the rate of the free DOFs with the load factor at a point, for `rate_at`."""
+        self._rate = point, rate
 
     def accepted(
         self, q: Vector, factor: float, history: History, rounding: float, *, positive: bool = False

@@ -3,34 +3,47 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg.lapack import dgbtrf, dgbtrs
+from numba import njit
+from scipy.linalg.lapack import dgbtrf, dgbtrs, dpbtrf, dpbtrs
 
 from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector, solve_positive
 
 _DIAGONAL_SHIFTS = tuple(2.0**k for k in range(-40, 12))  # of the largest diagonal entry, in turn
 
 
-def solve_any(band: Band, right: Vector, skew: Band = NO_BAND) -> tuple[Vector | None, float]:
-    """Solve with a symmetric band that need not be positive, for one or, as columns, several right-hand sides.
+@njit(cache=True)
+def _general(band: Band, skew: Band) -> Band:
+    """The matrix with room for its factors: its transpose is LAPACK's storage of a general band."""
+    n, width = band.shape[0], band.shape[1] - 1
+    general = np.zeros((n, 3 * width + 1))
+    for j in range(n):
+        for k in range(min(width, n - 1 - j) + 1):
+            below = skew[j, k] if skew.size and k > 0 else 0.0
+            general[j + k, 2 * width - k] = band[j, k] - below
+            general[j, 2 * width + k] = band[j, k] + below
+    return general
+
+
+class Factors:
+    """The factors of a symmetric band that need not be positive.
 
     skew : the part below the diagonal of a skew-symmetric matrix to be added; without rows there is none.
-    Returns the solution and the sign of the determinant; None and zero where the matrix is singular.
+    sign : of the determinant; zero where the matrix is singular.
     """
-    n, width = band.shape[0], band.shape[1] - 1
-    general = np.zeros((3 * width + 1, n), order="F")
-    for k in range(min(width, n - 1) + 1):
-        general[2 * width + k, : n - k] = band[: n - k, k]
-        general[2 * width - k, k:] = band[: n - k, k]
-        if skew.size and k > 0:
-            general[2 * width + k, : n - k] += skew[: n - k, k]
-            general[2 * width - k, k:] -= skew[: n - k, k]
-    factors, pivots, info = dgbtrf(general, width, width, overwrite_ab=1)
-    if info != 0:
-        return None, 0.0
-    x, _ = dgbtrs(factors, width, width, right, pivots)
-    exchanges = np.count_nonzero(pivots != np.arange(n))
-    sign = (-1.0) ** exchanges * float(np.prod(np.sign(factors[2 * width])))
-    return np.asarray(x), sign
+
+    def __init__(self, band: Band, skew: Band = NO_BAND) -> None:
+        self.width = band.shape[1] - 1
+        general = _general(band, skew).T
+        self.factors, self.pivots, info = dgbtrf(general, self.width, self.width, overwrite_ab=1)
+        exchanges = np.count_nonzero(self.pivots != np.arange(band.shape[0]))
+        negative = np.count_nonzero(self.factors[2 * self.width] < 0)
+        self.sign = 0.0 if info else (-1.0) ** (exchanges + negative)
+
+    def solve(self, right: Vector) -> Vector | None:
+        """The solution for one or, as columns, several right-hand sides; None where the matrix is singular."""
+        if self.sign == 0.0:
+            return None
+        return np.asarray(dgbtrs(self.factors, self.width, self.width, right, self.pivots)[0])
 
 
 def _made_positive(band: Band, right: Vector) -> tuple[Band, Vector | None]:
@@ -54,8 +67,9 @@ def lowest_eigenvector(band: Band, constrained: Mask) -> Vector:
     """The eigenvector of the smallest eigenvalue, of unit largest component, by inverse iteration with a shift."""
     x = np.where(constrained, 0.0, np.cos(1.7 * np.arange(constrained.size)))
     trial, _ = _made_positive(band, x)
+    factor, info = dpbtrf(trial.T, lower=1)
+    assert info == 0
     for _ in range(50):
-        found = solve_positive(trial, x)
-        assert found is not None
-        x = np.where(constrained, 0.0, found / np.abs(found).max())
+        found, _ = dpbtrs(factor, x, lower=1)
+        x = found / np.abs(found).max()
     return x

@@ -27,16 +27,18 @@ def load_gradient(system: MechanicalSystem, point: Equilibrium) -> Vector:
 def coupled_energy(system: MechanicalSystem, point: Equilibrium) -> float:
     """The energy of the loads that are not dead [J]."""
     grown = point.factor * system.nonlinear_load_energy(point.q, point.history)
+    if not system.held:
+        return grown
     return grown + sum(
         load.energy(point.q, own) for load, own in _held(system, point) if not load.linear
     )
 
 
-def load_energy(system: MechanicalSystem, point: Equilibrium) -> float:
-    """The energy of the loads [J]."""
+def load_energy(system: MechanicalSystem, point: Equilibrium, coupled: float) -> float:
+    """The energy of the loads, where that of those that are not dead is known [J]."""
     dead = point.factor * system.dead_load @ (point.q - system.space.reference)
     held = sum(load.energy(point.q, own) for load, own in _held(system, point) if load.linear)
-    return coupled_energy(system, point) - float(dead) + held
+    return coupled - float(dead) + held
 
 
 def _held(system: MechanicalSystem, point: Equilibrium) -> Iterator[tuple[Potential, Vector]]:

@@ -56,7 +56,7 @@ class _Address:
 
 
 @functools.lru_cache(maxsize=64)
-def _addresses(kernel: Callable[..., float], space: Callable[..., float]) -> tuple[_Address, _Address]:
+def addresses(kernel: Callable[..., float], space: Callable[..., float]) -> tuple[_Address, _Address]:
     """The code of the two kernels of a family."""
     return _Address(kernel, KERNEL), _Address(space, SPACE_KERNEL)
 
@@ -116,7 +116,7 @@ class Family:
             self.parts,
             self.half_bandwidth + 1,
         )
-        _compiled()(*_addresses(self.kernel, self.space), members, self.constrained, limits, answers)
+        _compiled()(*addresses(self.kernel, self.space), members, self.constrained, limits, answers)
         return answers
 
 

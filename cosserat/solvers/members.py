@@ -106,3 +106,55 @@ class Body(NamedTuple):
     skew: Fields
     terms: Vector
     none: Vector
+
+
+STEPS, BALANCED, INDEFINITE, UNDEFINED = range(4)
+"""What comes of a correction: a step, a balance, a Hessian that is not positive, no energy there."""
+FACTOR, RESIDUAL, TOLERANCE, ROUNDING, CHANGE, COUNT, NEGATIVE = range(7)
+"""Numbers of the state of corrections: load factor, forces as in `Answers`, change of the factor, steps taken, and
+whether the Hessian is not positive."""
+
+
+class Plane(NamedTuple):
+    """A plane normal to a path at a distance from a point of it, where an equilibrium is to be found.
+
+    start : (n,) DOFs of the point.  direction : (n,) of the path.  factor, slope : of the load, and their change along
+    the path.  ds : the distance.  weight : of the factor in products.  load : largest one at the factor one [N].
+    tolerance : fraction of it.  most : steps.
+    """
+
+    start: Vector
+    direction: Vector
+    factor: float
+    slope: float
+    ds: float
+    weight: float
+    load: float
+    tolerance: float
+    most: int
+
+
+class Around(NamedTuple):
+    """Work space of corrections.
+
+    gradient, rate : (n,) assembled last, and its derivative by the load factor [N].  band : (n, w) the Hessian.
+    scale, held : (n,) as in `Body`.  factor, room : (n + w, w) and (n + w,).
+    """
+
+    gradient: Vector
+    rate: Vector
+    band: Fields
+    scale: Vector
+    held: Mask
+    factor: Fields
+    room: Vector
+
+
+class Numbers(NamedTuple):
+    """One body of `Members`; terms : of its energy."""
+
+    data: NDArray[np.uint8]
+    origin: Vector
+    placed: Vector
+    dead: Vector
+    terms: int

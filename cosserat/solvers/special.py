@@ -9,13 +9,14 @@ the path, to round-off.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import sqrt
 
 import numpy as np
 
 from cosserat.solvers.banded import Vector, absolute_product
 from cosserat.solvers.continuation import corrected, path_tangent, step_size
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
-from cosserat.solvers.indefinite import solve_any
+from cosserat.solvers.indefinite import Factors
 from cosserat.solvers.system import MechanicalSystem
 
 _SPLIT = (
@@ -105,14 +106,13 @@ class _Chord:
         system, tangent = self.solver.system, self.solver.tangent
         system.assemble(point.q, point.history, point.factor, tangent)
         tangent.constrain(system.constrained)
-        x, value = start, np.inf
+        x, value, factors = start, np.inf, Factors(tangent.band, tangent.skew)
         for _ in range(_INVERSE_ITERATIONS):
-            y = solve_any(tangent.band, x, tangent.skew)[0]
+            y = factors.solve(x)
             if y is None:
                 return 0.0, x, 0.0  # singular to the last bit
-            y = np.where(system.constrained, 0.0, y)
             before, value = value, float(x @ x) / float(x @ y)
-            x = y / np.linalg.norm(y)
+            x = y / sqrt(y @ y)
             if abs(value - before) <= _SETTLED * abs(value):
                 break
         return value, x, _ROUND_OFF * float(np.abs(x) @ absolute_product(tangent.band, x))

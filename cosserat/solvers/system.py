@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import isfinite
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -26,7 +27,7 @@ from cosserat.solvers.banded import (
 )
 from cosserat.solvers.damping import NO_MODES, DampedModes, damped_like
 from cosserat.solvers.frames import NO_FRAME, Frame
-from cosserat.solvers.indefinite import solve_any
+from cosserat.solvers.indefinite import Factors
 from cosserat.solvers.potential import Level, Potential
 
 Fields = NDArray[np.float64]
@@ -164,6 +165,11 @@ class MechanicalSystem:
         """The internal variables at the start."""
         return tuple(potential.history for potential in self.potentials)
 
+    @cached_property
+    def _remembers(self) -> bool:
+        """Whether some potential has internal variables."""
+        return any(potential.history.size for potential in self.potentials)
+
     @property
     def half_bandwidth(self) -> int:
         """Largest distance of two DOFs that are coupled."""
@@ -275,18 +281,21 @@ class MechanicalSystem:
         """
         tangent.clear()
         energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
-        for potential, known in zip(self.own[1:], history[1:], strict=False):
-            energy += potential.add(q, known, tangent.gradient, tangent.band, tangent.skew)
+        if len(self.own) > 1:
+            for potential, known in zip(self.own[1:], history[1:], strict=False):
+                energy += potential.add(q, known, tangent.gradient, tangent.band, tangent.skew)
         np.negative(self.dead_load, out=tangent.load_gradient)
         for number, load in self._nonlinear_loads:
             if load.level is None:
                 own = history[number]
                 energy += load.add(q, own, tangent.load_gradient, tangent.load_band, tangent.load_skew)
         tangent.add_load(factor)
-        return bool(np.isfinite(energy))
+        return isfinite(energy)
 
     def committed(self, q: Vector, history: History) -> History:
         """The internal variables at q, an accepted state, from those of the state before."""
+        if not self._remembers:
+            return history
         return tuple(p.committed(q, own) for p, own in zip(self.potentials, history, strict=True))
 
     def prescribe(self, q: Vector, factor: float) -> Vector:
@@ -359,8 +368,8 @@ class Tangent:
         """
         if positive and not self.skew.size:
             return solve_positive(self.band, right)
-        step, sign = solve_any(self.band, right, self.skew)
-        return None if positive and sign < 0 else step
+        factors = Factors(self.band, self.skew)
+        return None if positive and factors.sign < 0 else factors.solve(right)
 
     def negative(self) -> int:
         """How many eigenvalues are negative; where there is a skew part, one if the determinant is.
@@ -370,4 +379,4 @@ class Tangent:
         """
         if not self.skew.size:
             return negative_eigenvalues(self.band)
-        return int(solve_any(self.band, self.gradient, self.skew)[1] < 0)
+        return int(Factors(self.band, self.skew).sign < 0)

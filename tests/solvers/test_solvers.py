@@ -469,8 +469,8 @@ def test_an_integrator_that_commits_trial_states_is_noticed(monkeypatch):
 
 
 def test_a_solver_that_forgets_the_skew_part_is_noticed(monkeypatch):
-    right = "step, sign = solve_any(self.band, right, self.skew)"
-    faulty = patched(system_module, right, "step, sign = solve_any(self.band, right)")
+    right = "factors = Factors(self.band, self.skew)\n        return None"
+    faulty = patched(system_module, right, "factors = Factors(self.band)\n        return None")
     monkeypatch.setattr(equilibrium, "Tangent", faulty.Tangent)
     with pytest.raises(AssertionError):
         test_a_force_without_a_potential_has_a_skew_tangent_and_the_equilibrium_of_both()

@@ -1,0 +1,52 @@
+"""Corrections of a path by the compiled loop and step by step; elsewhere closed forms say which are right."""
+
+import numpy as np
+import pytest
+
+from cosserat.cases.catalogue import find
+from cosserat.solvers import continuation, corrector
+from cosserat.solvers.continuation import ArcLengthSettings, path_tangent, trace_path
+from cosserat.solvers.equilibrium import EquilibriumSolver
+from cosserat.solvers.incremental import unloaded
+
+ARC = ArcLengthSettings(first=0.05, longest=0.3, count=500, until=1.0, limit=3.0, branches=1)
+
+
+def path(name):
+    """The solver of a published path, and its points."""
+    problem = find(name).problem
+    system, _ = problem.grown(problem.geometry, name)
+    solver = EquilibriumSolver(system, problem.newton, name)
+    return solver, list(trace_path(solver, unloaded(solver), ARC))
+
+
+@pytest.mark.parametrize("name", ["column_path", "arch_path"])
+def test_the_compiled_loop_and_single_steps_find_one_path(monkeypatch, name):
+    solver, found = path(name)
+    assert solver.corrector._loop is not None
+    monkeypatch.setattr(corrector.Family, "of", lambda *_: None)
+    other, stepped = path(name)
+    assert other.corrector._loop is None
+    assert [p.negative for p in found] == [p.negative for p in stepped]
+    for one, two in zip(found, stepped, strict=True):
+        assert one.factor == pytest.approx(two.factor, abs=1e-9)
+        np.testing.assert_allclose(one.q, two.q, atol=1e-9)
+        np.testing.assert_allclose(one.reaction, two.reaction, atol=1e-7)
+
+
+def test_the_rate_known_from_a_correction_is_that_of_an_assembly(monkeypatch):
+    known = []
+
+    def both(solver, point, before):
+        found = path_tangent(solver, point, before)
+        if solver.rate_at(point) is not None:
+            solver._rate = None
+            known.append((found, path_tangent(solver, point, before)))
+        return found
+
+    monkeypatch.setattr(continuation, "path_tangent", both)
+    path("arch_path")
+    assert len(known) > 5
+    for (change, slope), (other, same) in known:
+        np.testing.assert_allclose(change, other, atol=1e-8)
+        assert slope == pytest.approx(same, abs=1e-8)
