@@ -6,6 +6,7 @@ file a dimensional value is a text with its unit ("5 m", "1 GPa"); in Python it 
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, Self, get_args, get_origin
@@ -82,6 +83,15 @@ def _check_length(key: str, value: object, annotations: Sequence[object]) -> Non
         )
 
 
+@functools.cache
+def _may_be_none(kind: type[BaseModel], key: str) -> bool:
+    """Whether "none" is a word of a key."""
+    field = kind.model_fields[key]
+    if field.annotation is str and not field.metadata:
+        return True
+    return any(map(_reads_none, field.metadata or [field.annotation]))
+
+
 class Parameters(BaseModel):
     """Base of every parameter object: frozen, and unknown keys are errors."""
 
@@ -108,10 +118,7 @@ class Parameters(BaseModel):
                 _check_length(key, value, [field.annotation, *field.metadata])
             named = isinstance(value, str) and (isinstance(value, Dropped) or value == "none")
             field = field if named else None
-            word = field is not None and (
-                (field.annotation is str and not field.metadata)
-                or any(map(_reads_none, field.metadata or [field.annotation]))
-            )
+            word = field is not None and _may_be_none(cls, key)
             if isinstance(value, Dropped):
                 kept |= {key: str(value)} if value and word else {}
             elif field is not None and not word:

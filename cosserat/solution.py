@@ -52,14 +52,15 @@ class Solution:
     statistics : of the solver, by name.
     labels : the names along a dimension without numbers, such as the axes of a vector.
     warnings : sentences about the use of the numbers, each begins with a name.
-    derive : gives further fields and labels that follow from these, when a Dataset is made.
+    derive : gives further fields and labels that follow from these, when a Dataset is made; at least those of given
+        names, or all of them.
     """
 
     fields: Mapping[str, Field]
     statistics: Mapping[str, int | float]
     labels: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
-    derive: Callable[[], Solution] | None = None
+    derive: Callable[..., Solution] | None = None
 
     def __getitem__(self, name: str) -> Array:
         """The values of one field."""

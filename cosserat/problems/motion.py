@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import replace
 from typing import Annotated, ClassVar, Literal, Self
 
@@ -158,11 +158,11 @@ class RodMotion(PosedProblem):
         whole = joined(done, checkpointed.substeps_per_frame)
         whole = replace(whole, statistics=dict(whole.statistics) | checkpointed.damping())
 
-        def derive() -> Solution:
+        def derive(names: Set[str] = frozenset()) -> Solution:
             system, count = checkpointed.system, whole["time"].size
             instants = [state_of(whole, system, number) for number in range(count)]
             states = of_instants(self, checkpointed.geometry, system, instants, whole["first_angle"])
-            found, potential = outputs(states), whole["load_potential"]
+            found, potential = outputs(states, names), whole["load_potential"]
             work = whole["load_work"] + potential[0] - potential
             return replace(found, fields={**found.fields, "total_load_work": (("time",), work)})
 

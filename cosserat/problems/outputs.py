@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +33,11 @@ from cosserat.solvers.reactions import reactions
 from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
+_GIVEN = {
+    "_director_forces": {"contact_director_force", "intrinsic_director_force"},
+    "_places": {"u", "rotation", "probe_displacement", "probe_rotation"},
+}
+"""All that some makers of outputs give, which are left out where nothing of it is needed."""
 
 
 @dataclass(frozen=True)
@@ -63,11 +69,25 @@ class States:
         at_rest = rod.strain_energy.reference(self.geometry)
         return rod.kinematics.split(at_rest + self.u)
 
+    @cached_property
+    def gradient(self) -> Array:
+        """Forces of the strains on positions and directors, (S, N, m, 2) [N]."""
+        split = self.problem.rod.kinematics.split
+        gradient = split(strain_gradients(self.energy, self.u))
+        for stress, factor in self.stresses:
+            gradient = gradient + split(strain_gradients(stress, self.u) * factor[:, None])
+        return gradient
 
-def outputs(states: States) -> Solution:
-    """Internal forces, stresses, reactions, rotations, probes and parts of the energy."""
+
+def outputs(states: States, names: Set[str] = frozenset()) -> Solution:
+    """Internal forces, stresses, reactions, rotations, probes and parts of the energy.
+
+    names : of the fields that are needed; all of them if there are none.
+    """
     made = Solution({}, {}, {"axis": states.problem.rod.kinematics.axes})
-    for maker in (_internal, _reactions, _places, _parts_of_energy, _attached):
+    for maker in (_internal, _director_forces, _reactions, _places, _parts_of_energy, _attached):
+        if names and not names & _GIVEN.get(maker.__name__, names):
+            continue
         more = maker(states)
         made = Solution({**made.fields, **more.fields}, {}, {**made.labels, **more.labels})
     if states.along:
@@ -80,13 +100,9 @@ def outputs(states: States) -> Solution:
 
 
 def _internal(states: States) -> Solution:
-    """N, Q, M, the director forces, and stresses as beams have them."""
-    rod, arc = states.problem.rod, states.geometry.arc_length
-    gradient = rod.kinematics.split(strain_gradients(states.energy, states.u))
-    for stress, factor in states.stresses:
-        more = strain_gradients(stress, states.u) * factor[:, None]
-        gradient = gradient + rod.kinematics.split(more)
-    found = resultants(states.vectors(), gradient)
+    """N, Q, M, and stresses as beams have them."""
+    arc = states.geometry.arc_length
+    found = resultants(states.vectors(), states.gradient)
     edge, vector = (states.along, "edge"), (states.along, "edge", "axis")
     fields: dict[str, Field] = {
         "xi_edge": (("edge",), (arc[1:] + arc[:-1]) / 2),
@@ -95,16 +111,25 @@ def _internal(states: States) -> Solution:
         "shear_force": (edge, found.shear),
         "bending_moment": (edge, found.moment),
     }
-    between = rod.strain_energy.between
-    if between:
-        contact = contact_director_forces(states.energy, between, states.u, len(rod.kinematics.vectors))
-        for stress, factor in states.stresses:
-            own = contact_director_forces(stress, between, states.u, len(rod.kinematics.vectors))
-            contact = contact + own * factor[:, None, None]
-        intrinsic = intrinsic_director_forces(contact, gradient[..., 1, :])
-        fields["contact_director_force"] = (vector, contact)
-        fields["intrinsic_director_force"] = ((states.along, "vertex", "axis"), intrinsic)
     return Solution(fields | _stresses(states, found), {}, {"surface": SURFACES})
+
+
+def _director_forces(states: States) -> Solution:
+    """The forces on directors, of an energy that has them."""
+    rod = states.problem.rod
+    between, count = rod.strain_energy.between, len(rod.kinematics.vectors)
+    if not between:
+        return Solution({}, {})
+    contact = contact_director_forces(states.energy, between, states.u, count)
+    for stress, factor in states.stresses:
+        own = contact_director_forces(stress, between, states.u, count)
+        contact = contact + own * factor[:, None, None]
+    intrinsic = intrinsic_director_forces(contact, states.gradient[..., 1, :])
+    fields: dict[str, Field] = {
+        "contact_director_force": ((states.along, "edge", "axis"), contact),
+        "intrinsic_director_force": ((states.along, "vertex", "axis"), intrinsic),
+    }
+    return Solution(fields, {})
 
 
 def _stresses(states: States, found: Resultants) -> dict[str, Field]:
@@ -182,14 +207,11 @@ def _attached(states: States) -> Solution:
 def _parts_of_energy(states: States) -> Solution:
     """The energy by term, and what else the energy itself gives of a state."""
     energy = states.problem.rod.strain_energy
-    each = [
-        energy.fields(states.problem.rod, states.geometry, states.energy, u, coupled)
-        for u, coupled in zip(states.u, states.couples, strict=True)
-    ]
-    labels, own = each[0]
+    labels, own = energy.fields(
+        states.problem.rod, states.geometry, states.energy, states.u, states.couples
+    )
     fields: dict[str, Field] = {
-        name: ((states.along, *dims), np.array([values[name][1] for _, values in each]))
-        for name, (dims, _) in own.items()
+        name: ((states.along, *dims), values) for name, (dims, values) in own.items()
     }
     return Solution(fields, {}, labels)
 
@@ -223,8 +245,9 @@ def of_equilibria(
     system: MechanicalSystem,
     points: Sequence[Equilibrium],
     along: str,
+    couples: Array,
 ) -> States:
-    """States of equilibria; the system is one of displacements."""
+    """States of equilibria; the system is one of displacements; couples : as in `States`."""
     factors = np.array([point.factor for point in points])
     held = [(load, np.ones_like(factors)) for load in system.held if load.terms == STRESSES]
     return States(
@@ -234,7 +257,7 @@ def of_equilibria(
         along,
         np.array([point.q for point in points]),
         np.array([point.reaction for point in points]),
-        np.array([coupled_energy(system, point) for point in points]),
+        couples,
         [(stress, factors) for stress in problem.stresses(geometry)] + held,
         _held_section(problem, geometry, factors),
         attached_forces(system, points),
@@ -291,15 +314,22 @@ def _levels(load: Potential, instants: Sequence[State]) -> Array:
     return np.ones_like(times) if load.level is None else load.level.value(times)
 
 
-def energies(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:
+def parts_of_energy(
+    system: MechanicalSystem, points: Sequence[Equilibrium]
+) -> tuple[Array, Array, Array]:
+    """Strain energy, that of springs and, at the load factor, that of the loads that are not dead, (S,) each [J]."""
+    strain = [system.internal.energy(point.q) for point in points]
+    attached = [system.attached_energy(point.q, point.history) for point in points]
+    return np.array(strain), np.array(attached), np.array([coupled_energy(system, p) for p in points])
+
+
+def energies(
+    system: MechanicalSystem, points: Sequence[Equilibrium], parts: tuple[Array, Array, Array]
+) -> dict[str, Array]:
     """Strain energy, energy of springs, and potential of the loads at their load factor, (S,) each [J]."""
-    each = np.array([_energies(system, point) for point in points]).T
-    return dict(zip(("strain_energy", "attached_energy", "load_potential"), each, strict=True))
-
-
-def _energies(system: MechanicalSystem, point: Equilibrium) -> tuple[float, float, float]:
-    attached = system.attached_energy(point.q, point.history)
-    return system.internal.energy(point.q), attached, load_energy(system, point)
+    strain, attached, coupled = parts
+    loads = [load_energy(system, *one) for one in zip(points, coupled, strict=True)]
+    return {"strain_energy": strain, "attached_energy": attached, "load_potential": np.array(loads)}
 
 
 def work_along(system: MechanicalSystem, points: Sequence[Equilibrium]) -> dict[str, Array]:

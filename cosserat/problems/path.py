@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import replace
 from typing import Annotated, ClassVar, Literal, Self
 
@@ -15,7 +15,7 @@ from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.grown import GrownProblem
-from cosserat.problems.outputs import energies, of_equilibria, outputs, work_along
+from cosserat.problems.outputs import energies, of_equilibria, outputs, parts_of_energy, work_along
 from cosserat.problems.special import special_fields
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
@@ -25,11 +25,11 @@ from cosserat.solution import Field, Solution
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.incremental import unloaded
-from cosserat.solvers.loading import coupled_energy
 from cosserat.solvers.special import SpecialPoint, special_points
-from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
+_STORED = {"strain_energy", "attached_energy", "load_potential", "total_load_work", "support_work"}
+"""Energies and works along a path, which are left out where none is needed."""
 
 
 class ArcSettings(Parameters):
@@ -88,13 +88,14 @@ class RodPath(GrownProblem):
             branches=int(self.arc.branch == "leave"),
         )
         points: list[Equilibrium] = []
+        furthest = 0.0
         try:
             for point in trace_path(solver, unloaded(solver), arc):
                 x, d = _placed(self.rod, geometry, point.unframed(system))
                 where = f"{name}, {point.factor:.4g} of the load"
                 check_crossing(geometry, x, d, self.rod.below, where)
                 points.append(point)
-                furthest = max(known.factor for known in points)
+                furthest = max(furthest, point.factor)
                 run.progress(min(furthest, 1.0), f"{point.factor:.4g} of the load")
         except (NotConvergedError, CrossingError) as error:
             if points:
@@ -152,21 +153,14 @@ def _placed(rod: Rod, geometry: Geometry, point: Equilibrium) -> tuple[Array, Ar
     return vectors[:, 0], vectors[:, 1]
 
 
-def _energy(system: MechanicalSystem, point: Equilibrium) -> float:
-    """Strain energy, that of springs and, at the load factor, that of the loads that are not dead [J]."""
-    attached = system.attached_energy(point.q, point.history)
-    return system.internal.energy(point.q) + attached + coupled_energy(system, point)
-
-
 def _solution(
     problem: RodProblem, geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver
 ) -> Solution:
     rod, system = problem.rod, solver.system.unframed
     points = [point.unframed(solver.system) for point in points]
-    x, d = (
-        np.array(parts)
-        for parts in zip(*(_placed(rod, geometry, point) for point in points), strict=True)
-    )
+    vectors = rod.vectors(geometry, np.array([point.q for point in points]))
+    x, d = vectors[..., 0, :].copy(), vectors[..., 1, :].copy()
+    parts = parts_of_energy(system, points)
     along, vector = ("point",), ("vertex", "axis")
     fields: dict[str, Field] = {
         "load_factor": (along, np.array([point.factor for point in points])),
@@ -176,7 +170,7 @@ def _solution(
         "d_ref": (vector, geometry.D),
         "x": ((*along, *vector), x),
         "d": ((*along, *vector), d),
-        "potential": (along, np.array([_energy(system, point) for point in points])),
+        "potential": (along, sum(parts[1:], parts[0])),
     }
     statistics = {
         "points": len(points),
@@ -190,10 +184,12 @@ def _solution(
             "unstable end: the last point of the path is an unstable equilibrium, where a body does not stay"
         )
 
-    def derive() -> Solution:
-        found = outputs(of_equilibria(problem, geometry, system, points, "point"))
-        stored, work = energies(system, points), work_along(system, points)
-        more = {name: (along, values) for name, values in (stored | work).items()}
+    def derive(names: Set[str] = frozenset()) -> Solution:
+        found = outputs(of_equilibria(problem, geometry, system, points, "point", parts[-1]), names)
+        stored: dict[str, Array] = {}
+        if not names or names & _STORED:
+            stored = energies(system, points, parts) | work_along(system, points)
+        more = {name: (along, values) for name, values in stored.items()}
         return replace(found, fields={**found.fields, **more})
 
     return Solution(fields, statistics, {"axis": rod.kinematics.axes}, tuple(warnings), derive)

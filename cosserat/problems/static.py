@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import cached_property
 from typing import Literal
@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from cosserat.errors import NotConvergedError, UnsupportedRodError
 from cosserat.problem import ALONE, Run
-from cosserat.problems.outputs import energies, of_equilibria, outputs
+from cosserat.problems.outputs import energies, of_equilibria, outputs, parts_of_energy
 from cosserat.problems.posed import PosedProblem
 from cosserat.rods.holding import free_motions
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, Strains, strains
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.rods.rod import Rod
-from cosserat.solution import Many, Solution
+from cosserat.solution import Field, Many, Solution
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.loading import coupled_energy
 from cosserat.solvers.modes import Modes, modes
@@ -167,8 +167,9 @@ def equilibrium_solution(
     rod = problem.rod
     point, system = point.unframed(solver.system), solver.system.unframed
     state = State(rod, geometry, point.q, point.factor * system.dead_load, point.reaction)
-    coupled = coupled_energy(system, point)
-    more, own = rod.strain_energy.fields(rod, geometry, system.internal, point.q, coupled)
+    coupled = np.array([coupled_energy(system, point)])
+    more, each = rod.strain_energy.fields(rod, geometry, system.internal, point.q[None], coupled)
+    own: dict[str, Field] = {name: (dims, values[0]) for name, (dims, values) in each.items()}
     labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs} | more
     fields = own | {name: (dims, values(state)) for name, (dims, values) in FIELDS.items()}
     statistics: dict[str, int | float] = {
@@ -180,9 +181,10 @@ def equilibrium_solution(
         "rounding_N": point.rounding,
     }
 
-    def derive() -> Solution:
-        found = outputs(of_equilibria(problem, geometry, system, [point], ""))
-        stored = energies(system, [point])
+    def derive(names: Set[str] = frozenset()) -> Solution:
+        parts = parts_of_energy(system, [point])
+        found = outputs(of_equilibria(problem, geometry, system, [point], "", parts[-1]), names)
+        stored = energies(system, [point], parts)
         more = {name: ((), values[0]) for name, values in stored.items()}
         return replace(found, fields={**found.fields, **more})
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
@@ -31,15 +32,32 @@ def surface_stretch(geometry: Geometry, x: Array, d: Array, lower: Array) -> Arr
     Measured across the mean of the two directors.  derived: the surfaces run between the tips x + d, and between
     x - lower d; two sections meet where one of them has no length, as in the displays after eq. (3.4.11).
     """
-    unit = d / np.linalg.norm(d, axis=-1)[..., None]
-    across = unit[..., 1:, :] + unit[..., :-1, :]
-    across /= np.linalg.norm(across, axis=-1)[..., None]
-    surfaces = (x + d, x - lower[:, None] * d)
-    edges = np.stack([np.diff(surface, axis=-2) for surface in surfaces], axis=-3)
-    m = across[..., None, :, :]
-    length = edges[..., 0] * m[..., 1] - edges[..., 1] * m[..., 0]
-    stretch: Array = length / geometry.edge_length[..., None, :]
-    return stretch
+    shape = *x.shape[:-2], 2, x.shape[-2] - 1
+    stretch = np.empty((x.size // (2 * x.shape[-2]), *shape[-2:]))
+    edges, flat = geometry.edge_length.reshape(-1, shape[-1]), (-1, *x.shape[-2:])
+    x, d = np.ascontiguousarray(x), np.ascontiguousarray(d)
+    _stretch(x.reshape(flat), d.reshape(flat), lower, edges, stretch)
+    return stretch.reshape(shape)
+
+
+@njit(cache=True, error_model="numpy")
+def _stretch(x: Array, d: Array, lower: Array, edges: Array, stretch: Array) -> None:
+    """Overwrite the stretch of both surfaces, (S, 2, N - 1), for x and d of shape (S, N, 2).
+
+    edges : their lengths, (S, N - 1), or those of all states, (1, N - 1).
+    """
+    for s in range(x.shape[0]):
+        for K in range(x.shape[1] - 1):
+            u, v, e, f = d[s, K, 0], d[s, K, 1], d[s, K + 1, 0], d[s, K + 1, 1]
+            low, high = np.sqrt(u * u + v * v), np.sqrt(e * e + f * f)
+            p, r = e / high + u / low, f / high + v / low
+            both = np.sqrt(p * p + r * r)
+            p, r = p / both, r / both
+            for side in range(2):
+                one, two = (1.0, 1.0) if side == 0 else (-lower[K], -lower[K + 1])
+                along = x[s, K + 1, 0] + two * e - (x[s, K, 0] + one * u)
+                across = x[s, K + 1, 1] + two * f - (x[s, K, 1] + one * v)
+                stretch[s, side, K] = (along * r - across * p) / edges[s % edges.shape[0], K]
 
 
 def check_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: str) -> None:

@@ -192,7 +192,7 @@ def _fields(found: Solution, read_outs: Sequence[ReadOut]) -> Solution:
     names = {name for one in read_outs for name in one.needs()}
     if names <= set(found.fields) or found.derive is None:
         return found
-    more = found.derive()
+    more = found.derive(names - set(found.fields))
     return Solution({**more.fields, **found.fields}, {}, {**more.labels, **found.labels})
 
 

@@ -237,7 +237,7 @@ def _needed(task: Task, problem: Problem, solution: Solution) -> Solution:
         return solution
     fields, labels = dict(solution.fields), dict(solution.labels)
     if solution.derive is not None:
-        more = solution.derive()
+        more = solution.derive(names - set(fields))
         fields, labels = {**more.fields, **fields}, {**more.labels, **labels}
     if "total_mass" in names - set(fields) and hasattr(problem, "rod"):
         own, words = total_mass(rod_problem := cast("RodProblem", problem), rod_problem.geometry)

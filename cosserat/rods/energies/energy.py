@@ -56,11 +56,11 @@ class Energy(ABC):
         """The mass matrix as a symmetric band, (n, w)."""
 
     def fields(
-        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: float
+        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: Array
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
-        """Labels and fields of a state that only this energy has.
+        """Labels, and fields of states that only this energy has; their dimensions are those of one state.
 
-        potential : of displacements.  u : (n,) displacements [m].  couples : energy of the couples [J].
+        potential : of displacements.  u : (S, n) displacements [m].  couples : (S,) energy of the couples [J].
         """
         return {}, {}
 

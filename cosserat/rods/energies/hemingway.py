@@ -76,12 +76,12 @@ class Hemingway(Energy):
         return self.kinematics.mass_band(np.array([[m, rod.Y02 * m], [rod.Y02 * m, rod.Y22 * m]]))[:, :3]
 
     def fields(
-        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: float
+        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: Array
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Shear angles and the seven terms."""
-        vectors, terms = rod.vectors(geometry, u), potential.energy_terms(u)
-        theta = signed_angle(normals(vectors[:, 0]), vectors[:, 1])
-        return {"term": TERMS}, {"theta": (("vertex",), theta), "energy": (("term",), terms)}
+        vectors, terms = rod.vectors(geometry, u), [potential.energy_terms(row) for row in u]
+        theta = signed_angle(normals(vectors[..., 0, :]), vectors[..., 1, :])
+        return {"term": TERMS}, {"theta": (("vertex",), theta), "energy": (("term",), np.array(terms))}
 
 
 def potential(stiffness: Stiffness, origin: Array | None = None) -> Potential:

@@ -85,14 +85,14 @@ class Reissner(Energy):
         return self.kinematics.mass_band(np.array([[m0, m1], [m1, m2]]), np.array(between))
 
     def fields(
-        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: float
+        self, rod: Rod, geometry: Geometry, potential: Potential, u: Array, couples: Array
     ) -> tuple[dict[str, tuple[str, ...]], dict[str, Field]]:
         """Shear angles of the edges and the parts of the energy, that of the couples included."""
-        vectors, terms = rod.vectors(geometry, u), potential.energy_terms(u)
-        edges = centre_edges(potential.constants, vectors[:, 0], vectors[:, 1])
+        vectors, terms = rod.vectors(geometry, u), [potential.energy_terms(row) for row in u]
+        x, d = vectors[..., 0, :], vectors[..., 1, :]
         return {"part": (*TERMS, "couples")}, {
-            "shear": (("edge",), edge_shear(edges, vectors[:, 1])),
-            "energy_parts": (("part",), np.append(terms, couples)),
+            "shear": (("edge",), edge_shear(centre_edges(potential.constants, x, d), d)),
+            "energy_parts": (("part",), np.column_stack([terms, couples])),
         }
 
     def start_directors(self, rod: Rod, geometry: Geometry, x: Array, d: Array) -> Array:
