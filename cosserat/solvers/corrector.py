@@ -21,6 +21,7 @@ from cosserat.solvers.members import (
     NEGATIVE,
     RESIDUAL,
     ROUNDING,
+    STEPS,
     TOLERANCE,
     UNDEFINED,
     Around,
@@ -94,27 +95,22 @@ class Corrector:
         """The balance within a plane from q; None where there is none."""
         solver, space, state = self.solver, self.solver.system.space, np.zeros(_STATE)
         state[FACTOR], state[RESIDUAL] = plane.factor + plane.ds * plane.slope, np.inf
-        step, rate = np.empty_like(q), np.empty_like(q)
-        while state[COUNT] < plane.most:
-            before = int(state[COUNT])
+        step, rate, outcome = np.empty_like(q), np.empty_like(q), STEPS
+        while outcome == STEPS and state[COUNT] < plane.most:
             q, outcome = self._advanced(q, plane, history, (step, rate, state))
             if outcome == INDEFINITE:
                 both = solver.tangent.solve(np.column_stack([step, rate]))
                 if both is None:
-                    outcome = UNDEFINED
-                else:
-                    step, rate = both.T.copy()
-                    keep_on_plane(q, plane, step, rate, state)
-            if outcome not in (BALANCED, UNDEFINED) and state[COUNT] < plane.most:
+                    break
+                outcome, (step, rate) = STEPS, both.T.copy()
+                keep_on_plane(q, plane, step, rate, state)
+            if outcome == STEPS and state[COUNT] < plane.most:
                 move_on(q, step, state, min(1.0, space.max_step_fraction(q, step)))
-            solver.iterations += int(state[COUNT]) - before
-            if outcome == UNDEFINED:
-                return None
-            if outcome == BALANCED:
-                found = q, float(state[FACTOR]), float(state[ROUNDING])
-                solver.residual, solver.tolerance = float(state[RESIDUAL]), float(state[TOLERANCE])
-                return Balance(*found, not state[NEGATIVE], rate)
-        return None
+        solver.iterations += int(state[COUNT])
+        if outcome != BALANCED:
+            return None
+        solver.residual, solver.tolerance = float(state[RESIDUAL]), float(state[TOLERANCE])
+        return Balance(q, float(state[FACTOR]), float(state[ROUNDING]), not state[NEGATIVE], rate)
 
     def _advanced(
         self, q: Vector, plane: Plane, history: History, answer: tuple[Vector, Vector, Vector]
