@@ -237,12 +237,17 @@ def show(options: argparse.Namespace) -> None:
         with holding_what_is_needed(dataset, "'show'"):
             print("\n".join(map(printable, contents(dataset))))
         return
-    case, statistics = case_of(dataset), statistics_of(dataset)
-    lines = [f"{case.name}: {case.title}", dataset.attrs.get("source", "")]
+    title, solver = str(dataset.attrs.get("title", "")), dict[str, object]()
+    case = case_of(dataset) if "parameters" in dataset.attrs else None
+    if case is not None and not {"fit", "design", "method"} & set(dataset.attrs):
+        title, solver = f"{case.name}: {case.title}", dict(statistics_of(dataset))
+    lines = [title, str(dataset.attrs.get("source", ""))]
     lines += [f"warning: {warning}" for warning in warnings_of(dataset)]
-    lines += ["", "parameters (SI units)"]
-    lines += [f"  {name} = {value}" for name, value in _flat(case.problem.model_dump())]
-    lines += ["", "solver", *(f"  {name} = {value}" for name, value in statistics.items())]
+    if case is not None:
+        lines += ["", "parameters (SI units)"]
+        lines += [f"  {name} = {value}" for name, value in _flat(case.problem.model_dump())]
+    if solver:
+        lines += ["", "solver", *(f"  {name} = {value}" for name, value in solver.items())]
     lines += ["", "variables: least, largest, unit"]
     with holding_what_is_needed(dataset, "'show'"):
         for variable, values in dataset.data_vars.items():

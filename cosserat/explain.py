@@ -214,6 +214,8 @@ def nearest(word: str, known: list[str], cutoff: float = 0.8) -> str:
     close = [said] if said else difflib.get_close_matches(word[:100], known, n=1, cutoff=cutoff)
     if close:
         return f"; did you mean '{shortened(close[0])}'?"
+    if not known:
+        return ""
     names = [shortened(name) for name in known]
     fitting = sum(length < _LISTED for length in itertools.accumulate(len(name) + 2 for name in names))
     more = f" and {len(names) - fitting} more" if len(names) > fitting else ""

@@ -65,6 +65,9 @@ _REFINED = "cosserat.studies.analysis.refinements"
 STUDY_CLASS = "cosserat.studies.study:Study"
 """Class of a study, which is a table of a case file and no problem."""
 
+FIT_CLASS = "cosserat.studies.analysis.fitting:Fit"
+"""Class of a fit, likewise."""
+
 KINDS = {
     "rod statics": Kind(
         "cosserat.problems.static:RodStatics",

@@ -18,7 +18,7 @@ from pydantic.fields import FieldInfo
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
 from cosserat.explain import docstrings
-from cosserat.kinds import STUDY_CLASS
+from cosserat.kinds import FIT_CLASS, STUDY_CLASS
 from cosserat.parameters import (
     Count,
     Items,
@@ -29,7 +29,7 @@ from cosserat.parameters import (
     nearest,
 )
 from cosserat.problem import Problem
-from cosserat.publications import STUDY, kinds
+from cosserat.publications import FIT, STUDY, kinds
 from cosserat.tables import ShortForm
 from cosserat.text import shortened
 
@@ -40,6 +40,7 @@ Form = Literal[
     "word",
     "name",
     "names",
+    "keys",
     "text",
     "truth",
     "table",
@@ -152,9 +153,12 @@ def title(kind: str) -> str:
 
 @functools.cache
 def described() -> Mapping[str, type[BaseModel]]:
-    """The classes of all that a case file may hold, by kind: problems and studies."""
+    """The classes of all that a case file may hold, by kind: problems, studies and fits."""
     classes: dict[str, type[BaseModel]] = {name: kind.problem_class() for name, kind in kinds().items()}
-    return classes | {STUDY: pkgutil.resolve_name(STUDY_CLASS)}
+    return classes | {
+        STUDY: pkgutil.resolve_name(STUDY_CLASS),
+        FIT: pkgutil.resolve_name(FIT_CLASS),
+    }
 
 
 @functools.cache
@@ -234,16 +238,22 @@ def _value(annotation: Any) -> Value | None:
         return Value("table", tables=tuple(table for value in found for table in value.tables))
     if origin is Literal:
         return Value("word", words=parts)
-    if origin is tuple:
-        return _list_or_row(parts, about)
+    if origin in (tuple, dict):
+        return _list_or_row(parts, about) if origin is tuple else _named(parts[1])
     if annotation is types.NoneType:
         return None
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return Value("table", tables=(annotation,))
-    return Value(_PLAIN[origin or annotation])
+    return Value(_PLAIN[annotation])
 
 
-_PLAIN: Mapping[type, Form] = {str: "text", bool: "truth", float: "number", dict: "names"}
+_PLAIN: Mapping[type, Form] = {str: "text", bool: "truth", float: "number"}
+
+
+def _named(annotation: Any) -> Value:
+    """A table whose names are free, with values that are alike; or one of the keys of a case."""
+    inner = None if annotation is Any else _value(annotation)
+    return Value("keys") if inner is None else Value("names", items=(inner,))
 
 
 def _list_or_row(parts: tuple[Any, ...], about: list[Any]) -> Value:

@@ -207,7 +207,11 @@ def _form(value: Value) -> Schema:
             ]
         },
         "text": {"type": "string"},
-        "names": {"type": "object", "additionalProperties": {"type": "string"}},
+        "names": {
+            "type": "object",
+            "additionalProperties": _form(value.items[0]) if value.items else {},
+        },
+        "keys": {"type": "object"},
         "number": {"type": "number"},
         "truth": {"type": "boolean"},
         "list": {

@@ -130,7 +130,7 @@ def _type(value: Value) -> str:
     words = {
         "count": "a whole number",
         "name": "the name of a case, or a list of names",
-        "names": "a table of names, each with a text",
+        "keys": "a table of keys, as in a case",
         "number": "a number",
         "text": "a text",
         "truth": "true or false",
@@ -149,6 +149,8 @@ def _type(value: Value) -> str:
         if items.tables:
             return f"a list{many or ' of'} tables"
         return f"a list{many}, each item {_type(items)}"
+    if value.form == "names":
+        return f"a table of names, each with {_type(value.items[0])}"
     if value.form == "either":
         return _either([_type(item) for item in value.items])
     if value.form == "row":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib.util
 import os
 import subprocess
@@ -13,7 +14,7 @@ from cosserat.errors import CosseratError, InputError
 from cosserat.limits import Limits
 from cosserat.problem import Forecast
 from cosserat.progress import bar, duration
-from cosserat.studies.elsewhere import cancel, jobs
+from cosserat.studies.elsewhere import alone, cancel, jobs
 from cosserat.studies.family import Family
 from cosserat.studies.plan import (
     answer_file,
@@ -49,6 +50,7 @@ def study(options: argparse.Namespace) -> None:
     from cosserat.data.netcdf import check_replaceable
     from cosserat.studies.door import find_study
 
+    _check_options(options)
     found = find_study(options.study, options.file)
     path = _destination(options.output, found.name)
     check_destination(path, ".nc", inputs=() if options.file is None else (options.file,))
@@ -74,6 +76,17 @@ def study(options: argparse.Namespace) -> None:
             return
         written = not options.partial and _solve(options, found, folder, path, made)
         _report(found, folder, path, partial=options.partial, written=written)
+
+
+def _check_options(options: argparse.Namespace) -> None:
+    """Raise InputError before anything is written for numbers of cores or hours and profiles that cannot be."""
+    if options.cores is not None and options.cores < 1:
+        raise InputError(f"--cores is {options.cores}; give 1 or more")
+    if options.profile is not None and not Path(options.profile).exists():
+        raise InputError(
+            f"there is no profile {options.profile}; give its folder, such as profiles/slurm"
+        )
+    Limits.read({"hours": options.hours}, "limits")
 
 
 def _destination(given: Path | None, name: str) -> Path:
@@ -105,8 +118,17 @@ def _solve(options: argparse.Namespace, found: Family, folder: Path, path: Path,
     return by_snakemake
 
 
-def _here(found: Family, folder: Path, names: list[str]) -> None:
-    """Solve batches one after the other in this process; each is stored as soon as it is done."""
+def _here(found: Family, folder: Path, given: list[str]) -> None:
+    """Solve batches one after the other in this process; each is stored as soon as it is done.
+
+    The Snakemake of a run that was killed may still be at work; what it solves is not solved again.
+    """
+    used = (folder / ".snakemake").is_dir()
+    with alone(folder) if used else contextlib.nullcontext():
+        _each(found, folder, [name for name in given if not answer_file(folder, name).exists()])
+
+
+def _each(found: Family, folder: Path, names: list[str]) -> None:
     from cosserat.studies.solving import solve_members
 
     sizes = [members_of(folder, name) for name in names]
@@ -138,7 +160,7 @@ def _by_snakemake(
         *("--config", f"answer={path.resolve()}"),
         *(
             "--nolock",
-            "--rerun-incomplete",
+            "--ignore-incomplete",  # a batch is whole or absent, also where Snakemake was killed beside it
             "--keep-going",
             "--rerun-triggers",
             "mtime",

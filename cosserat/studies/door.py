@@ -117,6 +117,10 @@ def family_of(
     InputError : a key, a value or a read-out is not valid.
     """
     name = name or f"{base.name}_study"
+    if isinstance(vary, str):
+        raise InputError(
+            f"study '{name}': 'vary' is {shown(vary)}; give the values too, such as {{'rod.length': ['1 m', '2 m']}}"
+        )
     factors = (
         [{key: values} for key, values in vary.items()] if isinstance(vary, Mapping) else list(vary)
     )

@@ -275,11 +275,12 @@ def cell(row: list[str], k: int, key: VariedKey, unit: str, where: str) -> objec
     text = row[k].strip()
     place = f"{where}: '{key.path}'"
     if key.quantity is None:
-        if key.is_number:
+        if key.is_number and key.about.value.form != "either":
             if not re.fullmatch(r"[+-]?\d{1,18}", text):
                 raise InputError(f"{place} is {shown(text)}; it must be a whole number")
             return read_value(key, int(text), place, unit_required=False)
-        return text
+        counted = key.is_number and re.fullmatch(r"\d{1,18}", text)
+        return read_value(key, int(text) if counted else text, place, unit_required=True)
     plain = re.fullmatch(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", text)
     if plain and unit and key.unit != "1":
         text = f"{text} {unit}"

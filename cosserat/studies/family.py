@@ -19,10 +19,9 @@ from cosserat.cases.catalogue import Case
 from cosserat.data.provenance import source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import InputError
-from cosserat.parameters import nearest
 from cosserat.studies.factors import Columns, Values, columns
 from cosserat.studies.keys import VariedKey, case_with, table_of
-from cosserat.studies.readouts import ReadOut, read_out
+from cosserat.studies.readouts import ReadOut, meant_variable, read_out
 from cosserat.studies.study import MOST_MEMBERS, Study
 from cosserat.text import LONGEST_NAME, shown
 
@@ -259,9 +258,7 @@ def family(name: str, study: Study, base: Case, folder: Path, *, unit_required: 
         raise InputError(f"{called} has {size} members; a study may have up to {MOST_MEMBERS}")
     for whole in study.keep_whole:
         if whole not in VARIABLES:
-            raise InputError(
-                f"{called} keeps '{whole}', which no result has{nearest(whole, list(VARIABLES))}"
-            )
+            raise InputError(f"{called} keeps '{whole}', which no result has{meant_variable(whole)}")
     keep = tuple(read_out(key, text, called) for key, text in study.keep.items())
     found = Family(name, study, base, factors, keep)
     _check_names(found, called)

@@ -57,6 +57,16 @@ class VariedKey:
         forms = [value, *value.items] if value.form == "either" else [value]
         return next((form.about for form in forms if isinstance(form.about, Quantity | Count)), None)
 
+    def _stays(self, value: object) -> bool:
+        """Whether it is another form than the number: a word, a row, or a distance where a number counts vertices."""
+        forms = self.about.value.items if self.about.value.form == "either" else ()
+        if not isinstance(value, str):
+            return isinstance(value, Sequence) and any(form.form in ("row", "list") for form in forms)
+        if any(value in form.words for form in forms):
+            return True
+        lengths = [form.about for form in forms if isinstance(form.about, Quantity)]
+        return isinstance(self._numbers, Count) and any(_reads(length, value) for length in lengths)
+
     @property
     def unit(self) -> str:
         """The SI unit, "1" for a count."""
@@ -70,9 +80,19 @@ class VariedKey:
         PydanticCustomError : it is no such number, or out of range.
         """
         about = self._numbers
+        if self._stays(value):
+            return value
         if isinstance(about, Quantity):
             return about.read(value, unit_required=unit_required)
         return about.check(value) if isinstance(about, Count) else value
+
+
+def _reads(quantity: Quantity, text: str) -> bool:
+    try:
+        quantity.read(text, unit_required=True)
+    except PydanticCustomError:
+        return False
+    return True
 
 
 def varied_key(problem: Problem, path: str, name: str) -> VariedKey:
@@ -92,6 +112,12 @@ def varied_key(problem: Problem, path: str, name: str) -> VariedKey:
     known = keys(problem.kind)
     fitting = [key for key in known if key.path == general and _is_of(key, owner)]
     if not fitting:
+        parent = path.rpartition(".")[0]
+        if isinstance(owner, int | float | str):
+            raise InputError(
+                f"{name}: {shown(path)} names a key inside '{parent}', which has none; give a list of values, or with "
+                "points a distribution: uniform, log_uniform, normal or truncated"
+            )
         here = [key.path for key in known if key.path.rpartition(".")[0] == general.rpartition(".")[0]]
         raise InputError(
             f"{name}: a case of kind '{problem.kind}' has no key {shown(path)}{nearest(general, here)}"
@@ -195,4 +221,6 @@ def read_value(key: VariedKey, value: object, place: str, *, unit_required: bool
     try:
         return key.read(value, unit_required=unit_required)
     except PydanticCustomError as error:
-        raise InputError(f"{place} {error.message()}") from None
+        said = key.about.value.said
+        words = f"is {shown(value)}; it must be {said}" if said else error.message()
+        raise InputError(f"{place} {words}") from None

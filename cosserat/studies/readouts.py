@@ -39,6 +39,10 @@ _FORM = re.compile(
 _REACHES = re.compile(r"(?P<value>.+?)\s+where\s+(?P<inner>.+?)\s+reaches\s+(?P<level>.+)")
 _PINT = re.compile(r"([A-Za-z]+)(-?\d+)")
 _LONGEST = 200
+_SHORT, _MOST_MEANT = (
+    3,
+    4,
+)  # letters of a word that is looked for in others; variables that an error names
 _ALONG = {"vertex": "xi", "edge": "xi_edge", "section": "xi_section", "time": "time"}
 """Dimensions with a coordinate in units, and the variable that holds it."""
 _INSTANTS = ("time", "point")
@@ -299,6 +303,34 @@ def _place(text: str) -> tuple[float, str]:
     )
 
 
+def meant_variable(word: str) -> str:
+    """The clause after a name that no variable of a result has: those that are meant, or where to find them."""
+    lower, short = word.lower(), len(word) <= _SHORT
+    called = [name for name in VARIABLES if lower in name.lower()]
+    about = [name for name, one in VARIABLES.items() if lower in one.long_name.lower()]
+    found = [] if short else called or about
+    if not found:
+        close = nearest(word, list(VARIABLES))
+        known = "; 'cosserat show' lists the variables of a result, such as one of its case"
+        return close if "did you mean" in close else known
+    names = " or ".join(f"'{name}'" for name in found[:_MOST_MEANT])
+    return f"; did you mean {names}?"
+
+
+def read_outs_by_name(given: object, name: str) -> tuple[ReadOut, ...]:
+    """Read-outs from texts by name; name : of what takes them, in errors.
+
+    Raises
+    ------
+    InputError : they have no names, or one is no read-out.
+    """
+    if not isinstance(given, Mapping):
+        raise InputError(
+            f"{name}: the read-outs are {shown(given)}; give each a name, such as {{'tip': 'u.E2 at last'}}"
+        )
+    return tuple(read_out(str(word), text, name) for word, text in given.items())
+
+
 def read_out(name: str, text: object, study: str) -> ReadOut:
     """A read-out from its text; study : in errors.
 
@@ -320,7 +352,7 @@ def read_out(name: str, text: object, study: str) -> ReadOut:
     variable, at = found["name"], found["at"] or ""
     if variable not in VARIABLES:
         raise InputError(
-            f"{study}: '{name}' reads '{variable}', which no result has{nearest(variable, list(VARIABLES))}"
+            f"{study}: '{name}' reads '{variable}', which no result has{meant_variable(variable)}"
         )
     try:
         if at:

@@ -20,7 +20,7 @@ from cosserat.errors import InputError
 from cosserat.publications import reference
 from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, parameter
-from cosserat.studies.readouts import ReadOut, read_out
+from cosserat.studies.readouts import ReadOut, read_outs_by_name
 from cosserat.text import shown
 
 
@@ -56,7 +56,7 @@ def sensitivity(case: Case | str, keys: Sequence[str] | str, of: Mapping[str, st
         if times > 1:
             raise InputError(f"{name}: the key '{path}' is given {times} times; give it once")
     parameters = [parameter(base.problem, path, name) for path in paths]
-    read_outs = [read_out(word, text, name) for word, text in of.items()]
+    read_outs = read_outs_by_name(of, name)
     with warnings.catch_warnings(), threadpool_limits(1):
         warnings.simplefilter("ignore")
         found = derivatives(base.problem, parameters, read_outs, name)

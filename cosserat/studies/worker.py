@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from cosserat.errors import CosseratError, InputError
-from cosserat.signals import end_by_signals
+from cosserat.signals import Stopped, end_by_signals
 
 
 def batch(task: Path, file: Path) -> None:
@@ -48,6 +48,8 @@ def main(arguments: list[str]) -> int:
     except CosseratError as error:
         print(f"cosserat: {error}", file=sys.stderr)
         return 2 if isinstance(error, InputError) else 1
+    except Stopped as stopped:
+        return stopped.status  # the run that started it says so
     return 0
 
 

@@ -464,4 +464,4 @@ def test_an_unknown_kind_is_refused_with_the_nearest_name(capsys):
         == "cosserat: there is no kind 'rod static'; did you mean 'rod statics'?\n"
     )
     assert main(["describe", "spring"]) == 2
-    assert capsys.readouterr().err.endswith("; known are: " + ", ".join([*KINDS, "study"]) + "\n")
+    assert capsys.readouterr().err.endswith("; known are: " + ", ".join([*KINDS, "study", "fit"]) + "\n")

@@ -94,6 +94,11 @@ def design(
     name = f"the design of case '{base.name}'"
     if bool(minimise) == bool(maximise):
         raise InputError(f"{name}: give one of 'minimise' and 'maximise'")
+    if not isinstance(subject_to or {}, Mapping):
+        raise InputError(
+            f"{name}: 'subject_to' is {shown(subject_to)}; give each read-out a range, such as "
+            "{'u.E2 at last': (None, '5 mm')}"
+        )
     keys = free_keys(base, free, name, bounded=True)
     goal = read_out(_GOAL, minimise or maximise, name)
     limits = [

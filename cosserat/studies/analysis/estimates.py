@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, find
+from cosserat.data.content import stamped
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError, OverLimitError
 from cosserat.limits import Limits
@@ -29,7 +30,7 @@ from cosserat.studies.analysis.sequences import (
     convergence,
 )
 from cosserat.studies.keys import case_with
-from cosserat.studies.readouts import ReadOut, read_out
+from cosserat.studies.readouts import ReadOut, read_outs_by_name
 from cosserat.text import printable, shortened, shown
 
 USUAL = {
@@ -204,7 +205,7 @@ def what_to_estimate(
         raise InputError(
             f"the case '{case.name}' is of kind '{case.problem.kind}', which has no mesh to refine; take another case"
         )
-    asked = tuple(read_out(name, text, called) for name, text in (of or {}).items())
+    asked = read_outs_by_name(of or {}, called)
     for one in asked:
         places = {"vertex", "edge"} & set(VARIABLES[one.variable].dims)
         if places and re.fullmatch(r"0*[1-9]\d*", one.at):
@@ -216,7 +217,7 @@ def what_to_estimate(
 
 
 def _usual(case: Case) -> tuple[ReadOut, ...]:
-    return tuple(read_out(name, text, case.name) for name, text in USUAL.items())
+    return read_outs_by_name(USUAL, case.name)
 
 
 def _has(own: xr.Dataset, one: ReadOut) -> bool:
@@ -285,7 +286,7 @@ def _dataset(
     made.attrs = {"title": f"{case.title}: errors", "meshes": "\n".join(solved)}
     if said:
         made.attrs["warnings"] = "\n".join(said)
-    return made
+    return stamped(made)
 
 
 def _or_nan(value: float | None) -> float:

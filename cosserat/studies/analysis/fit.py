@@ -21,7 +21,7 @@ from cosserat.publications import reference
 from cosserat.studies.analysis.measured import Columns, Measured, measured
 from cosserat.studies.analysis.model import Bounds, Free, Model, free_keys
 from cosserat.studies.answer import cf_unit
-from cosserat.studies.readouts import read_out
+from cosserat.studies.readouts import read_outs_by_name
 from cosserat.studies.sensitivity import short_names
 from cosserat.text import shown
 
@@ -108,10 +108,10 @@ def fit(
     if not isinstance(base, Case):
         raise InputError(f"fit takes a case or the name of a published one, not {shown(case)}")
     name = f"the fit of case '{base.name}'"
-    keys = free_keys(base, free, name, bounded=False)
+    keys = free_keys(base, [free] if isinstance(free, str) else free, name, bounded=False)
     if not of:
         raise InputError(f"{name}: no read-out is fitted; name one, such as {{'tip': 'u.E2 at last'}}")
-    read_outs = [read_out(word, text, name) for word, text in of.items()]
+    read_outs = read_outs_by_name(of, name)
     table = measured(data, base.problem, read_outs, deviations or {}, name)
     _check(table, keys, name)
     search = _Search(Model(base, keys, read_outs), table, name)

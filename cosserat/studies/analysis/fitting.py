@@ -5,10 +5,9 @@ from __future__ import annotations
 import argparse
 import os
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import xarray as xr
-from pydantic import Field
 
 from cosserat.cases.catalogue import find_base, fit_tables
 from cosserat.data.content import stamped
@@ -16,7 +15,7 @@ from cosserat.data.files import check_destination
 from cosserat.data.locks import only_writer
 from cosserat.data.netcdf import check_replaceable, save
 from cosserat.errors import InputError, path_of
-from cosserat.parameters import Parameters, nearest
+from cosserat.parameters import Items, Parameters, nearest
 from cosserat.studies.analysis.fit import fit
 from cosserat.studies.study import flattened
 from cosserat.text import Title, printable, shortened
@@ -43,17 +42,17 @@ class Fit(Parameters):
     """Name of the case whose keys are fitted."""
     data: str
     """Name of a CSV file: keys that differ from row to row, and what was measured, each with its unit in brackets."""
-    free: dict[str, Any] | list[str]
+    free: dict[str, Any] | Annotated[tuple[str, ...], Items(1, 1000)]
     """The keys that are sought with their ranges, or a list of them."""
     keep: dict[str, str]
     """Read-outs by name, which are columns of the data."""
-    deviations: dict[str, str | float] = Field(default_factory=dict)
+    deviations: dict[str, str | float] = {}  # noqa: RUF012 - pydantic copies it
     """Standard deviations of read-outs that have no column of them."""
 
     @property
     def ranges(self) -> dict[str, Any] | list[str]:
         """The free keys by their paths."""
-        return self.free if isinstance(self.free, list) else dict(flattened(self.free))
+        return list(self.free) if isinstance(self.free, tuple) else dict(flattened(self.free))
 
 
 def fitted(name: str, file: str | Path) -> xr.Dataset:

@@ -18,6 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from cosserat.data.content import stamped
 from cosserat.data.dataset import name_of
 from cosserat.errors import InputError
 from cosserat.studies.analysis.answered import answer_of, dims_of, keys_along, read_out, unit_of
@@ -291,4 +292,4 @@ def _dataset(
             f"indices: {lost} of {groups * used.size} {design.called} are left out, since a member of each has no "
             "answer; the numbers are about the part of the ranges that has one"
         )
-    return made
+    return stamped(made)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
 from cosserat.errors import InputError, path_of
+from cosserat.parameters import nearest
 from cosserat.problem import Problem
 from cosserat.studies.factors import TITLE, cell, rows_of
 from cosserat.studies.keys import VariedKey, read_value, varied_key
@@ -74,6 +75,11 @@ def measured(
         if times > 1:
             raise InputError(f"{where} has the column {shown(title)} {times} times; give it once")
     by_name = {one.name: one for one in read_outs}
+    other = set(deviations) - set(by_name)
+    if other:
+        raise InputError(
+            f"{name}: 'deviations' names '{min(other)}', which is not fitted{nearest(min(other), list(by_name))}"
+        )
     own = [title for title in titles if title in by_name]
     if set(own) != set(by_name):
         lacking = ", ".join(sorted(set(by_name) - set(own)))

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from cosserat.data.content import stamped
 from cosserat.data.dataset import name_of
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
@@ -64,7 +65,7 @@ def orders(
                 finest[index] = rows[index][there][h[there].argmin()]
         _add(made, name, (others, unit_of(values)), finest, found, h.size - 2)
     made.attrs = {"title": f"{data.attrs.get('title', '')}: convergence over '{along}'", "along": along}
-    return made
+    return stamped(made)
 
 
 def _along(data: xr.Dataset, along: str | None) -> str:
