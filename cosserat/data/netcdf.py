@@ -82,7 +82,7 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
         raise InputError(
             f"cannot read {path} as a result ({printable(error)}); run its case again"
         ) from None
-    _check_format(read, path, own=intact)
+    _check_format(read, path)
     if not intact:
         warnings.warn(
             f"{path} was written by another program or changed: nothing says that a solver computed its values",
@@ -177,9 +177,9 @@ def _check_readable(path: Path) -> None:
         )
 
 
-def _check_format(dataset: xr.Dataset, path: Path, *, own: bool) -> None:
-    """Raise InputError for what is no result, or a result of a later format; own : whether cosserat wrote it."""
-    if not own and not {"parameters", "study"} & set(dataset.attrs):
+def _check_format(dataset: xr.Dataset, path: Path) -> None:
+    """Raise InputError for what is no result, or a result of a later format."""
+    if not {"parameters", "study", "analysis"} & set(dataset.attrs):
         raise InputError(
             f"{path} is no result of cosserat: it has no attribute 'parameters'; use one that cosserat wrote"
         )

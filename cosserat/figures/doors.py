@@ -67,6 +67,11 @@ def _drawn_by(data: xr.Dataset) -> Callable[[xr.Dataset], Figure]:
         from cosserat.figures.answers import picture as of_answer
 
         return of_answer
+    if "analysis" in data.attrs:
+        raise InputError(
+            f"{name_of(data)} holds {data.attrs['analysis']}, which have no picture; plot the study, or see them with "
+            "'cosserat show'"
+        )
     kind = case_of(data).problem.kind
     if not kinds()[kind].picture:
         raise InputError(
@@ -101,6 +106,11 @@ def animate(
         raise InputError(
             f"{name_of(data)} is the answer of a study, which does not move; animate one of its members: 'cosserat run "
             "STUDY --member NUMBER'"
+        )
+    if "analysis" in data.attrs:
+        raise InputError(
+            f"{name_of(data)} holds {data.attrs['analysis']}, which have no picture; plot the study, or see them with "
+            "'cosserat show'"
         )
     kind = case_of(data).problem.kind
     if not kinds()[kind].animate:

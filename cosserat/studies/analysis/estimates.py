@@ -283,7 +283,7 @@ def _dataset(
     if getattr(getattr(case.problem, "integrator", None), "method", "") == "rk45":
         said.append(f"integrator.step: {_RK45}")
     solved = [f"{m.how.paths[0]}: {', '.join(map(m.how.said, sorted(m.values)))}" for m in found]
-    made.attrs = {"title": f"{case.title}: errors", "meshes": "\n".join(solved)}
+    made.attrs = {"title": f"{case.title}: errors", "meshes": "\n".join(solved), "analysis": "errors"}
     if said:
         made.attrs["warnings"] = "\n".join(said)
     return stamped(made)

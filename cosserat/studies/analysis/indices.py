@@ -286,6 +286,7 @@ def _dataset(
     made.attrs = {
         "title": f"{data.attrs.get('title', '')}: which keys decide '{values.name}'",
         "of": str(values.name),
+        "analysis": "indices",
     }
     if (lost := int((groups - used).sum())) > 0:
         made.attrs["warnings"] = (

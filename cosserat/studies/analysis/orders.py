@@ -64,7 +64,11 @@ def orders(
             if there.any():
                 finest[index] = rows[index][there][h[there].argmin()]
         _add(made, name, (others, unit_of(values)), finest, found, h.size - 2)
-    made.attrs = {"title": f"{data.attrs.get('title', '')}: convergence over '{along}'", "along": along}
+    made.attrs = {
+        "title": f"{data.attrs.get('title', '')}: convergence over '{along}'",
+        "along": along,
+        "analysis": "orders",
+    }
     return stamped(made)
 
 
