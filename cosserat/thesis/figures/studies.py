@@ -121,7 +121,7 @@ def fig_column_strength(data: Data) -> Figure:
     low, middle, high = np.quantile(strength, (0.05, 0.5, 0.95))
     for value, style in ((low, ":"), (middle, "-"), (high, ":")):
         right.axvline(value, color=VARIANT, linestyle=style)
-    right.set(xlabel="strength [N]", ylabel="columns", title="(b) 5 %, median, 95 %")
+    right.set(xlabel="strength [N]", ylabel="number of columns [1]", title="(b) 5 %, median, 95 %")
     return figure
 
 
