@@ -121,6 +121,10 @@ def family_of(
         raise InputError(
             f"study '{name}': 'vary' is {shown(vary)}; give the values too, such as {{'rod.length': ['1 m', '2 m']}}"
         )
+    if isinstance(keep_whole, str):
+        raise InputError(
+            f"study '{name}': 'keep_whole' is {shown(keep_whole)}; give a list, such as ['x']"
+        )
     factors = (
         [{key: values} for key, values in vary.items()] if isinstance(vary, Mapping) else list(vary)
     )

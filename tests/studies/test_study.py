@@ -452,3 +452,8 @@ def test_imperfect_columns_have_the_strength_of_perry_and_robertson():
     middle = (2e5 + (1 + 6 * bow / height) * euler) / 2
     exact = middle - np.sqrt(middle**2 - 2e5 * euler)
     np.testing.assert_allclose(strength * 5.55 / (width * height), exact, rtol=6e-3)
+
+
+def test_a_whole_variable_is_named_in_a_list(short):
+    with pytest.raises(InputError, match=r"'keep_whole' is 'x'; give a list"):
+        cosserat.study(short, {YOUNG: [1e9]}, keep_whole="x")
