@@ -72,12 +72,7 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
             variables[dim] = xr.Variable((dim,), list(solution.labels[dim]), {"long_name": meaning})
     dataset = xr.Dataset(variables).set_coords([name for name in COORDINATES if name in variables])
     dataset.attrs = {
-        "Conventions": f"CF-1.11 cosserat-{FORMAT}",
-        "title": case.title,
-        "institution": "the cosserat project",
-        "references": reference(),
-        "comment": case.source or "a case of the user",
-        "source": source(),
+        **origin(case.title, case.source or "a case of the user"),
         "history": f"cosserat run {case.name}",
         "case": case.name,
         "parameters": _sorted_json(json.loads(case.model_dump_json())),
@@ -89,6 +84,18 @@ def to_dataset(case: Case, solution: Solution) -> xr.Dataset:
     if derived:
         dataset.attrs["derived"] = " ".join(name for name in VARIABLES if name in derived)
     return stamp(dataset)
+
+
+def origin(title: str, comment: str) -> dict[str, str]:
+    """The global attributes of everything that is stored: what it is, and the code that made it."""
+    return {
+        "Conventions": f"CF-1.11 cosserat-{FORMAT}",
+        "title": title,
+        "institution": "the cosserat project",
+        "references": reference(),
+        "comment": comment,
+        "source": source(),
+    }
 
 
 def _completed(solution: Solution) -> tuple[Solution, set[str]]:

@@ -67,17 +67,22 @@ def _drawn_by(data: xr.Dataset) -> Callable[[xr.Dataset], Figure]:
         from cosserat.figures.answers import picture as of_answer
 
         return of_answer
-    if "analysis" in data.attrs:
-        raise InputError(
-            f"{name_of(data)} holds {data.attrs['analysis']}, which have no picture; plot the study, or see them with "
-            "'cosserat show'"
-        )
+    _refuse_analysis(data)
     kind = case_of(data).problem.kind
     if not kinds()[kind].picture:
         raise InputError(
             f"{name_of(data)} is of kind '{kind}', which has no picture; see it with 'cosserat show'"
         )
     return kinds()[kind].picture_function()
+
+
+def _refuse_analysis(data: xr.Dataset) -> None:
+    """Raise InputError for indices and the like, which have no picture."""
+    if "analysis" in data.attrs:
+        raise InputError(
+            f"{name_of(data)} holds {data.attrs['analysis']}, which have no picture; plot the study, or see them with "
+            "'cosserat show'"
+        )
 
 
 def animate(
@@ -107,11 +112,7 @@ def animate(
             f"{name_of(data)} is the answer of a study, which does not move; animate one of its members: 'cosserat run "
             "STUDY --member NUMBER'"
         )
-    if "analysis" in data.attrs:
-        raise InputError(
-            f"{name_of(data)} holds {data.attrs['analysis']}, which have no picture; plot the study, or see them with "
-            "'cosserat show'"
-        )
+    _refuse_analysis(data)
     kind = case_of(data).problem.kind
     if not kinds()[kind].animate:
         moving = ", ".join(f"'{name}'" for name, entry in kinds().items() if entry.animate)

@@ -10,10 +10,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from cosserat.data.content import stamped
-from cosserat.data.dataset import FORMAT
-from cosserat.data.provenance import environment, source
+from cosserat.data.dataset import origin
+from cosserat.data.provenance import environment
 from cosserat.data.variables import LABELS, VARIABLES
-from cosserat.publications import reference
 from cosserat.studies.factors import Columns
 from cosserat.studies.family import Family, derivative_name
 from cosserat.studies.keys import VariedKey
@@ -63,12 +62,7 @@ def answer(found: Family, solved: Solved) -> xr.Dataset:
         if dataset[name].dtype.kind == "f":
             dataset[name].encoding["_FillValue"] = None
     dataset.attrs = {
-        "Conventions": f"CF-1.11 cosserat-{FORMAT}",
-        "title": found.title,
-        "institution": "the cosserat project",
-        "references": reference(),
-        "comment": found.study.source or "a study of the user",
-        "source": source(),
+        **origin(found.title, found.study.source or "a study of the user"),
         "study": found.asked,
         "environment": json.dumps(environment(), sort_keys=True),
     }

@@ -37,7 +37,6 @@ _FORM = re.compile(
     r"\s*(?P<end>\|?)(?:\s+at\s+(?P<at>.{1,40}?))?\s*"
 )
 _REACHES = re.compile(r"(?P<value>.+?)\s+where\s+(?P<inner>.+?)\s+reaches\s+(?P<level>.+)")
-_PINT = re.compile(r"([A-Za-z]+)(-?\d+)")
 _LONGEST = 200
 _SHORT, _MOST_MEANT = (
     3,
@@ -252,29 +251,31 @@ class ReadOut:
             )
         axis = dims.index(dim)
         along, where = fields[_ALONG[dim]]
-        moved = np.moveaxis(values, axis, -1)
-        where = where if "member" in along else np.broadcast_to(where, (*values.shape[:1], where.size))
-        rows = where if "member" in dims else where[:1]
-        low, high = float(rows[:, 0].max()), float(rows[:, -1].min())
-        if not low <= at <= high * (1 + 1e-12):
-            raise InputError(
-                f"'{self.name}': {shown(self.at)} is outside the result, from {low:g} to {high:g}"
+        left, moved = dims[:axis] + dims[axis + 1 :], np.moveaxis(values, axis, -1)
+        if "member" in dims:
+            rows = where if "member" in along else np.broadcast_to(where, (len(moved), where.size))
+            return left, np.array(
+                [_interpolated(row, own, at) for row, own in zip(rows, moved, strict=True)]
             )
-        picked = (
-            [_interpolated(where[k], moved[k], at) for k in range(len(moved))]
-            if "member" in dims
-            else None
-        )
-        found = np.array(picked) if picked is not None else _interpolated(where[0], moved, at)
-        return dims[:axis] + dims[axis + 1 :], found
+        if not _reaches(where, at):
+            raise InputError(
+                f"'{self.name}': {shown(self.at)} is outside the result, from {where[0]:g} to {where[-1]:g}"
+            )
+        return left, _interpolated(where, moved, at)
 
 
 def _taken(values: Array, index: int, axis: int) -> Array:
     return np.asarray(values.take(index, axis=axis))
 
 
+def _reaches(where: Array, at: float) -> bool:
+    return bool(where[0] <= at <= where[-1] * (1 + 1e-12))
+
+
 def _interpolated(where: Array, values: Array, at: float) -> Array:
-    """Values (..., n) between places (n,)."""
+    """Values (..., n) between places (n,); not a number outside them."""
+    if not _reaches(where, at):
+        return np.full(values.shape[:-1], np.nan)
     k = int(np.clip(np.searchsorted(where, at, side="right"), 1, where.size - 1))
     share = (at - where[k - 1]) / (where[k] - where[k - 1])
     found: Array = (1 - share) * values[..., k - 1] + share * values[..., k]
@@ -368,9 +369,14 @@ def read_out(name: str, text: object, study: str) -> ReadOut:
 def _reaching(name: str, found: re.Match[str], study: str) -> ReadOut:
     """The read-out of a value where another one reaches a level."""
     own, other = read_out(name, found["value"], study), read_out(name, found["inner"], study)
-    unit = _PINT.sub(r"\1^\2", other.units).replace(" ", "*")
+    unit = unit_to_read(other.units)
     try:
         level = to_si(found["level"], unit, unit_required=True)
     except PydanticCustomError as error:
         raise InputError(f"{study}: '{name}' reaches a level that {error.message()}") from None
     return replace(own, text=found[0].strip(), where=other, level=level)
+
+
+def unit_to_read(unit: str) -> str:
+    """A unit of a variable, "kg m2 s-1", as texts with units are read: "kg*m^2*s^-1"."""
+    return re.sub(r"(?<=[A-Za-z])(-?[\d.]+)", r"^\1", unit).replace(" ", "*")

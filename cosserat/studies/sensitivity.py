@@ -14,10 +14,9 @@ from threadpoolctl import threadpool_limits
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.content import stamped
-from cosserat.data.dataset import FORMAT
-from cosserat.data.provenance import environment, source
+from cosserat.data.dataset import origin
+from cosserat.data.provenance import environment
 from cosserat.errors import InputError
-from cosserat.publications import reference
 from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, parameter
 from cosserat.studies.readouts import ReadOut, read_outs_by_name
@@ -115,12 +114,7 @@ def _dataset(
         variables[f"{one.name}_scaled"] = (("key",), np.array(scaled), about)
     dataset = xr.Dataset(variables, coords)
     dataset.attrs = {
-        "Conventions": f"CF-1.11 cosserat-{FORMAT}",
-        "title": f"{base.title}: sensitivities",
-        "institution": "the cosserat project",
-        "references": reference(),
-        "comment": base.source or "a case of the user",
-        "source": source(),
+        **origin(f"{base.title}: sensitivities", base.source or "a case of the user"),
         "method": found.method,
         "parameters": json.dumps(base.model_dump(mode="json"), sort_keys=True),
         "environment": json.dumps(environment(), sort_keys=True),

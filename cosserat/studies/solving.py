@@ -151,8 +151,7 @@ def _solve_together(
             if many is None:
                 pool.shutdown(cancel_futures=True)
                 return every
-            left.append(part[~many.solved])
-            _keep_many(task, many, part, found)
+            left.append(_keep_many(task, many, part, found))
             progress((part[-1] + 1) / task.size, f"{part[-1] + 1} of {task.size} members")
     return np.concatenate(left)
 
@@ -164,25 +163,30 @@ def _solve_part(
     return problem.solve_many(columns, names)
 
 
-def _keep_many(task: Task, many: Many, part: NDArray[np.int64], found: Solved) -> None:
-    """Keep the answers of the members of a part that are solved."""
-    rows = np.flatnonzero(many.solved)
+def _keep_many(task: Task, many: Many, part: NDArray[np.int64], found: Solved) -> NDArray[np.int64]:
+    """Keep the answers of the members of a part that are solved; returns the others.
+
+    A member without a finite read-out is left too: its own problem says why.
+    """
+    values = {one.name: one.of(many.fields, many.labels, part.size) for one in task.keep}
+    kept = many.solved & np.logical_and.reduce(
+        [np.isfinite(own) for own in values.values()] or [many.solved]
+    )
+    rows = np.flatnonzero(kept)
     to = part[rows]
-    fields = {
-        name: (dims, values[rows] if dims[0] == "member" else values)
-        for name, (dims, values) in many.fields.items()
-    }
-    for one in task.keep:
-        found.values[one.name][to] = one.of(fields, many.labels, rows.size)
+    for name, own in values.items():
+        found.values[name][to] = own[rows]
     for name in task.keep_whole:
-        dims, values = fields[name]
-        found.keep(name, dims[1:], to, values)
+        dims, whole = many.fields[name]
+        found.keep(name, dims[1:], to, whole[rows])
         found.labels |= {dim: tuple(many.labels[dim]) for dim in dims if dim in many.labels}
         _keep_places(task, found, dims[1:], {own: (d[1:], v[0]) for own, (d, v) in many.fields.items()})
     found.iterations[to] = many.statistics["iterations"][rows]
     found.status[to] = SOLVED
-    for member, said in many.warnings.items():
-        found.status[part[member]], found.reason[part[member]] = WARNED, "; ".join(said)
+    for member in set(many.warnings) & set(rows.tolist()):
+        found.status[part[member]], found.reason[part[member]] = WARNED, "; ".join(many.warnings[member])
+    others: NDArray[np.int64] = part[~kept]
+    return others
 
 
 def _solve_one(task: Task, table: Mapping[str, object], member: int, found: Solved) -> None:

@@ -457,3 +457,12 @@ def test_imperfect_columns_have_the_strength_of_perry_and_robertson():
 def test_a_whole_variable_is_named_in_a_list(short):
     with pytest.raises(InputError, match=r"'keep_whole' is 'x'; give a list"):
         cosserat.study(short, {YOUNG: [1e9]}, keep_whole="x")
+
+
+def test_a_place_that_some_members_do_not_reach_fails_those_alone(short):
+    """The compiled loop solves all of them; the others keep their answers."""
+    data = cosserat.study(short, {"rod.length": [0.4, 1.0, 0.9]}, {"middle": "u.E2 at 0.5 m"})
+    assert list(data["status"].to_numpy()) == [STATUS.index("refused_input"), 0, 0]
+    assert "outside the result, from 0 to 0.4" in data["reason"].to_numpy()[0]
+    alone = cosserat.run(short.vary("alone", rod={"length": 1.0})).u.sel(axis="E2").to_numpy()
+    assert float(data["middle"][1]) == pytest.approx((alone[2] + alone[3]) / 2, rel=1e-12)

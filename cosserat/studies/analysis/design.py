@@ -15,15 +15,13 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.content import stamped
-from cosserat.data.dataset import FORMAT
-from cosserat.data.provenance import environment, source
+from cosserat.data.dataset import origin
+from cosserat.data.provenance import environment
 from cosserat.errors import InputError, NotConvergedError
-from cosserat.publications import reference
-from cosserat.studies.analysis.measured import unit_to_read
 from cosserat.studies.analysis.model import Bounds, Model, free_keys
 from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives
-from cosserat.studies.readouts import ReadOut, read_out
+from cosserat.studies.readouts import ReadOut, read_out, unit_to_read
 from cosserat.studies.sensitivity import short_names
 from cosserat.text import shown
 from cosserat.units import to_si
@@ -372,12 +370,7 @@ def _dataset(search: _Search, found: Optimum) -> xr.Dataset:
     base = search.model.case
     dataset = xr.Dataset(variables)
     dataset.attrs = {
-        "Conventions": f"CF-1.11 cosserat-{FORMAT}",
-        "title": f"{base.title}: design",
-        "institution": "the cosserat project",
-        "references": reference(),
-        "comment": base.source or "a case of the user",
-        "source": source(),
+        **origin(f"{base.title}: design", base.source or "a case of the user"),
         "steps": found.steps,
         "optimality": found.optimality,
         "parameters": json.dumps(base.model_dump(mode="json"), sort_keys=True),

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.content import stamped
-from cosserat.data.dataset import FORMAT
-from cosserat.data.provenance import environment, source
+from cosserat.data.dataset import origin
+from cosserat.data.provenance import environment
 from cosserat.errors import CosseratError, InputError, NotConvergedError
-from cosserat.publications import reference
 from cosserat.studies.analysis.measured import Columns, Measured, measured
 from cosserat.studies.analysis.model import Bounds, Free, Model, free_keys
 from cosserat.studies.answer import cf_unit
@@ -374,12 +373,7 @@ def _described(
     """The Dataset with what it is."""
     base = search.model.case
     dataset.attrs = {
-        "Conventions": f"CF-1.11 cosserat-{FORMAT}",
-        "title": f"{base.title}: fit",
-        "institution": "the cosserat project",
-        "references": reference(),
-        "comment": base.source or "a case of the user",
-        "source": source(),
+        **origin(f"{base.title}: fit", base.source or "a case of the user"),
         "degrees_of_freedom": statistics.freedom,
         "reduced_chi_square": statistics.variance,
         "steps": found.steps,

@@ -17,7 +17,7 @@ from cosserat.parameters import nearest
 from cosserat.problem import Problem
 from cosserat.studies.factors import TITLE, cell, rows_of
 from cosserat.studies.keys import VariedKey, read_value, varied_key
-from cosserat.studies.readouts import ReadOut
+from cosserat.studies.readouts import ReadOut, unit_to_read
 from cosserat.text import shown
 from cosserat.units import to_si
 
@@ -116,11 +116,6 @@ def _from_file(path: Path, name: str) -> tuple[list[str], list[str], list[list[o
         titles.append(found["key"])
         units.append(found["unit"] or "")
     return titles, units, [list(column) for column in zip(*body, strict=True)], f"{name}: {path.name}"
-
-
-def unit_to_read(unit: str) -> str:
-    """A unit of a variable, "kg m2 s-1", as texts with units are read: "kg*m^2*s^-1"."""
-    return re.sub(r"(?<=[A-Za-z])(-?[\d.]+)", r"^\1", unit).replace(" ", "*")
 
 
 def _numbers(column: Sequence[object], si: str, unit: str, where: str, strict: bool) -> Array:
