@@ -32,8 +32,20 @@ OWN = tomllib.loads(CASES.read_text(encoding="utf-8"))
 """Names of the table's own cases; others are published ones."""
 HANGS = 120.0
 """Seconds after which a process counts as hung, on a busy machine too."""
-_MARKED = "import sys\nfrom cosserat.__main__ import main\nprint('begun', flush=True)\nsys.exit(main())"
-"""`python -m cosserat`, which says on standard output when `main` begins."""
+_MARKED = """\
+import sys
+from cosserat import __main__ as program
+minded = program.end_by_signals
+def told():
+    minded()
+    print("begun", flush=True)
+program.end_by_signals = told
+sys.exit(program.main())
+"""
+"""`python -m cosserat`, which says on standard output when `main` minds signals, the first thing that it does.
+
+Before that a signal ends any process by itself, without a word; on a busy machine one came between.
+"""
 
 
 @dataclass(frozen=True)
