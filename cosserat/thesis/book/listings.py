@@ -1,0 +1,64 @@
+"""Lines of the library and of its case files, beside the equations."""
+
+from __future__ import annotations
+
+import inspect
+import pkgutil
+import re
+import textwrap
+from importlib import resources
+from typing import Any
+
+from IPython.display import Markdown
+
+from cosserat.errors import InputError
+
+
+def source(thing: Any) -> Markdown:
+    """The lines of the library that define a function or class, given itself or its full name."""
+    found = _found(thing)
+    return _code(found, inspect.getsource(getattr(found, "py_func", found)))
+
+
+def excerpt(thing: Any, first: str, last: str) -> Markdown:
+    """The lines of a function from the one with `first` up to, but without, the one with `last`."""
+    found = _found(thing)
+    lines = inspect.getsource(getattr(found, "py_func", found)).splitlines()
+    start = next(number for number, line in enumerate(lines) if first in line)
+    stop = next(number for number, line in enumerate(lines) if last in line and number > start)
+    return _code(found, "\n".join(lines[start:stop]))
+
+
+def _found(thing: Any) -> Any:
+    """A function or class by its full name, such as "cosserat.rods.directed_rod.forces"."""
+    if not isinstance(thing, str):
+        return thing
+    try:
+        return pkgutil.resolve_name(thing)
+    except (ImportError, AttributeError, ValueError):
+        raise InputError(f"the library has no '{thing}'") from None
+
+
+def _code(thing: Any, text: str) -> Markdown:
+    place = f"{thing.__module__.replace('.', '/')}.py"
+    return Markdown(
+        f"`{thing.__qualname__}` in `{place}`\n\n```python\n{textwrap.dedent(text).strip()}\n```"
+    )
+
+
+def written(name: str) -> Markdown:
+    """A published study as its case file has it, with the base of its case.
+
+    Raises
+    ------
+    InputError : there is no such study.
+    """
+    text = (resources.files("cosserat.thesis.cases") / "studies.toml").read_text(encoding="utf-8")
+    tables = re.split(r"^(?=\[\w)", text, flags=re.MULTILINE)[1:]  # each with what follows it
+    own = [part for part in tables if re.match(rf"\[{re.escape(name)}\]", part)]
+    if not own:
+        raise InputError(f"there is no study '{name}'")
+    base = re.search(r'^of = "(\w+)"', own[0], flags=re.MULTILINE)
+    bases = [part for part in tables if base and part.startswith(f"[{base[1]}]")]
+    code = "\n\n".join(part.strip() for part in [*bases, *own])
+    return Markdown(f"```toml\n{code}\n```")
