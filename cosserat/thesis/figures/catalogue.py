@@ -43,6 +43,7 @@ FIGURES: dict[str, Entry] = {
         "What the package solves", "opening", ("worm", "column_path", "arch_path", "tumbling")
     ),
     "fig_directed_rod": Entry("A directed rod as the body it stands for", "chapter1", ("soft_robot",)),
+    "fig_worm_parts": Entry("A crawling worm and its parts", "worm_parts", ("worm",)),
     "fig_2_1": Entry("Fig. 2.1: a stride of the earthworm", "chapter2", ("worm", "worm_printed")),
     "fig_2_2": Entry(
         "Fig. 2.2: segment 50 over three strides",
