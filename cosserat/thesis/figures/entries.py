@@ -43,6 +43,13 @@ FIGURES: dict[str, Entry] = {
         "chapter1",
         cases=("soft_robot",),
     ),
+    "fig_worm_parts": Entry(
+        "A crawling worm and its parts",
+        "Two side views of a worm with names at its parts: the anchoring part is fat, the advancing "
+        "parts are thin, a line stands at each front and a triangle under the anchor.",
+        "worm_parts",
+        cases=("worm",),
+    ),
     "fig_2_1": Entry(
         "Fig. 2.1: a stride of the earthworm",
         "Six side views of the worm below each other: a fat anchoring region travels from front "
