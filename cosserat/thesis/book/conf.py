@@ -38,6 +38,7 @@ html_theme = "sphinx_book_theme"
 html_title = "Cosserat curves"
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
+html_js_files = [("book.js", {"defer": "defer"})]
 html_copy_source = False
 html_show_sourcelink = False
 html_use_index = False
