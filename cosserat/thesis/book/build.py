@@ -21,7 +21,7 @@ _FILE_LIST = ".cosserat-book"
 _SPHINX_CONFIGURATION = """
 project = "cosserat"
 author = "The cosserat project"
-extensions = ["myst_nb", "sphinx.ext.autodoc", "cosserat.thesis.book.api"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "cosserat.thesis.book.api", "cosserat.thesis.book.links"]
 default_role = "code"
 autodoc_typehints_format = "short"
 aliases = ("Array", "Vector", "Band", "Mask", "Fields", "Place", "Direction", "Rows", "Track", "History", "Bytes")
@@ -38,6 +38,7 @@ html_theme = "sphinx_book_theme"
 html_title = "Cosserat curves"
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
+html_js_files = ["equations.js", "equation_preview.js"]
 html_copy_source = False
 html_show_sourcelink = False
 html_last_updated_fmt = None
@@ -97,10 +98,12 @@ def execute(chapter: Path, output: Path) -> None:
         nbformat.write(notebook, temporary)
 
 
-def render(notebooks: list[Path], output: Path) -> Path:
+def render(notebooks: list[Path], output: Path, *, partial: bool = False) -> Path:
     """Build the book from executed notebooks, `index.ipynb` among them; returns its first page.
 
     Only a whole book replaces the folder, and only if the folder holds nothing but a book from this function.
+
+    partial : these are some pages of a book, so a number whose target is on another page stays plain text.
 
     Raises
     ------
@@ -124,9 +127,12 @@ def render(notebooks: list[Path], output: Path) -> Path:
         (pages / "_static").mkdir(parents=True)
         for path in notebooks:
             shutil.copy(path, pages / path.name)
-        (pages / "conf.py").write_text(_SPHINX_CONFIGURATION, encoding="utf-8")
-        style = resources.files("cosserat.thesis.book") / "book.css"
-        (pages / "_static" / "book.css").write_text(style.read_text(encoding="utf-8"), encoding="utf-8")
+        configuration = f"{_SPHINX_CONFIGURATION}links_are_complete = False\n"
+        (pages / "conf.py").write_text(configuration, encoding="utf-8")
+        for file in resources.files("cosserat.thesis.book").iterdir():
+            if file.name.endswith((".css", ".js")):
+                text = file.read_text(encoding="utf-8")
+                (pages / "_static" / file.name).write_text(text, encoding="utf-8")
         _copy_mathjax(pages / "_static" / "mathjax")
         _sphinx(pages, built, Path(scratch) / "doctrees")
         (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")
@@ -173,7 +179,7 @@ def _files(folder: Path) -> list[str]:
 
 
 def _looks_built(file: Path) -> bool:
-    if file.parts[0] in ("_static", "_sources"):
+    if file.parts[0] in ("_static", "_sources", "_downloads", "source"):
         return True
     return len(file.parts) == 1 and (
         file.suffix == ".html" or file.name in ("objects.inv", "searchindex.js")
