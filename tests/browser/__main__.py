@@ -1,4 +1,7 @@
-"""`python -m tests.browser results/book` looks at a built book and prints what it saw; exit code 1 if something is wrong."""
+"""`python -m tests.browser results/book` looks at a built book and prints what it saw.
+
+The exit code is 1 if something is wrong, 2 if there is no browser.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +49,7 @@ def list_faults(faults: list[Fault], shown: int) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python -m tests.browser", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m tests.browser", description=__doc__.split("\n")[0])
     parser.add_argument("book", type=Path, help="folder of the book")
     parser.add_argument("pages", nargs="*", help="pages, such as index.html; all if none is named")
     parser.add_argument(

@@ -94,57 +94,70 @@ def audit(book: Path, pages: Iterable[str] | None = None, processes: int | None 
 
 
 def look_at_some(task: tuple[Path, list[str]]) -> list[Seen]:
-    """Look at some pages with one browser."""
+    """Look at some pages with one browser, on a phone and on a desk."""
     book, pages = task
+    seen: list[Seen] = []
     with browser() as chromium:
         phone = chromium.new_context(
             viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True, color_scheme="light"
-        )
-        desk = chromium.new_context(viewport={"width": 1200, "height": 900}, color_scheme="light")
-        return [look(book, page, phone, desk) for page in pages]
-
-
-def look(book: Path, page: str, phone, desk) -> Seen:
-    """All views of one page: it is loaded on a phone and on a desk, where the window then widens and prints."""
-    seen = Seen(page)
-    for context in (phone, desk):
-        tab = context.new_page()
-        listen(tab, seen, "390" if context is phone else "1200")
-        tab.goto((book / page).resolve().as_uri())
-        settle(tab)
-        tab.evaluate("() => document.querySelectorAll('details').forEach((one) => { one.open = true; })")
-        tab.keyboard.press("Tab")  # from now on the page shows where the keyboard is
-        if context is phone:
-            look_at_width(tab, seen, 390)
-        else:
-            look_at_width(tab, seen, 1200)
-            tab.set_viewport_size({"width": 1440, "height": 900})
-            look_at_width(tab, seen, 1440)
-            tab.set_viewport_size({"width": PAPER, "height": 1000})
-            tab.emulate_media(media="print")
-            look_at_width(tab, seen, PAPER, paper=True)
-        tab.close()
+        ).new_page()
+        desk = chromium.new_context(color_scheme="light").new_page()
+        listen(phone, seen, "390")
+        listen(desk, seen, "1200")
+        for page in pages:
+            seen.append(Seen(page))
+            address = (book / page).resolve().as_uri()
+            look_on_phone(phone, seen[-1], address)
+            look_on_desk(desk, seen[-1], address)
     return seen
 
 
-def listen(tab, seen: Seen, width: str) -> None:
-    """Keep what a page asks for and complains about."""
+def look_on_phone(tab, seen: Seen, address: str) -> None:
+    open_page(tab, address)
+    look_at_width(tab, seen, 390)
+
+
+def look_on_desk(tab, seen: Seen, address: str) -> None:
+    """A page is loaded at 1200 px; then its window widens, and it is laid on paper."""
+    tab.set_viewport_size({"width": 1200, "height": 900})
+    tab.emulate_media(media="screen")
+    open_page(tab, address)
+    look_at_width(tab, seen, 1200)
+    press_tab(tab, seen, "1200")
+    tab.set_viewport_size({"width": 1440, "height": 900})
+    look_at_width(tab, seen, 1440)
+    tab.set_viewport_size({"width": PAPER, "height": 1000})
+    tab.emulate_media(media="print")
+    look_at_width(tab, seen, PAPER, paper=True)
+
+
+def open_page(tab, address: str) -> None:
+    """A page with its folded parts open, and a keyboard in use, so that it shows where that is."""
+    tab.goto(address)
+    settle(tab)
+    tab.evaluate("() => document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+    tab.keyboard.press("Tab")
+
+
+def listen(tab, all_seen: list[Seen], width: str) -> None:
+    """Keep what the last page asks for and complains about."""
 
     def add(check: str, element: str, text: str) -> None:
+        seen = all_seen[-1]
         seen.faults.append(Fault(check, seen.page, width, element[:120], text[:200]))
 
     def asked(request) -> None:
-        seen.counts["requests"] += 1
+        all_seen[-1].counts["requests"] += 1
         if not request.url.startswith(("file:", "data:", "blob:", "about:")):
             add("requests", request.url, "leaves the machine")
 
     def said(message) -> None:
-        seen.counts["console"] += 1
+        all_seen[-1].counts["console"] += 1
         if message.type in ("error", "warning"):
             add("console", message.type, message.text)
 
     def failed(request) -> None:
-        if request.url.startswith("file:"):
+        if request.url.startswith("file:") and request.failure != "net::ERR_ABORTED":
             add("requests", request.url, "there is no such file")
 
     tab.on("request", asked)
@@ -155,27 +168,15 @@ def listen(tab, seen: Seen, width: str) -> None:
 
 def look_at_width(tab, seen: Seen, width: int, paper: bool = False) -> None:
     """Both themes at one width of the window."""
-    for theme in THEMES:
-        tab.evaluate(
-            "(theme) => Object.assign(document.documentElement.dataset, { theme, mode: theme })", theme
-        )
-        light = theme == "light"
-        view = {
-            "width": width,
-            "paper": paper,
-            "once": width == 1200 and light,
-            "keyboard": width in (390, 1200) and light,
-        }
-        found = tab.evaluate(SCRIPT, view)
+    both = tab.evaluate(SCRIPT, {"width": width, "paper": paper})
+    for theme, found in zip(THEMES, both, strict=True):
         name = f"{'paper' if paper else width} {theme}"
         seen.views += 1
         seen.counts.update(found["counts"])
         seen.faults += [
             Fault(check, seen.page, name, element, text) for check, element, text in found["faults"]
         ]
-        if view["keyboard"]:
-            press_tab(tab, seen, name)
-        if view["once"]:
+        if "links" in found:  # what does not depend on the window is looked at once
             seen.figures, seen.ids, seen.links = found["figures"], set(found["ids"]), found["links"]
             if found["mathematics"] and not found["typesetter"]:
                 seen.faults.append(

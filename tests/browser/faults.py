@@ -38,10 +38,16 @@ HEAD = '<h1 id="top">A page</h1><p>With text and <a href="sound.html#top">a link
 PICTURE = "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='{0}' height='9'/%3E"
 SMALL, WIDE = PICTURE.format(9), PICTURE.format(700)
 SOUND = f"""{HEAD}<h2>Part</h2>
-<div style="overflow-x: auto" tabindex="0"><mjx-container display="true"><mjx-c style="width: 500px">x</mjx-c></mjx-container></div>
-<figure><img alt="A rod bends towards its tip, the more the longer it is." src="{SMALL}"><figcaption><b>Rods.</b> Two rods.</figcaption></figure>
+<div style="overflow-x: auto" tabindex="0">
+  <mjx-container display="true"><mjx-c style="width: 500px">x</mjx-c></mjx-container>
+</div>
+<figure>
+  <img alt="A rod bends towards its tip, the more the longer it is." src="{SMALL}">
+  <figcaption><b>Rods.</b> Two rods.</figcaption>
+</figure>
 <table class="rows"><thead><tr><th scope="col">row</th></tr></thead><tr><td>1</td></tr></table>
-<pre>code</pre><button>play</button><label>time <input type="range"></label><details><summary>more</summary>text</details>
+<pre>code</pre><button>play</button><label>time <input type="range"></label>
+<details><summary>more</summary>text</details>
 <svg role="img" aria-label="A black box that holds a white word, drawn in the page itself." width="90" height="30">
 <rect width="90" height="30" fill="#000"/><text x="5" y="20" fill="#fff">word</text></svg>"""
 """What looks like a fault and is none."""
@@ -102,12 +108,14 @@ PLANTED = (
     Planted(
         "contrast",
         "#svgword",
-        '<svg width="90" height="30" role="img" aria-label="A word in black on a box that is nearly black."><rect width="90" height="30" fill="#111"/><text id="svgword" x="5" y="20" fill="#333">word</text></svg>',
+        '<svg width="90" height="30" role="img" aria-label="A word in black on a box that is nearly black.">'
+        '<rect width="90" height="30" fill="#111"/><text id="svgword" x="5" y="20" fill="#333">word</text></svg>',
     ),
     Planted(
         "contrast",
         "#hint",
-        '<input id="hint" placeholder="a hint" style="background: #fff"><style>#hint::placeholder { color: #bbb }</style>',
+        '<input id="hint" placeholder="a hint" style="background: #fff">'
+        "<style>#hint::placeholder { color: #bbb }</style>",
     ),
     Planted(
         "contrast",

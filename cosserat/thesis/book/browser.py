@@ -48,6 +48,13 @@ def browser() -> Iterator[Browser]:
 
 def settle(page: Page) -> None:
     """Wait until mathematics is set and fonts are there; nothing moves from then on."""
-    page.add_style_tag(content="*, *::before, *::after { transition: none !important; }")
-    page.evaluate("() => window.MathJax?.startup?.promise?.then(() => 0)")
-    page.evaluate("() => document.fonts.ready.then(() => 0)")
+    page.evaluate(
+        """async () => {
+          const still = document.createElement("style");
+          still.textContent = "*, *::before, *::after { transition: none !important; animation: none !important; }";
+          document.head.append(still);
+          await window.MathJax?.startup?.promise;
+          await document.fonts.ready;
+          await new Promise((done) => setTimeout(done, 0));
+        }"""
+    )

@@ -19,7 +19,7 @@ _FILES = (
 )
 """The font of icons that is left draws all of them; the script, five times as large, would draw them again."""
 _HEAD = re.compile(r'<th (class="head[^"]*")>')
-_SCRIPT = re.compile(r'\s*<script defer src="_static/scripts/fontawesome\.js[^"]*"></script>')
+_SCRIPT = re.compile(r'\s*<script defer src="(?:\.\./)?_static/scripts/fontawesome\.js[^"]*"></script>')
 
 
 def finish(built: Path) -> None:
