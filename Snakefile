@@ -38,7 +38,7 @@ def package(*names):
     """Files of these folders of the package: Snakemake does not see edits of what a command imports."""
     folders = [os.path.join("cosserat", name) for name in names]
     files = [os.path.join(folder, file) for folder in folders for file in os.listdir(folder)]
-    return sorted(file for file in files if file.endswith((".py", ".css")))
+    return sorted(file for file in files if file.endswith((".py", ".css", ".js")))
 
 
 def batches():
@@ -254,7 +254,7 @@ rule peers:  # its table is tracked, so it is the output of no rule, and measure
 
 rule book:
     input:
-        package("thesis/book"),
+        package("thesis/book", "figures"),
         "cosserat/__init__.py",
         notebooks=expand("results/notebooks/{chapter}.ipynb", chapter=CHAPTERS),
     output:

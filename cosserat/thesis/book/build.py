@@ -14,6 +14,7 @@ from pathlib import Path
 
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
+from cosserat.figures import player
 
 _FILE_LIST = ".cosserat-book"
 """File that lists the files of a book."""
@@ -37,7 +38,8 @@ suppress_warnings = ["mystnb.unknown_mime_type"]
 html_theme = "sphinx_book_theme"
 html_title = "Cosserat curves"
 html_static_path = ["_static"]
-html_css_files = ["book.css"]
+html_css_files = ["book.css", "player.css"]
+html_js_files = ["player.js"]
 html_copy_source = False
 html_show_sourcelink = False
 html_last_updated_fmt = None
@@ -127,6 +129,8 @@ def render(notebooks: list[Path], output: Path) -> Path:
         (pages / "conf.py").write_text(_SPHINX_CONFIGURATION, encoding="utf-8")
         style = resources.files("cosserat.thesis.book") / "book.css"
         (pages / "_static" / "book.css").write_text(style.read_text(encoding="utf-8"), encoding="utf-8")
+        (pages / "_static" / "player.css").write_text(player.style(), encoding="utf-8")
+        (pages / "_static" / "player.js").write_text(player.script(), encoding="utf-8")
         _copy_mathjax(pages / "_static" / "mathjax")
         _sphinx(pages, built, Path(scratch) / "doctrees")
         (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")

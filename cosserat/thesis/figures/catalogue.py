@@ -61,8 +61,6 @@ FIGURES: dict[str, Entry] = {
         "chapter2",
         ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
     ),
-    "anim_robot": Entry("The soft robot crawls", "chapter2", ("soft_robot",)),
-    "anim_worm": Entry("The earthworm crawls", "chapter2", ("worm",)),
     "fig_3_1": Entry("Fig. 3.1: reference and current configuration", "geometry", ("bent_rod",)),
     "fig_3_2": Entry("Fig. 3.2: a rod-like body", "geometry", ("clamped_free",)),
     "fig_3_3": Entry("Fig. 3.3: section and directors", "geometry", ("clamped_free",)),
@@ -120,14 +118,12 @@ FIGURES: dict[str, Entry] = {
     "fig_column_strength": Entry(
         "The strength of imperfect columns", "studies", (), studies=("column_strength",)
     ),
-    "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
-    "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),
 }
 """Figures by the name of the function that draws them."""
 
 
 def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figure | str:
-    """Draw a figure, or the text of an animated SVG, from its Datasets by case name.
+    """Draw a figure from its Datasets by case name.
 
     table : the results table, read where the figure shows published numbers.
 
