@@ -10,6 +10,7 @@ from cosserat.cases.catalogue import published
 from cosserat.data.provenance import computing_sources
 from cosserat.studies import elsewhere
 from cosserat.studies.door import find_study, published_studies
+from cosserat.thesis.book.edition import edition
 from cosserat.thesis.figures.catalogue import FIGURES
 
 min_version("9.0")
@@ -254,11 +255,13 @@ rule peers:  # its table is tracked, so it is the output of no rule, and measure
 
 rule book:
     input:
-        package("thesis/book", "figures"),
+        package("thesis/book", "thesis/book/static", "figures"),
         "cosserat/__init__.py",
         notebooks=expand("results/notebooks/{chapter}.ipynb", chapter=CHAPTERS),
     output:
         "results/book/index.html",
+    params:
+        edition=edition().text,  # each page names its commit
     log:
         "results/logs/book.log",
     benchmark:

@@ -124,17 +124,18 @@ def motion(data: xr.Dataset, frames: int = FRAMES) -> Stage:
     body = body_panel(problem, reference, moved, times=time, loads=True, title=title)
     tip = state.x.to_numpy()[:, -1] - state.x_ref.to_numpy()[-1]
     axis = int(np.ptp(tip, axis=0).argmax())
-    panels = (
-        body,
-        energies(state),
-        Panel(curve(time, tip[:, axis], "ink"), "time [s]", f"last vertex, {(ALONG, UP)[axis]}"),
-    )
+    panels = [body, energies(state)]
+    if body.wide:
+        label = f"last vertex, {(ALONG, UP)[axis]}"
+        panels.append(Panel(curve(time, tip[:, axis], "ink"), "time [s]", label))
     alt = (
-        "A rod moves from state to state. Below: its kinetic and its strain energy, and a displacement of its last "
-        "vertex."
+        "A rod moves from state to state. Beside or below it are its kinetic and its strain energy in time, and what "
+        "its last vertex does."
     )
     slider = Slider("time", time, "s", _digits(time))
-    return Stage(str(data.attrs.get("title", "")), alt, panels, slider, _pace(time.size), poster=(0, -1))
+    return Stage(
+        str(data.attrs.get("title", "")), alt, tuple(panels), slider, _pace(time.size), poster=(0, -1)
+    )
 
 
 def energies(state: xr.Dataset) -> Panel:

@@ -122,10 +122,10 @@ def axes(frame: Frame) -> str:
     right, bottom = frame.width - _RIGHT, frame.height - _BOTTOM
     parts = [f'<path class="grid" d="M{_LEFT} {_TOP}V{bottom}H{right}"/>']
     for value, text in ticks(*frame.xlim, (right - _LEFT) / 75):
-        place = f"{x0 + along * value:.1f}"
-        parts.append(f'<path class="grid" d="M{place} {bottom}v5"/>')
-        parts.append(f'<text x="{place}" y="{bottom + 22}" text-anchor="middle">{text}</text>')
-    for value, text in ticks(*frame.ylim, (bottom - _TOP) / 45):
+        place = x0 + along * value
+        parts.append(f'<path class="grid" d="M{place:.1f} {bottom}v5"/>')
+        parts.append(f'<text x="{place:.1f}" y="{bottom + 22}" text-anchor="middle">{text}</text>')
+    for value, text in ticks(*frame.ylim, (bottom - _TOP) / 28):
         place = y0 + up * value
         parts.append(f'<path class="grid" d="M{_LEFT} {place:.1f}h-5"/>')
         parts.append(f'<text x="{_LEFT - 8}" y="{place + 4.5:.1f}" text-anchor="end">{text}</text>')

@@ -122,18 +122,18 @@ def _part(part: Line | Mark, numbers: tuple[int, int], frame: Frame) -> dict[str
 
 
 def figure(stage: Stage, name: str, caption: str = "") -> str:
-    """A stage as an element <figure>; `script` and `style` make it play.
+    """A stage as an element <figure>; the script and the style of this module make it play.
 
     name : its id, unique in the page.  caption : HTML.
     """
     panels = "".join(_panel(stage, number) for number in range(len(stage.panels)))
     legend = "".join(f"<li>{_swatch(part)}{html.escape(part.label)}</li>" for part in stage.labels)
     drawn = "; ".join(printable(stage.slider.spoken(state)) for state in stage.drawn)
-    packed = json.dumps(states(stage), separators=(",", ":"), ensure_ascii=False).replace("</", r"<\/")
+    packed = json.dumps(states(stage), separators=(",", ":"), ensure_ascii=False).replace("<", r"\u003c")
     label = html.escape(stage.slider.label)
     return (
         f'<figure class="player" id="{html.escape(name)}" data-player>'
-        f'<div class="panels" role="img" aria-label="{html.escape(printable(stage.alt))}">{panels}</div>'
+        f'<div class="panels">{panels}</div>'
         + (f'<ul class="legend">{legend}</ul>' if legend else "")
         + f'<p class="drawn">Drawn: {html.escape(drawn)}.</p>'
         '<div class="controls" hidden><button type="button">Play</button>'
@@ -150,8 +150,13 @@ def _panel(stage: Stage, number: int) -> str:
     still = "".join(drawing.shape(part, frame, 0) for part in frame.panel.parts if not part.moves)
     alive = "".join(_empty(part) for part in frame.panel.parts if part.moves)
     kind = "wide" if frame.panel.wide else "half"
+    spoken = (
+        f'role="img" aria-label="{html.escape(printable(stage.alt))}"'
+        if number == 0
+        else 'aria-hidden="true"'
+    )
     return (
-        f'<svg class="{kind}" viewBox="0 0 {frame.width} {frame.height}" xmlns="http://www.w3.org/2000/svg">'
+        f'<svg class="{kind}" {spoken} viewBox="0 0 {frame.width} {frame.height}" xmlns="http://www.w3.org/2000/svg">'
         f"{drawing.axes(frame)}<g>{still}</g>"
         f'<g class="poster">{drawing.poster(stage, frame)}</g><g class="alive">{alive}</g></svg>'
     )

@@ -115,7 +115,9 @@ class Slider:
 
     def spoken(self, state: int) -> str:
         """The value with its unit, and the words on that state."""
-        unit = "" if self.unit == "1" else f" {self.unit}"
+        unit = (
+            "" if self.unit == "1" else self.unit if self.unit == "\N{DEGREE SIGN}" else f" {self.unit}"
+        )
         value = f"{self.values[state]:.{self.digits}f}".replace("-", "\N{MINUS SIGN}")
         return f"{self.label} {value}{unit}" + (f", {self.said[state]}" if self.said else "")
 

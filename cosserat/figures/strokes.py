@@ -45,7 +45,8 @@ class Pen:
         along = _HEAD_SHARE * arrow
         across = np.array([-along[1], along[0]])
         head = tip + _HEAD @ np.stack([along, across])
-        self._keep(*np.vstack([foot, tip, head]).T, "variant", "", 1.6)
+        x, y = np.vstack([foot, tip, head]).T
+        self._keep(x, y, "variant", "", 1.6)
 
     def update_datalim(self, points: Any) -> None:
         """A stage finds its limits by itself."""

@@ -11,10 +11,11 @@ import xarray as xr
 from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
 from cosserat.figures import animations, crawling
-from cosserat.figures.stage import Slider, Stage
+from cosserat.figures.stage import Panel, Slider, Stage
 from cosserat.rods.problem import RodProblem
 from cosserat.studies.calibration import beam_of
-from cosserat.thesis.table.crawl_readouts import SEGMENT_50, instants_per_stride
+from cosserat.thesis.earthworm import SEGMENT_50
+from cosserat.thesis.table.crawl_readouts import instants_per_stride
 
 Data = Mapping[str, xr.Dataset]
 
@@ -92,14 +93,22 @@ def tumbling(data: Data) -> Stage:
     """The thrown rod."""
     alt = (
         "A rod without supports flies upwards, turns, bends to and fro and changes its length. Its kinetic and "
-        "strain energy exchange; their sum stays."
+        "strain energy oppose each other."
     )
     run = data["tumbling"]
+    stage = animations.motion(run, run.sizes["time"])
+    change = run.kinetic_energy - run.kinetic_energy[0]
+    parts = (
+        *animations.curve(
+            run.time.to_numpy(), run.strain_energy.to_numpy(), "variant", "strain energy", "6 3"
+        ),
+        *animations.curve(
+            run.time.to_numpy(), change.to_numpy(), "computed", "change of the kinetic energy"
+        ),
+    )
+    panels = (stage.panels[0], Panel(parts, "time [s]", "energy [J]"))
     return replace(
-        animations.motion(run, run.sizes["time"]),
-        title="A rod in the air",
-        alt=alt,
-        poster=(0, 33, 66, -1),
+        stage, title="A rod in the air", alt=alt, panels=panels, poster=(0, 33, 66, -1), seconds=8.0
     )
 
 
