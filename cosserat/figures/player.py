@@ -12,7 +12,7 @@ How another module makes one:
     stage = Stage("A beam", "The beam swings ...", (side, graph), Slider("time", time, "s"), seconds=4.0)
     html = figure(stage, "fig_beam", "A caption.")
 
-A line of shape (k,) stays, one of shape (states, k) moves.  Without scripts and on paper the states of `stage.poster`
+A line of shape (k,) stays, one of shape (states, k) moves.  Without scripts and on paper the states of its poster
 are drawn.  States travel in the page as whole numbers of 16 bits: value = offset + step * number.  A step is an eighth
 of a pixel of the drawing, so what is shown is within a sixteenth of a pixel of what is stored; -32768 is a gap.
 """
