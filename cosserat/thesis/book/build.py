@@ -14,6 +14,7 @@ from pathlib import Path
 
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
+from cosserat.figures import player
 from cosserat.thesis.book.finish import finish
 
 _FILE_LIST = ".cosserat-book"
@@ -105,6 +106,8 @@ def _gather(notebooks: list[Path], pages: Path) -> None:
         shutil.copy(here / "conf.py", pages)
     for path in notebooks:
         shutil.copy(path, pages)
+    (pages / "_static" / "player.css").write_text(player.style(), encoding="utf-8")
+    (pages / "_static" / "player.js").write_text(player.script(), encoding="utf-8")
     _copy_mathjax(pages / "_static" / "mathjax")
 
 
