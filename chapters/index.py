@@ -31,6 +31,7 @@
 # ch3_calibration
 # ch3_rods
 # ch4_consistent
+# pull
 # studies
 # ch5_peers
 # reliability

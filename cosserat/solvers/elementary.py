@@ -109,7 +109,7 @@ def _sine_and_cosine(x: float) -> tuple[Pair, Pair]:
     square = _times(near, near)
     sine, cosine = _times(near, _series(square, 1)), _series(square, 0)
     turn = quarters - 4 * np.floor(quarters / 4)
-    if turn == 1.0 or turn == 3.0:
+    if turn % 2 == 1.0:
         sine, cosine = cosine, (-sine[0], -sine[1])
     if turn >= 2.0:
         sine, cosine = (-sine[0], -sine[1]), (-cosine[0], -cosine[1])

@@ -1,0 +1,1 @@
+"""The compiled rod as a module of WebAssembly, which a page runs without the package: `build.pulled_rod`."""

@@ -12,14 +12,22 @@ reassociation and no fused product and sum in either.
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import llvmlite.binding as llvm
 from numba import types as numba_types
+from numba.core.dispatcher import Dispatcher
+from numba.extending import overload
+from numba.np import arrayobj
 
+from cosserat.rods.energies.reissner_kernel import assemble
+from cosserat.rods.space_kernel import planar
 from cosserat.solvers import elementary
+from cosserat.solvers.members import SPACE_KERNEL
+from cosserat.solvers.potential import KERNEL
 
 types: Any = numba_types  # which says nothing of its own types
 
@@ -143,6 +151,35 @@ def object_code(exports: list[Export]) -> bytes:
     return _optimised(modules, "\n".join(shells), names | set(_MATHEMATICS))
 
 
+def compile_less() -> None:
+    """Let this process compile the functions of the package alone, once each, and not what calls them from Python.
+
+    Numba would compile kernels once more for each task that is a constant, and code that writes arrays' shapes into
+    errors.
+    """
+    for name, module in list(sys.modules.items()):
+        if name.startswith("cosserat."):
+            for thing in vars(module).values():
+                if isinstance(thing, Dispatcher):
+                    thing.targetoptions |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    for function, signature in ((assemble, KERNEL), (planar, SPACE_KERNEL)):
+        function.compile(signature.args)
+        function.disable_compile()
+    arrayobj.raise_with_shape_context = _refuse_shapes
+
+
+def _refuse_shapes(source: Any, index: Any) -> None:
+    """In place of Numba's function of the same arguments."""
+
+
+@overload(_refuse_shapes)
+def _refuse_shapes_compiled(source: Any, index: Any) -> Callable[..., None]:
+    def refuse(source: Any, index: Any) -> None:
+        raise ValueError("the shapes of arrays differ")
+
+    return refuse
+
+
 def _llvm_of(function: Any, arguments: tuple[Any, ...]) -> tuple[str, str]:
     """The LLVM code of a function for some types, with all that it calls, and its symbol there."""
     function.compile(arguments)
@@ -179,7 +216,12 @@ def _export_shell(export: Export, symbol: str) -> str:
 
 
 def _shell(
-    name: str, result: str, given: list[str], symbol: str, passed: list[str], lines: list[str] | None = None
+    name: str,
+    result: str,
+    given: list[str],
+    symbol: str,
+    passed: list[str],
+    lines: list[str] | None = None,
 ) -> str:
     """A function that calls one of Numba, whose first two arguments are places for the result and for an error."""
     plain = "i32" if result == "i64" else result
@@ -229,10 +271,12 @@ def _optimised(modules: list[str], shells: str, names: set[str]) -> bytes:
 
 def _for_webassembly(ir: str) -> str:
     """The code of a module of Numba without what is of this machine, and without its reference counts."""
-    ir = re.sub(r'^target (triple|datalayout) = .*$', "", ir, flags=re.MULTILINE)
+    ir = re.sub(r"^target (triple|datalayout) = .*$", "", ir, flags=re.MULTILINE)
     ir = re.sub(r'"(target-cpu|target-features|probe-stack|tune-cpu)"="[^"]*"', "", ir)
     for name in ("NRT_incref", "NRT_decref"):
-        ir = re.sub(rf"^define [^\n]*@{name}\(.*?^}}$", f"declare void @{name}(ptr)", ir, flags=re.M | re.S)
+        ir = re.sub(
+            rf"^define [^\n]*@{name}\(.*?^}}$", f"declare void @{name}(ptr)", ir, flags=re.M | re.S
+        )
     ir = re.sub(r"^ *store ptr @\.const\.picklebuf\.\w+, .*$", "", ir, flags=re.MULTILINE)
     ir = re.sub(r"@llvm\.(sin|cos|tan|log10)\.f64", r"@\1", ir)
     ir = re.sub(r"@sqrt\b", "@llvm.sqrt.f64", ir)

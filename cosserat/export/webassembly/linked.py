@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-CUSTOM, TYPE, IMPORT, FUNCTION, TABLE, MEMORY, GLOBAL, EXPORT, START, ELEMENT, CODE, DATA, COUNT = range(13)
+CUSTOM, TYPE, IMPORT, FUNCTION, TABLE, MEMORY, GLOBAL, EXPORT, START, ELEMENT, CODE, DATA, COUNT = range(
+    13
+)
 """Sections of a module; a custom one has a name."""
 _ORDER = (TYPE, FUNCTION, TABLE, MEMORY, GLOBAL, EXPORT, ELEMENT, COUNT, CODE, DATA)
 _I32, _CONST, _END, _MUTABLE, _FUNCREF = b"\x7f", b"\x41", b"\x0b", b"\x01", b"\x70"
@@ -112,7 +114,9 @@ def module(code: bytes, exports: set[str], pile: str = "pile") -> bytes:
     if COUNT in sections:
         sections[COUNT] = written(Reader(sections[DATA]).number())
     parts = [
-        bytes([kind]) + written(len(sections[kind])) + sections[kind] for kind in _ORDER if kind in sections
+        bytes([kind]) + written(len(sections[kind])) + sections[kind]
+        for kind in _ORDER
+        if kind in sections
     ]
     return code[:8] + b"".join(parts)
 
@@ -183,7 +187,7 @@ def _segments(section: bytes) -> Iterator[tuple[int, bytes]]:
     """Address and bytes of each segment of data."""
     reader = Reader(section)
     for _ in range(reader.number()):
-        assert reader.number() == 0 and reader.take(1) == _CONST
+        assert (reader.number(), reader.take(1)) == (0, _CONST)
         at = reader.number()
         assert reader.take(1) == _END
         yield at, reader.take(reader.number())
@@ -191,7 +195,7 @@ def _segments(section: bytes) -> Iterator[tuple[int, bytes]]:
 
 def _functions_in(section: bytes) -> int:
     reader = Reader(section)
-    assert reader.number() == 1 and reader.number() == 0 and reader.take(1) == _CONST
+    assert (reader.number(), reader.number(), reader.take(1)) == (1, 0, _CONST)
     reader.number()
     reader.take(1)
     return reader.number()

@@ -1,4 +1,4 @@
-"""A planar rod, clamped or supported as its case says, whose last vertex is pulled: one array and one compiled function.
+"""A planar rod, supported as its case says, whose last vertex is pulled: one array and one compiled function.
 
 The array is all that the function reads and writes, so that a page can keep it in the memory of a module of WebAssembly
 (`cosserat.export.webassembly`).  The same function and the same array serve Python.
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cosserat.problems.static import RodStatics
 from cosserat.rods.energies.reissner_kernel import TERMS, VERTEX, assemble
 from cosserat.rods.space_kernel import planar
-from cosserat.solvers.banded import Vector
+from cosserat.solvers.banded import Band, Vector
 from cosserat.solvers.climb import assembled
 from cosserat.solvers.equilibrium import NewtonSettings
 from cosserat.solvers.members import Body, Limits
@@ -24,7 +24,8 @@ OUTCOME, DONE, ITERATIONS, REFUSED, FALLS, ENERGY, FORCE_3, FORCE_2, RESIDUAL, T
 """First numbers of the array: what came of the last pull (`solvers.pull`), the fraction of it, counts, the energy [J],
 the force on the last vertex along E3 and E2 [N], the largest unbalanced force and the one allowed [N]."""
 HEAD = 16
-"""After them come DOFs, their reference, their scale and whether they are held, (n,) each, and the constants."""
+"""After them come DOFs, their reference, their scale and whether they are held, (n,) each, the constants of the energy,
+and its gradient (n,) and Hessian (n, 8) if they are asked for."""
 _WIDTH, _TERMS, _VERTEX = 8, len(TERMS), VERTEX.itemsize // 8
 _TOLERANCE, _MOST = NewtonSettings().tolerance, NewtonSettings().max_iterations
 
@@ -36,7 +37,10 @@ def room_of(problem: RodStatics) -> Vector:
     """
     system = problem.system(problem.geometry)
     space, own = system.space, system.internal
-    assert own.evaluate is assemble and space.compiled is not None and not system.frame.oblique
+    assert own.evaluate is assemble
+    assert space.compiled is not None
+    assert not system.frame.oblique
+    n = system.constrained.size
     return np.concatenate(
         [
             np.zeros(HEAD),
@@ -45,8 +49,15 @@ def room_of(problem: RodStatics) -> Vector:
             space.scale,
             system.constrained.astype(np.float64),
             own.data.view(np.float64),
+            np.zeros(n * (1 + _WIDTH)),
         ]
     )
+
+
+def derivatives(room: Vector, vertices: int) -> tuple[Vector, Band]:
+    """Gradient (n,) [N] and Hessian, a band (n, 8), that `evaluate_rod` has left, views."""
+    n, first = 4 * vertices, HEAD + vertices * (16 + _VERTEX)
+    return room[first : first + n], room[first + n : first + n * (1 + _WIDTH)].reshape(n, _WIDTH)
 
 
 def dofs(room: Vector, vertices: int) -> Vector:
@@ -55,8 +66,25 @@ def dofs(room: Vector, vertices: int) -> Vector:
 
 
 @njit(error_model="numpy")
+def evaluate_rod(room: NDArray[np.float64], vertices: int, task: int) -> float:
+    """The energy [J]; gradient and Hessian are overwritten as by a task of `solvers.potential.KERNEL`."""
+    n = 4 * vertices
+    first = HEAD + 4 * n
+    end = first + vertices * _VERTEX
+    gradient, band = room[end : end + n], np.zeros((n, _WIDTH))
+    gradient[:] = 0.0
+    none, skew, terms = np.zeros(0), np.zeros((0, 1)), np.zeros(_TERMS)
+    q, data = room[HEAD : HEAD + n], room[first:end].view(np.uint8)
+    energy = assemble(q, none, data, none, skew, task, gradient, band, skew, terms)
+    for i in range(n):
+        for k in range(_WIDTH):
+            room[end + n + _WIDTH * i + k] = band[i, k]
+    return energy
+
+
+@njit(error_model="numpy")
 def pull_rod(room: NDArray[np.float64], vertices: int, by_3: float, by_2: float) -> int:
-    """Move the last vertex of a rod by a displacement along E3 and E2 [m]; the room is overwritten, the outcome told."""
+    """Move the last vertex of a rod by a displacement along E3 and E2 [m]; the outcome; the room is overwritten."""
     n = 4 * vertices
     head, q, placed = room[:HEAD], room[HEAD : HEAD + n], room[HEAD + n : HEAD + 2 * n]
     scale, marks = room[HEAD + 2 * n : HEAD + 3 * n], room[HEAD + 3 * n : HEAD + 4 * n]
