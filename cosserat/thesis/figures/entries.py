@@ -43,6 +43,18 @@ FIGURES: dict[str, Entry] = {
         "chapter1",
         cases=("soft_robot",),
     ),
+    "fig_slice": Entry(
+        "A slice of a rod and its loads",
+        "Three squares with arrows: one oblique force on each face and one at the middle; arrows up "
+        "and down at faces, middle and surface; and arrows that pull above and push below.",
+        "beams",
+    ),
+    "fig_deformations": Entry(
+        "The twelve deformations of a section",
+        "Twelve small blocks over their dotted shapes at rest: longer, higher, wider, sheared in "
+        "three planes, bent up or aside, twisted, and with a height, a width or a shear that grows along them.",
+        "beams",
+    ),
     "fig_worm_parts": Entry(
         "A crawling worm and its parts",
         "Two side views of a worm with names at its parts: the anchoring part is fat, the advancing "
