@@ -35,8 +35,8 @@ class Folder:
     def write(self, name: str, text: str) -> Markdown:
         """Add lines to a file, and show them."""
         with (Path(self.home.name) / name).open("a", encoding="utf-8") as file:
-            file.write(f"{text.strip()}\n\n")
-        return Markdown(f"In `{name}`:\n\n```toml\n{text.strip()}\n```")
+            file.write(f"{text.strip()}\n")
+        return _listing(name, text.strip())
 
     def replace(self, name: str, old: str, new: str) -> Markdown:
         """Change a text that stands once in a file, and show its new line.
@@ -51,7 +51,7 @@ class Folder:
             raise CosseratError(f"{name} has {old} {before.count(old)} times, not once")
         path.write_text(before.replace(old, new), encoding="utf-8")
         changed = next(line for line in before.splitlines() if old in line).replace(old, new)
-        return Markdown(f"In `{name}`:\n\n```toml\n{changed}\n```")
+        return _listing(name, changed)
 
     def run(self, line: str, *, status: int = 0, first: int = 0) -> Markdown:
         """Run a line that begins with `cosserat`, and show it with what it prints.
@@ -78,3 +78,9 @@ class Folder:
         image = f'<img alt="{escape(alt)}" src="data:image/svg+xml;base64,{drawn}">'
         text = f"<b>{escape(name)}.</b> {mathematics(caption)}"
         return HTML(f'<figure class="plot">{image}<figcaption>{text}</figcaption></figure>')
+
+
+def _listing(name: str, text: str) -> Markdown:
+    """Lines of a file, under its name."""
+    language = "toml" if name.endswith(".toml") else "text"
+    return Markdown(f"In `{name}`:\n\n```{language}\n{text}\n```")
