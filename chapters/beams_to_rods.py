@@ -290,17 +290,14 @@ print("both equations hold at every point, and the free end carries F and no mom
 
 # %%
 young, poisson, area = 1e6, 0.3, round_section.area
-free = np.array(
-    [[2 * k[1], k[7]], [k[7], 2 * k[2]]]
-)  # second derivatives of 2 rho_0 psi by gamma_11, gamma_22
+free = np.array([[2 * k[1], k[7]], [k[7], 2 * k[2]]])  # second derivatives by gamma_11 and gamma_22
 gamma_33 = 0.01
 gamma_11, gamma_22 = np.linalg.solve(free, [-k[8] * gamma_33, -k[9] * gamma_33])
 strain = np.diag([gamma_11, gamma_22, gamma_33])
 stiffness = 2 * directed_rod.strain_energy(k, strain, np.zeros((2, 3))) / (gamma_33 / 2) ** 2
 print(f"gamma_11 / gamma_33 = {gamma_11 / gamma_33:.3f}")
-print(
-    f"the stiffness is {stiffness / (young * area):.6f} E A; with a held section, {4 * k[3] / (young * area):.3f} E A"
-)
+print(f"stiffness over E A: {stiffness / (young * area):.6f} with a free section,")
+print(f"{4 * k[3] / (young * area):.3f} with a held one")
 
 # %% tags=["remove-cell"]
 assert abs(gamma_11 / gamma_33 + poisson) < 1e-12
@@ -322,18 +319,29 @@ assert abs(stiffness / (young * area) - 1) < 1e-12
 #
 # ## The twelve deformations of a section
 #
-# Six $\gamma$ and six $\kappa$ make twelve strains. The figure has one body for each. Dotted is the body at rest. Above each
+# Six $\gamma$ and six $\kappa$ make twelve strains. The figures have one body for each. Dotted is the body at rest. Above each
 # body stand the strain that is not zero and the stiffness that pays for it; below it stands its name in a theory of beams.
+# The first six change every section in the same way.
 
 # %% tags=["remove-input"]
 page.figure(
-    "fig_deformations",
-    "All deformations of a section. $\\mathbf{E}_3$ points to the right, $\\mathbf{E}_1$ up, $\\mathbf{E}_2$ away from you. "
-    "A beam has six of the twelve. The other six change the section itself, and a directed rod exists for them.",
+    "fig_strains",
+    "The strains $\\gamma_{ij}$ of a section. $\\mathbf{E}_3$ points to the right, $\\mathbf{E}_1$ up, $\\mathbf{E}_2$ away from "
+    "you. A beam has three of the six.",
 )
 
 # %% [markdown]
-# The figure is drawn from directors, and the same directors go into the energy. For a round bar of rubber with a radius of
+# The other six change from section to section.
+
+# %% tags=["remove-input"]
+page.figure(
+    "fig_gradients",
+    "The strains $\\kappa_{\\alpha i}$. Bending and twist are those of a beam. Taper and a growing shear belong to sections that "
+    "deform, and a directed rod exists for them.",
+)
+
+# %% [markdown]
+# The bodies are drawn from directors, and the same directors go into the energy. For a round bar of rubber with a radius of
 # 1 cm the cell puts each body alone into the energy (1.2.97) and divides by the square of its strain. The result must be the
 # stiffness that the figure names.
 
@@ -345,17 +353,8 @@ for body in DEFORMATIONS.values():
     strains = directed_rod.measures(d[0], d_prime[0])
     paid = 2 * directed_rod.strain_energy(k, *strains) / amount**2
     assert abs(paid / body.stiffness_of(k) - 1) < 1e-10
-    pays = " ".join(f"{'+' if sign > 0 else '-'} k_{{{i}}}" for i, sign in body.stiffness.items())
-    unit = "N" if body.gamma else "N m²"
-    lines.append(
-        (
-            body.title,
-            f"${body.measure}$",
-            f"${pays.removeprefix('+ ')}$",
-            f"{paid:.4g} {unit}",
-            body.beam,
-        )
-    )
+    number = f"{paid:.4g} {'N' if body.gamma else 'N m²'}"
+    lines.append((body.title, f"${body.measure}$", f"${body.pays}$", number, body.beam))
 
 # %% tags=["remove-input"]
 page.table(lines, ("deformation", "strain", "stiffness", "of a rubber bar of 2 cm", "in a beam"))

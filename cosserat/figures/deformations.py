@@ -55,6 +55,12 @@ class Deformation:
         along[:, :2] += xi[:, None, None] * d_prime
         return xi[:, None] * d[2], along, np.broadcast_to(d_prime, (xi.size, 2, 3))
 
+    @property
+    def pays(self) -> str:
+        """The stiffnesses that pay for it, as mathematics."""
+        terms = (f"{'+' if sign > 0 else '-'} k_{{{i}}}" for i, sign in self.stiffness.items())
+        return " ".join(terms).removeprefix("+ ")
+
     def stiffness_of(self, k: Mapping[int, float]) -> float:
         """What pays for it: 2 rho_0 psi over the square of the strain, from the stiffnesses k_i [N or N m^2]."""
         return sum(sign * k[number] for number, sign in self.stiffness.items())
@@ -79,7 +85,7 @@ def _turned(omega: Array, xi: Array) -> tuple[Array, Array, Array]:
     """Sections that are rotated into each other, d_i' = omega x d_i: a circle or a twisted bar."""
     rate = float(np.linalg.norm(omega))
     axis = omega / rate if rate else omega
-    cross = np.cross(np.eye(3), -axis)  # cross @ v = axis x v
+    cross = np.cross(np.eye(3), axis)  # cross @ v = axis x v
     angle = (rate * xi)[:, None, None]
     turns = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
     d = np.swapaxes(turns, 1, 2)
@@ -95,6 +101,7 @@ def _turned(omega: Array, xi: Array) -> tuple[Array, Array, Array]:
 
 DEFORMATIONS: dict[str, Deformation] = {
     "stretch": Deformation("axial stretch", r"\gamma_{33}", "stretch of a bar", {3: 1}, gamma=((2, 2),)),
+    "section_shear": Deformation("shear of the section", r"\gamma_{12}", "", {4: 1}, gamma=((0, 1),)),
     "lateral_1": Deformation("lateral stretch", r"\gamma_{11}", "", {1: 1}, gamma=((0, 0),)),
     "lateral_2": Deformation("lateral stretch", r"\gamma_{22}", "", {2: 1}, gamma=((1, 1),)),
     "shear_1": Deformation(
@@ -103,13 +110,14 @@ DEFORMATIONS: dict[str, Deformation] = {
     "shear_2": Deformation(
         "transverse shear", r"\gamma_{23}", "shear of Timoshenko's beam", {6: 1}, gamma=((1, 2),)
     ),
-    "section_shear": Deformation("shear of the section", r"\gamma_{12}", "", {4: 1}, gamma=((0, 1),)),
     "bending_1": Deformation(
         "bending", r"\kappa_{13}", "bending of a beam", {14: 1}, kappa={(0, 2): 1}, turn=(0, -1, 0)
     ),
     "bending_2": Deformation(
         "bending", r"\kappa_{23}", "bending of a beam", {15: 1}, kappa={(1, 2): 1}, turn=(1, 0, 0)
     ),
+    "taper_1": Deformation("taper", r"\kappa_{11}", "", {10: 1}, kappa={(0, 0): 1}),
+    "taper_2": Deformation("taper", r"\kappa_{22}", "", {11: 1}, kappa={(1, 1): 1}),
     "twist": Deformation(
         "twist",
         r"\kappa_{12} = -\kappa_{21}",
@@ -118,10 +126,8 @@ DEFORMATIONS: dict[str, Deformation] = {
         kappa={(0, 1): 1, (1, 0): -1},
         turn=(0, 0, 1),
     ),
-    "taper_1": Deformation("taper", r"\kappa_{11}", "", {10: 1}, kappa={(0, 0): 1}),
-    "taper_2": Deformation("taper", r"\kappa_{22}", "", {11: 1}, kappa={(1, 1): 1}),
     "section_shear_gradient": Deformation(
-        "shear of the section that grows",
+        "growing shear of the section",
         r"\kappa_{12} = \kappa_{21}",
         "",
         {12: 1, 13: 1, 16: 1},

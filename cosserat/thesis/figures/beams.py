@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.deformations import DEFORMATIONS, draw_body
+from cosserat.figures.deformations import DEFORMATIONS, Deformation, draw_body
 from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
 
 Array = NDArray[np.float64]
@@ -18,35 +18,53 @@ Data = Mapping[str, xr.Dataset]
 
 _HALF = (0.5, 0.35)  # half height and half width of a drawn section
 _LENGTH = 3.0  # of a drawn body
-_COLUMNS = 3
-_SPACING = (4.9, 3.6)  # from one drawn body to the next
-_AMOUNTS = {"gamma": 0.4, "shear_1": 0.3, "kappa": 0.36, "twist": 0.5}  # of the drawn strains
+_COLUMNS = 2
+_SPACING = (5.0, 3.7)  # from one drawn body to the next
+_AMOUNTS = {  # of the drawn strains
+    "axial stretch": 0.4,
+    "lateral stretch": 0.4,
+    "transverse shear": 0.3,
+    "shear of the section": 0.4,
+    "bending": 0.36,
+    "twist": 0.5,
+    "taper": 0.36,
+    "growing shear of the section": 0.36,
+}
+WIDTH = 5.0  # of a picture [in]
 
 
-def fig_deformations(data: Data) -> Figure:
-    """Twelve bodies, each with one strain, over the body at rest, with the stiffnesses that pay."""
+def fig_strains(data: Data) -> Figure:
+    """Six bodies, each with one gamma_ij, over the body at rest, with the stiffness that pays."""
     del data
-    rows = -(-len(DEFORMATIONS) // _COLUMNS)
-    figure, (ax,) = canvas(7.2, 1.8 * rows)
+    return _gallery([found for found in DEFORMATIONS.values() if found.gamma])
+
+
+def fig_gradients(data: Data) -> Figure:
+    """Six bodies, each with one kappa_alpha i or two equal ones, over the body at rest, with what pays."""
+    del data
+    return _gallery([found for found in DEFORMATIONS.values() if found.kappa])
+
+
+def _gallery(shown: list[Deformation]) -> Figure:
+    rows = -(-len(shown) // _COLUMNS)
+    figure, (ax,) = canvas(WIDTH, 1.86 * rows + 0.2)
     xi = np.linspace(-_LENGTH / 2, _LENGTH / 2, 19)
-    for number, (name, found) in enumerate(DEFORMATIONS.items()):
+    for number, found in enumerate(shown):
         row, column = divmod(number, _COLUMNS)
         place = (_SPACING[0] * column, -_SPACING[1] * row)
         r, d, _ = found.directors(0.0, xi)
-        amount = _AMOUNTS.get(name, _AMOUNTS["gamma" if found.gamma else "kappa"])
-        bent, turned, _ = found.directors(amount, xi)
+        bent, turned, _ = found.directors(_AMOUNTS[found.title], xi)
         draw_body(ax, bent, turned, _HALF, place)
         draw_body(ax, r, d, _HALF, place, look="none")
-        pays = " ".join(f"{'+' if sign > 0 else '-'} k_{{{i}}}" for i, sign in found.stiffness.items())
         above = (place[0], place[1] + 1.5)
         ax.annotate(found.title, above, ha="center", va="bottom", color=INK)
-        text = f"${found.measure}$,  ${pays.removeprefix('+ ')}$"
+        text = f"${found.measure}$,  ${found.pays}$"
         ax.annotate(text, (above[0], above[1] - 0.06), ha="center", va="top", color=VARIANT)
         below = (place[0], place[1] - 1.12)
-        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top", fontsize=8)
+        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top", fontsize=9)
     ax.set(
         xlim=(-0.5 * _SPACING[0], (_COLUMNS - 0.5) * _SPACING[0]),
-        ylim=(-_SPACING[1] * (rows - 1) - 1.6, 2.0),
+        ylim=(-_SPACING[1] * (rows - 1) - 1.7, 2.0),
         xticks=[],
         yticks=[],
         xlabel=r"along $\mathbf{E}_3$ [heights of the section]",
@@ -63,9 +81,9 @@ _GAP = 0.12  # from a face of the slice to the arrows that act on it
 def fig_slice(data: Data) -> Figure:
     """A slice of a rod between two sections: its forces, and both kinds of director forces on it."""
     del data
-    figure, (forces, across, along) = canvas(7.2, 2.8, 1, 3)
+    figure, (forces, legend, across, along) = canvas(WIDTH, 5.0, 2, 2)
     for ax, title in (
-        (forces, "(a) forces\nmove the slice"),
+        (forces, "(a) forces"),
         (across, "(b) director forces along\n$\\mathbf{d}_1$ change its height"),
         (along, "(c) director forces along\n$\\mathbf{d}_3$ turn it"),
     ):
@@ -80,6 +98,7 @@ def fig_slice(data: Data) -> Figure:
     _draw_forces(forces)
     _draw_across(across)
     _draw_along(along)
+    _explain(legend)
     return figure
 
 
@@ -88,7 +107,7 @@ def _draw_forces(ax: Axes) -> None:
     _arrow(ax, (_WIDE, 0), (0.8, 0.5), VARIANT)
     _arrow(ax, (-_WIDE, 0), (-0.8, -0.3), VARIANT)
     _arrow(ax, (0, 0), (0.1, -1.4), INK)
-    _text(ax, (_WIDE + 0.62, 0.9), r"$\mathbf{n}(\xi + \mathrm{d}\xi)$", VARIANT)
+    _text(ax, (_WIDE + 0.72, 0.95), r"$\mathbf{n}(\xi + \mathrm{d}\xi)$", VARIANT)
     _text(ax, (-_WIDE - 0.55, 0.3), r"$-\mathbf{n}(\xi)$", VARIANT)
     _text(ax, (0.62, -1.3), r"$\rho_0 \mathbf{f}\, \mathrm{d}\xi$", INK)
 
@@ -116,6 +135,19 @@ def _draw_along(ax: Axes) -> None:
     _text(ax, (1.3, 1.3), r"$\mathbf{m}^1(\xi + \mathrm{d}\xi)$", VARIANT)
     _text(ax, (-1.3, 1.3), r"$-\mathbf{m}^1(\xi)$", VARIANT)
     _text(ax, (0, -1.3), r"couple $\mathbf{m} = \mathbf{d}_\beta \times \mathbf{m}^\beta$", INK)
+
+
+def _explain(ax: Axes) -> None:
+    """What the colours of the arrows mean."""
+    ax.spines[["left", "bottom"]].set_visible(False)
+    ax.set(xlim=(0, 1), ylim=(0, 1), xticks=[], yticks=[], xlabel="forces [N], director forces [N m]")
+    for height, colour, text in (
+        (0.85, VARIANT, "contact loads: what the\nneighbours do to the faces"),
+        (0.5, INK, "assigned loads: what acts\nfrom outside"),
+        (0.15, COMPUTED, "intrinsic director force:\nwhat holds the slice together"),
+    ):
+        _arrow(ax, (0.0, height), (0.14, 0.0), colour)
+        ax.annotate(text, (0.18, height), ha="left", va="center", color=colour)
 
 
 def _arrow(ax: Axes, foot: tuple[float, float], along: tuple[float, float], colour: str) -> None:

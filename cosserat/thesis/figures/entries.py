@@ -49,10 +49,16 @@ FIGURES: dict[str, Entry] = {
         "and down at faces, middle and surface; and arrows that pull above and push below.",
         "beams",
     ),
-    "fig_deformations": Entry(
-        "The twelve deformations of a section",
-        "Twelve small blocks over their dotted shapes at rest: longer, higher, wider, sheared in "
-        "three planes, bent up or aside, twisted, and with a height, a width or a shear that grows along them.",
+    "fig_strains": Entry(
+        "Six strains of one section",
+        "Six small blocks over their dotted shapes at rest: one is longer, one is sheared in its end "
+        "face, one is higher, one wider, and two slope up or aside with upright ends.",
+        "beams",
+    ),
+    "fig_gradients": Entry(
+        "Six changes from one section to the next",
+        "Six small blocks over their dotted shapes at rest: one is an arch, one curves aside, one "
+        "grows in height and one in width along itself, and two are twisted or skewed more and more.",
         "beams",
     ),
     "fig_worm_parts": Entry(
