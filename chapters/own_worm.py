@@ -119,7 +119,7 @@ anchor = [[[0, 0], [1, 0]], [[1, 1], [2, 1]]]
 )
 
 # %% tags=["remove-input"]
-here.run("cosserat run robot --file my.toml", status=2)
+here.command("cosserat run robot --file my.toml", status=2)
 
 # %% [markdown]
 # ## A mistake
@@ -131,10 +131,10 @@ here.run("cosserat run robot --file my.toml", status=2)
 here.replace("gamma.csv", "time, front", "time [s], front [cm]")
 
 # %% tags=["remove-input"]
-here.run("cosserat run robot --file my.toml")
+here.command("cosserat run robot --file my.toml")
 
 # %% tags=["remove-input"]
-here.run("cosserat plot robot.nc")
+here.command("cosserat plot robot.nc")
 
 # %% tags=["remove-input"]
 here.picture(
@@ -198,7 +198,7 @@ vary = [{ loads.advancing = ["2 kPa", "4 kPa", "6 kPa", "8 kPa"] }]
 )
 
 # %% tags=["remove-input"]
-here.run("cosserat study pressures --file my.toml")
+here.command("cosserat study pressures --file my.toml")
 
 # %%
 answer = cosserat.load("pressures.nc")

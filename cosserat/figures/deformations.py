@@ -1,6 +1,6 @@
 """The twelve ways in which a section of a directed rod can deform, each alone, as states of a short body.
 
-Every state is a straight or circular rod with the directors of one strain measure of eq. (1.2.19).  `directed_rod`
+Every state is a straight or circular rod with the directors of one strain measure of eq. (1.2.19).  `rods.directed_rod`
 gives its measures and its energy; the bodies here are drawn from the same directors.
 """
 
@@ -29,8 +29,9 @@ class Deformation:
     """One deformation of a section.
 
     measure : the strain that is not zero, as mathematics.  gamma, kappa : its places and signs in the arrays of
-    `directed_rod.measures`, counted from 0.  stiffness : numbers i of eq. (1.2.98) with the signs in which k_i adds to
-    the stiffness of this deformation.  beam : what theories of beams call it, or "" if they have no such thing.
+    `rods.directed_rod.measures`, counted from 0.  stiffness : the numbers i of eq. (1.2.98), each with the sign of k_i
+    in the stiffness of this deformation.  beam : what theories of beams call it, or "" if they have no such thing.
+    turn : the axis of a rod whose sections are rotated into each other.
     """
 
     title: str

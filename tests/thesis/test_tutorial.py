@@ -34,14 +34,18 @@ def test_lines_are_shown_as_they_stand_in_the_file(here):
 
 def test_a_command_is_shown_with_what_it_prints_and_ends_as_the_page_says(here):
     here.write("my.toml", CASE)
-    shown = here.run("cosserat run bar --file my.toml").data.splitlines()
+    shown = here.command("cosserat run bar --file my.toml").data.splitlines()
     assert shown[:2] == ["```console", "$ cosserat run bar --file my.toml"]
     assert shown[2].startswith("bar: ")
     assert Path("bar.nc").is_file()
-    assert "there is no case 'baz'" in here.run("cosserat run baz --file my.toml", status=2).data
+    assert "there is no case 'baz'" in here.command("cosserat run baz --file my.toml", status=2).data
     with pytest.raises(CosseratError, match="ended with 2, not 0: .*there is no case 'baz'"):
-        here.run("cosserat run baz --file my.toml")
-    assert here.run("cosserat show bar.nc", first=1).data.splitlines()[2:] == ["bar: bar", "...", "```"]
+        here.command("cosserat run baz --file my.toml")
+    assert here.command("cosserat show bar.nc", first=1).data.splitlines()[2:] == [
+        "bar: bar",
+        "...",
+        "```",
+    ]
 
 
 def test_a_picture_of_the_folder_has_its_text(here):

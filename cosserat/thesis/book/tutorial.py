@@ -6,17 +6,20 @@ import base64
 import contextlib
 import io
 import os
+import pkgutil
 import shlex
 import tempfile
+import textwrap
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
 from IPython.display import HTML, Markdown
 
-from cosserat.cli import main
 from cosserat.errors import CosseratError
 from cosserat.thesis.book.tables import mathematics
+
+_COLUMNS = 96  # of the terminal that a page shows
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ class Folder:
         changed = next(line for line in before.splitlines() if old in line).replace(old, new)
         return _listing(name, changed)
 
-    def run(self, line: str, *, status: int = 0, first: int = 0) -> Markdown:
+    def command(self, line: str, *, status: int = 0, first: int = 0) -> Markdown:
         """Run a line that begins with `cosserat`, and show it with what it prints.
 
         status : the exit status that the page expects.  first : show only so many lines of the output; 0 shows all.
@@ -63,12 +66,15 @@ class Folder:
         CosseratError : it ended with another status.
         """
         _, *arguments = shlex.split(line)
+        main = pkgutil.resolve_name(
+            "cosserat.cli:main"
+        )  # which imports the commands of this publication
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             ended = main(arguments)
         if ended != status:
             raise CosseratError(f"'{line}' ended with {ended}, not {status}: {said.getvalue()}")
-        lines = said.getvalue().splitlines()
+        lines = [part for whole in said.getvalue().splitlines() for part in _as_on_a_terminal(whole)]
         shown = [*lines[:first], "..."] if 0 < first < len(lines) else lines
         return Markdown("```console\n" + "\n".join([f"$ {line}", *shown]) + "\n```")
 
@@ -78,6 +84,11 @@ class Folder:
         image = f'<img alt="{escape(alt)}" src="data:image/svg+xml;base64,{drawn}">'
         text = f"<b>{escape(name)}.</b> {mathematics(caption)}"
         return HTML(f'<figure class="plot">{image}<figcaption>{text}</figcaption></figure>')
+
+
+def _as_on_a_terminal(line: str) -> list[str]:
+    """A line in parts that fit the page."""
+    return textwrap.wrap(line, _COLUMNS, drop_whitespace=False) or [""]
 
 
 def _listing(name: str, text: str) -> Markdown:
