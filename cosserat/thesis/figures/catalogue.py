@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import importlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -27,6 +28,7 @@ class Entry:
 
     rows : rows of the results table whose published numbers it shows beside the cases.
     studies : published studies that it needs.
+    tables : tracked tables beside the results table, such as "peers.csv", whose rows it shows.
     round_off : whether it draws round-off, which is another one on each kind of processor.
     """
 
@@ -36,6 +38,7 @@ class Entry:
     rows: tuple[str, ...] = ()
     round_off: bool = False
     studies: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
 
 
 FIGURES: dict[str, Entry] = {
@@ -51,6 +54,7 @@ FIGURES: dict[str, Entry] = {
         ("2.8.6-mu1-ratio", "2.8.6-mu3-ratio", "2.8-p-longitudinal-measured", "2.8-p-circular-measured"),
     ),
     "fig_2_5": Entry("Fig. 2.5: muscles as forces along the centreline", "chapter2", ()),
+    "fig_five_regions": Entry("Five regions of muscles", "postures", ("worm_at_rest",)),
     "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "gaits", ("soft_robot",)),
     "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "gaits", ("soft_robot",)),
     "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "gaits", ("soft_robot",)),
@@ -120,6 +124,7 @@ FIGURES: dict[str, Entry] = {
     "fig_column_strength": Entry(
         "The strength of imperfect columns", "studies", (), studies=("column_strength",)
     ),
+    "fig_peers": Entry("Error against time", "peers", (), tables=("peers.csv",)),
     "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
     "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),
 }
@@ -140,8 +145,9 @@ def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figu
     found = entry(name)
     module = importlib.import_module(f"cosserat.thesis.figures.{found.module}")
     published = (_published(found.rows, table),) if found.rows else ()
+    tabulated = [_rows(table.parent / name) for name in found.tables]
     with settings():
-        figure: Figure | str = getattr(module, name)(data, *published)
+        figure: Figure | str = getattr(module, name)(data, *published, *tabulated)
     return figure
 
 
@@ -174,6 +180,14 @@ def _published(rows: tuple[str, ...], table: Path) -> dict[str, float]:
     if missing:
         raise InputError(f"{table} has no printed number {', '.join(missing)}; restore it")
     return {name: known[name] for name in rows}
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    """The rows of a tracked table."""
+    if not path.is_file():
+        raise InputError(f"there is no {path}; restore it with 'git checkout {path}'")
+    with path.open(newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
 
 
 def draw_all(names: Sequence[str], folder: Path, output: Path) -> Iterator[Path]:
