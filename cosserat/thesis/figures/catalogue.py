@@ -54,7 +54,7 @@ FIGURES: dict[str, Entry] = {
         ("2.8.6-mu1-ratio", "2.8.6-mu3-ratio", "2.8-p-longitudinal-measured", "2.8-p-circular-measured"),
     ),
     "fig_2_5": Entry("Fig. 2.5: muscles as forces along the centreline", "chapter2", ()),
-    "fig_five_regions": Entry("Five regions of muscles", "postures", ("worm_at_rest",)),
+    "fig_five_regions": Entry("Five regions of muscles", "postures", ("worm", "worm_at_rest")),
     "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "gaits", ("soft_robot",)),
     "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "gaits", ("soft_robot",)),
     "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "gaits", ("soft_robot",)),

@@ -9,11 +9,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosserat.cases.catalogue import Case
 from cosserat.data.dataset import case_of, problem_of
 from cosserat.figures import crawlers
 from cosserat.figures.style import INK
-from cosserat.problems.crawl import Posture
+from cosserat.problems.crawl import Crawl, Posture
 from cosserat.runner import run
 
 Data = Mapping[str, xr.Dataset]
@@ -24,18 +23,16 @@ _SECTIONS = 1001  # the layers of the picture are smooth
 _TALL = 3.0  # magnification of heights
 
 
-def five_regions(worm: Case) -> Case:
-    """A worm at rest whose muscles act in five regions of equal length, with the loads of section 2.8."""
-    regions = [
-        {"begin": k / len(FIVE), "end": (k + 1) / len(FIVE), "load": load} for k, load in enumerate(FIVE)
-    ]
-    loads = {"anchoring": "26.16 mN", "advancing": "1.3566 kPa"}
-    return worm.vary("five_regions", loads=loads, regions=regions, sections=_SECTIONS)
-
-
 def fig_five_regions(data: Data) -> Figure:
     """The body from the side, its stretches along it, and one layer in radii of the body."""
-    state = run(five_regions(case_of(data["worm_at_rest"])))
+    muscles, ends = problem_of(data["worm"], Crawl).loads, np.linspace(0, 1, len(FIVE) + 1)
+    regions = [
+        {"begin": begin, "end": end, "load": load}
+        for begin, end, load in zip(ends[:-1], ends[1:], FIVE, strict=True)
+    ]
+    loads = {"anchoring": muscles.anchoring, "advancing": muscles.advancing}
+    worm = case_of(data["worm_at_rest"])
+    state = run(worm.vary("five_regions", loads=loads, regions=regions, sections=_SECTIONS))
     posture = problem_of(state, Posture)
     figure = Figure(figsize=(5.0, 6.0), layout="constrained")
     body, curves, layer = figure.subplots(3, 1, height_ratios=[0.5, 1, 1])
