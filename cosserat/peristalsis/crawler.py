@@ -218,13 +218,12 @@ class Groups:
         else:
             k, k_p, k_g = body.stiffnesses
         square = body.length**2 / k_g
-        weight = body.radius * body.line_density * loads.gravity  # R rho_0 g [N]
-        own = cls(incompressible, loads.contact == "printed", k, body.area, square)
-        own = replace(own, c=own.c_of(loads.advancing), m=weight * square)
-        force = own.force_of(loads.anchoring)
+        c = loads.advancing * body.area * square
+        m = body.radius * body.line_density * loads.gravity * square
+        own = cls(incompressible, loads.contact == "printed", k, body.area, square, c=c, m=m)
         if incompressible:
-            return replace(own, i=k * square, delta=force)
-        return replace(own, g=k * square, p=k_p / k, d=force)
+            return replace(own, i=k * square, delta=loads.anchoring * square)
+        return replace(own, g=k * square, p=k_p / k, d=loads.anchoring / k)
 
     @property
     def stiffness(self) -> float:

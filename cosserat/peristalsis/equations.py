@@ -32,12 +32,10 @@ def compressible(
     f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
     for k in range(mu.shape[0]):
         mu_1, mu_2 = mu[k, 0], mu[k, 1]
-        mu_3[k] = (
-            1 + n[k] - p * (mu_1 + mu_2 - 2)
-        )  # n of (2.3.2), for (2.3.5) and (2.3.10); erratum E2.1
+        mu_3[k] = 1 + n[k] - p * (mu_1 + mu_2 - 2)  # (2.3.5), (2.3.10); erratum E2.1
         contact = m[k] / mu_3[k] if printed_contact else m[k]
         d_contact = m[k] * p / mu_3[k] ** 2 if printed_contact else 0.0
-        # k^alpha of (2.3.2) over k_S with mu_3 substituted, to keep digits as nu tends to 1/2
+        # k^alpha of (2.3.2) over k_S, mu_3 inserted: keeps digits as nu tends to 1/2
         k_1 = (1 - p) * ((1 + p) * (mu_1 - 1) + p * (mu_2 - 1)) + p * n[k]
         k_2 = (1 - p) * ((1 + p) * (mu_2 - 1) + p * (mu_1 - 1)) + p * n[k]
         f[k, 0] = contact + g[k] * k_1 + c[k]
