@@ -235,7 +235,7 @@ page.misprint("E2.1", "E2.3")
 # in these equations (E2.7); the code can do so too.
 
 # %% tags=["remove-input"]
-page.excerpt("cosserat.peristalsis.equations.compressible", "mu_3[k] = (", "df[k, 0, 0]")
+page.excerpt("cosserat.peristalsis.equations.compressible", "mu_3[k] =", "df[k, 0, 0]")
 
 # %% tags=["remove-input"]
 page.excerpt("cosserat.peristalsis.crawler.Groups.of", "square =")

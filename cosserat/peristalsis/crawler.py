@@ -1,4 +1,4 @@
-"""The rod that crawls, sections 2.1-2.6: sections stay vertical circles or ellipses, and muscles load it by regions.
+"""The rod that crawls, sections 2.1-2.6: sections stay vertical, eq. (2.1.1), and muscles load it by regions.
 
 Stretches mu_1 (vertical), mu_2 (across) and mu_3 (along) of the material at z = xi / l_0 obey
 

@@ -77,7 +77,7 @@ def incompressible(
 
 @njit(cache=True, nogil=True)
 def multiplier_of(mu: Array, force: Array, exponent: Array) -> Array:
-    """lambda_c (K,), which goes as (mu_1 mu_2)^-exponent and is `force` where mu_1 mu_2 = 1."""
+    """lambda_c (K,), eq. (2.4.7): it goes as (mu_1 mu_2)^-exponent and is `force` where mu_1 mu_2 = 1."""
     multiplier = np.empty(mu.shape[0])
     for k in range(mu.shape[0]):
         volume = mu[k, 0] * mu[k, 1]

@@ -10,7 +10,6 @@ from conftest import ROOT
 CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 NOT_YET = {
     "ch1_directed_rod",
-    "ch2_crawlers",
     "ch3_calibration",
     "ch3_motion",
     "ch3_rods",
@@ -19,7 +18,6 @@ NOT_YET = {
     "conventions",
     "index",
     "results_table",
-    "studies",
 }
 """Chapters that still import from inside of the package."""
 

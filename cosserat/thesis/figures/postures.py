@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from cosserat.data.dataset import case_of, problem_of
 from cosserat.figures import crawlers
-from cosserat.figures.style import INK
+from cosserat.figures.style import INK, PAPER
 from cosserat.problems.crawl import Crawl, Posture
 from cosserat.runner import run
 
@@ -21,6 +21,7 @@ FIVE = ("anchoring", "advancing", "anchoring", "advancing", "anchoring")
 """Loads of the regions from the rear end to the front end, each a fifth of the body."""
 _SECTIONS = 1001  # the layers of the picture are smooth
 _TALL = 3.0  # magnification of heights
+_GROUND = {"facecolor": PAPER, "edgecolor": "none", "pad": 1.0}  # of a name beside its arrow
 
 
 def fig_five_regions(data: Data) -> Figure:
@@ -59,10 +60,9 @@ def _stretches(ax: Axes, state: xr.Dataset) -> None:
             fraction, state[name], color=colour, linewidth=crawlers.WIDTHS[name], label=rf"$\{name}$"
         )
     top = float(state.mu_3.max())
-    ax.annotate("plateau", (0.3, top), (0.3, top + 0.08), ha="center", va="bottom")
-    ax.annotate(
-        "layer", (0.2, 1.02), (0.1, top), ha="center", arrowprops={"arrowstyle": "->", "color": INK}
-    )
+    ax.annotate("plateau", (0.3, top + 0.08), ha="center", va="bottom")
+    arrow = {"arrowstyle": "->", "color": INK}
+    ax.annotate("layer", (0.2, 1.02), (0.1, top), ha="center", arrowprops=arrow, bbox=_GROUND)
     ax.set(
         xlabel=r"$\tilde z = \xi / \ell_0$ [1]",
         ylabel="stretch [1]",
@@ -83,7 +83,14 @@ def _layer(ax: Axes, state: xr.Dataset, posture: Posture) -> None:
     level = float(state.mu_3.max()) - 0.12
     decay = 1 / np.sqrt(8)
     ax.annotate("", (0, level), (decay, level), arrowprops={"arrowstyle": "<->", "color": INK})
-    ax.annotate(r"$R/\sqrt{8}$", (decay, level), xytext=(6, 0), textcoords="offset points", va="center")
+    ax.annotate(
+        r"$R/\sqrt{8}$",
+        (decay, level),
+        xytext=(6, 0),
+        textcoords="offset points",
+        va="center",
+        bbox=_GROUND,
+    )
     ax.set(
         xlabel=r"distance from the junction, over $R$ [1]",
         ylabel="stretch [1]",
