@@ -33,7 +33,9 @@ from cosserat.thesis.book import page
 # ## Watch it first
 
 # %% tags=["remove-input"]
-page.animation("anim_worm", "Two strides in real time. Segment 50 is black, the triangle is the anchor.")
+page.player(
+    "play_worm", "Two strides in real time. Heights are drawn three times as large. Segment 50 is black."
+)
 
 # %% [markdown]
 # * A **front** is a junction that travels from the front end of the body to the rear. Behind a front $\gamma$ the body anchors,
@@ -100,9 +102,7 @@ page.misprint("E2.14", "E2.16")
 # ## The soft robot pushes and pulls
 
 # %% tags=["remove-input"]
-page.animation(
-    "anim_robot", "Two cycles, four times as fast. Orange: advancing loads. The triangle is the anchor."
-)
+page.player("play_robot", "Two cycles, four times as fast. Lengths are true to scale.")
 
 # %% [markdown]
 # The robot waits in longitudinal contraction. Then $\gamma$ travels, the thin part grows, and the head goes forward from the

@@ -24,8 +24,8 @@ TABLE = Path("results/tolerances.csv")
 """The results table of the current checkout."""
 
 
-def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figure | str:
-    """Draw a figure, or the text of an animated SVG, from its Datasets by case name.
+def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figure:
+    """Draw a figure from its Datasets by case name.
 
     table : the results table, read where the figure shows published numbers.
 
@@ -40,7 +40,7 @@ def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figu
     published = (_published(found.rows, table),) if found.rows else ()
     tabulated = [_rows(table.parent / name) for name in found.tables]
     with settings():
-        figure: Figure | str = getattr(module, name)(data, *published, *tabulated)
+        figure: Figure = getattr(module, name)(data, *published, *tabulated)
     return figure
 
 
