@@ -158,11 +158,11 @@ page.table(
 )
 
 # %% [markdown]
-# An inflated artificial muscle has no longitudinal force and a negative pressure, $\bar D = 0$ and $p < 0$. It is short and thick
-# where its load acts, so $\gamma$ and $\eta$ change their parts. With the gait above it crawls backward and anchors with a thin
+# An inflated artificial muscle has no longitudinal force, $\bar D = 0$, and a negative pressure $p$. It is short and thick where
+# its load acts, so $\gamma$ and $\eta$ change their parts. With the gait above it crawls backward and anchors with a thin
 # part; the library gives a warning.
 #
-# ## The earthworm protrudes and stands
+# ## The earthworm: protrusion and stance
 #
 # The worm of the thesis has a mass of 10 g. Its dimensions and times follow from the scaling laws of Table 2.1, which were
 # measured on worms of every size. The peak loads of its muscles follow from strips of muscle in the laboratory; the thesis uses
@@ -200,8 +200,8 @@ page.misprint("E2.15")
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_2",
-    "Segment 50 over three strides. The stretches have two levels, because the segment is in one of two plateaus. Dashed: Quillin's "
-    "pressures, and her ratios of length and width between the two contractions, times the stretches of the corrected worm in "
+    "The stretches have two levels, because the segment lies in one of two plateaus. Dashed: the pressures that Quillin measured, "
+    "and the measured ratios of length and width between the two contractions, times the stretches of the corrected worm in "
     "longitudinal contraction.",
 )
 
@@ -262,7 +262,7 @@ page.table(
 
 # %% tags=["remove-input"]
 page.text(
-    f"At rest only the weight presses. The two stretches then differ by the weight alone, and the pressure is "
+    "At rest only the weight acts. The pressure is then "
     f"$\\mu_1 \\mu_2 \\, \\rho_0 g / (3 \\pi R)$, which is {NUMBERS['2.8-p-rest']:.0f} Pa. "
     f"Quillin measured {page.row('2.8-p-rest-measured')['published']}: the muscles of a resting worm keep some tone. "
     "Neither the thesis nor this library models it."
@@ -361,8 +361,12 @@ for name, what in (("worm_calibration_printed", "as printed"), ("worm_calibratio
         ("fitted", fit.fitted_outcomes),
     ):
         lines.append((what, label, *(f"{float(ratio):.3f}" for ratio in values)))
-names = [f"{name}, computed over measured" for name in fit.outcome.to_numpy()]
-page.table(lines, ("equations", "parameters", *names))
+assert fit.sizes["outcome"] == 4
+outcomes = ("ratio of $\\mu_1$", "ratio of $\\mu_3$", "longitudinal pressure", "circular pressure")
+page.folded(
+    "Four outcomes, computed over measured, before and after the fit",
+    page.table(lines, ("equations", "parameters", *outcomes)),
+)
 
 # %% tags=["remove-input"]
 page.misprint("E2.27")
@@ -375,9 +379,9 @@ page.misprint("E2.27")
 #
 # | law | force $\bar{D}$ grows as | pressure $p$ grows as | why |
 # |---|---|---|---|
-# | strip tension | $R$ | $1/R$ | a strip of muscle has the same tension in every worm; hoop balance |
+# | strip tension | $R$ | $1/R$ | a strip of muscle has the same tension in every worm; the pressure is this tension over the radius, as in a tube |
 # | strip tension, constant $p$ | $R$ | 1 | the same strip, and one pressure for all |
-# | constant stress | $R^2$ | 1 | the muscle is as thick as its worm is large, and pulls equally on each area |
+# | constant stress | $R^2$ | 1 | the muscle is as thick as its worm is large, and its force per area is the same |
 
 # %% tags=["remove-input"]
 page.excerpt("cosserat.thesis.earthworm.BodyMasses.scaled", "radius = ")
@@ -395,7 +399,7 @@ page.rows("2.8.4-exponent", "2.8-slope", "2.8-strain")
 # %% [markdown]
 # Only worms with muscles of constant stress crawl like earthworms of every size. Their strains do not depend on the mass, as
 # Quillin found, and their stride grows with it as in (2.8.4). With constant tension and constant pressure small worms hardly become
-# thin. With constant tension and the pressure of hoop balance they become so thin that their surface cannot stay on the
+# thin. With constant tension and the pressure of a tube they become so thin that their surface cannot stay on the
 # ground (E2.13). The frequency is an input, from Table 2.1, and is the same in all three. A speed is a stride times a frequency,
 # so its power of the mass is the sum of the two.
 

@@ -79,7 +79,7 @@ page.figure(
 #
 # $\mathbf{n}$ [N] is the contact force: the part of the body ahead of a section pulls with it on the part behind.
 # $\rho_0 \mathbf{f}$ [N/m] is the load on the centreline. The force $\mathbf{k}^\alpha$ [N] resists a stretch of the director
-# $\mathbf{d}_\alpha$. The couple $\mathbf{m}^\alpha$ [N m] resists a change of this stretch from section to section.
+# $\mathbf{d}_\alpha$. The director couple $\mathbf{m}^\alpha$ [N m] resists a change of this stretch from section to section.
 # $\rho_0 \mathbf{l}^\alpha$ [N] is the load on the director, per length of the body. Each muscle is one of these loads.
 #
 # **Longitudinal muscles** pull two neighbouring points of the centreline together. One muscle occupies a short window of
@@ -152,14 +152,14 @@ page.misprint("E2.7")
 #
 # The first line resists each stretch by itself. The second line couples them: pull the body along, and it becomes thin. The
 # third line resists a section that differs from its neighbour. The three stiffnesses follow from Young's modulus $E$ and
-# Poisson's ratio $\nu$, and they are those of Chapter 1:
+# Poisson's ratio $\nu$, and they are those of Chapter 1. A case may give the bulk modulus in place of one of the two.
 #
 # $$
 # k_S = \frac{E \pi R^2 (1 - \nu)}{(1 + \nu)(1 - 2\nu)} , \quad k_P = \frac{\nu}{1 - \nu} k_S , \quad
 # k_G = \frac{E \pi R^4}{8(1 + \nu)} . \tag{2.6.20}
 # $$
 #
-# ### From the balances to the equations, in four lines
+# ### From the balances to the equations, in four steps
 #
 # 1. *Forces are derivatives of the energy.* Each stretch has its force:
 #
@@ -173,7 +173,7 @@ page.misprint("E2.7")
 # \end{equation*}
 #
 # 2. *The muscles give the contact force.* It is $-\bar{D}\mathbf{e}_3$ in an anchoring region and zero in an advancing one. The
-#    third line of (2.3.2) then gives the stretch along the body from the other two. With $\tilde{p} = k_P/k_S$ and
+#    direction of $\mathbf{e}_3$ is taken as constant, though it turns in the layers. The third line of (2.3.2) then gives the stretch along the body from the other two. With $\tilde{p} = k_P/k_S$ and
 #    $\tilde{d} = \bar{D}/k_S$ it is, in the order of the two regions,
 #
 # $$
@@ -209,7 +209,7 @@ page.misprint("E2.7")
 # \end{equation*}
 
 # %% tags=["remove-input"]
-page.misprint("E2.1", "E2.3")
+page.misprint("E2.1", "E2.3", "E2.6", "E2.24")
 
 # %% [markdown]
 # The equations of an anchoring region are now
@@ -341,7 +341,7 @@ page.misprint("E2.25")
 # k_G = \tfrac{1}{12} E \pi R^4 . \tag{2.6.22}
 # $$
 #
-# The four lines of the last section lead to the equations of the worm. The groups $\tilde{m}$ and $\tilde{c}$ are as before, and
+# The same four steps lead to the equations of the worm. The groups $\tilde{m}$ and $\tilde{c}$ are as before, and
 #
 # \begin{equation*}
 # \begin{aligned}
@@ -464,9 +464,9 @@ print(f"mu_3 is {middles[0]:.2f} in anchoring and {middles[1]:.2f} in advancing 
 # \int_0^1 \left( \frac{d\mu_\alpha}{d\tilde{z}} \frac{dv_k}{d\tilde{z}} + f_\alpha(\mu_1, \mu_2) \, v_k \right) d\tilde{z} = 0 ,
 # $$
 #
-# where $f_\alpha$ is the right-hand side of (2.3.6), (2.3.9) or (2.4.13). The conditions (2.3.13) are contained in this form. Each
-# node has its own region, and Newton's method starts from the state of the previous instant. The two solvers share the
-# equations and nothing else, so their agreement checks both:
+# where $f_\alpha$ is the right-hand side of (2.3.6), (2.3.9) or (2.4.13). The conditions (2.3.13) are contained in this form. The
+# integral is a sum over the nodes, so each node needs the equations of its own region only. Newton's method starts from the state
+# of the previous instant. The two solvers share the equations and nothing else, so their agreement checks both:
 
 # %% tags=["remove-input"]
 lines = []
@@ -483,6 +483,9 @@ for name, other, what in (
     assert largest < 1e-6
     lines.append((what, f"{len(at)}", f"{largest:.0e}"))
 page.table(lines, ("body", "instants", "largest difference of a stretch"))
+
+# %% tags=["remove-input"]
+page.misprint("E2.2", "E2.9")
 
 # %% [markdown]
 # `cosserat speed` times a stride with both solvers on your machine. Both raise an error if they do not converge.

@@ -7,6 +7,8 @@ import sys
 import pytest
 from conftest import ROOT
 
+from cosserat.thesis.table.errata import read_errata
+
 CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 NOT_YET = {
     "ch1_directed_rod",
@@ -75,3 +77,16 @@ def test_a_chapter_uses_the_public_doors_alone(chapter):
 
 def test_the_list_names_chapters():
     assert {chapter.stem for chapter in CHAPTERS} >= NOT_YET
+
+
+def noted(source):
+    """The entries of the errata table that a chapter has as notes beside its text."""
+    calls = re.findall(r"^page\.misprint\((.*?)\)$", source, re.MULTILINE | re.DOTALL)
+    return {name for call in calls for name in re.findall(r'"(E[\d.]+)"', call)}
+
+
+def test_every_entry_of_chapter_2_is_a_note_beside_its_text():
+    known = {name for name in read_errata(ROOT / "results/errata.toml") if name.startswith("E2.")}
+    shown = [noted(chapter.read_text()) for chapter in CHAPTERS if chapter.stem.startswith("ch2")]
+    assert known
+    assert set().union(*shown) == known
