@@ -24,7 +24,7 @@ PLATEAU_TOLERANCE = 1e-12
 def compressible(
     mu: Array, n: Array, c: Array, g: Array, p: float, m: Array, printed_contact: bool
 ) -> tuple[Array, Array, Array]:
-    """Right-hand sides of eqs. (2.3.6) and (2.3.9) at K points.
+    """Right-hand sides of eqs. (2.3.6) and (2.3.9) at K points; the push of the ground is that of (2.2.17).
 
     mu : (K, 2).  n : (K,) contact force over k_S, -d or 0.  c : (K,) advancing load, or 0.  g, m : (K,).
     Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
@@ -51,7 +51,7 @@ def compressible(
 def incompressible(
     mu: Array, multiplier: Array, exponent: Array, c: Array, i: Array, m: Array, printed_contact: bool
 ) -> tuple[Array, Array, Array]:
-    """Right-hand sides of eqs. (2.4.10) and (2.4.13) at K points.
+    """Right-hand sides of eqs. (2.4.10) and (2.4.13) at K points, from the forces (2.4.4).
 
     mu : (K, 2).  multiplier : (K,) lambda_c, which goes as (mu_1 mu_2)^-exponent.  c : (K,) advancing load, or 0.
     i, m : (K,).
