@@ -15,6 +15,7 @@ class Entry:
     cases : the cases that it needs.
     rows : rows of the results table whose published numbers it shows beside the cases.
     studies : published studies that it needs.
+    tables : tracked tables beside the results table, such as "peers.csv", whose rows it shows.
     round_off : whether it draws round-off, which is another one on each kind of processor.
     """
 
@@ -25,6 +26,7 @@ class Entry:
     rows: tuple[str, ...] = ()
     round_off: bool = False
     studies: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
 
 
 FIGURES: dict[str, Entry] = {
@@ -96,6 +98,13 @@ FIGURES: dict[str, Entry] = {
         "rectangle.",
         "chapter2",
     ),
+    "fig_five_regions": Entry(
+        "Five regions of muscles",
+        "A worm with two thin parts between three fat ones; along it each stretch is flat within a "
+        "part and changes steeply where two parts meet, over less than the radius of the body.",
+        "postures",
+        cases=("worm", "worm_at_rest"),
+    ),
     "fig_2_7": Entry(
         "Fig. 2.7: a cycle of push and pull",
         "Eight side views of the robot in three groups: its front grows thin and long while the "
@@ -139,20 +148,6 @@ FIGURES: dict[str, Entry] = {
         "early.",
         "chapter2",
         cases=("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
-    ),
-    "anim_robot": Entry(
-        "The soft robot crawls",
-        "The robot from the side creeps to the right: a thin long region starts at its front end, "
-        "runs to the rear and pulls the body after it.",
-        "chapter2",
-        cases=("soft_robot",),
-    ),
-    "anim_worm": Entry(
-        "The earthworm crawls",
-        "The worm from the side creeps to the right while thin and fat regions run along its body "
-        "from front to rear and the anchor jumps between its ends.",
-        "chapter2",
-        cases=("worm",),
     ),
     "fig_3_1": Entry(
         "Fig. 3.1: reference and current configuration",
@@ -323,18 +318,12 @@ FIGURES: dict[str, Entry] = {
         "studies",
         studies=("column_strength",),
     ),
-    "anim_vibration": Entry(
-        "One period of the vibrating beam",
-        "A clamped beam swings up and down once, magnified, its sections always nearly upright to "
-        "its axis.",
-        "motion",
-        cases=("vibration_c4_20",),
-    ),
-    "anim_relaxation": Entry(
-        "The clamped-free beam settles",
-        "A clamped beam falls under its own weight, magnified, swings less and less and comes to rest.",
-        "motion",
-        cases=("relaxing_clamped_free",),
+    "fig_peers": Entry(
+        "Error against time",
+        "In three panels with logarithmic axes the points of two packages lie together or side by "
+        "side at the left, those of the third far to the right with an equal or larger error.",
+        "peers",
+        tables=("peers.csv",),
     ),
 }
 """Figures by the name of the function that draws them."""
