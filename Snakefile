@@ -220,7 +220,7 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
 
 rule webassembly:
     input:
-        package("solvers", "rods", "rods/energies", "export/webassembly"),
+        package("solvers", "rods", "rods/energies", "problems", "export/webassembly"),
     output:
         "results/pull.wasm",
     log:

@@ -59,7 +59,7 @@ page.pull(
 # takes one of them.
 
 # %% tags=["remove-input"]
-page.excerpt("cosserat.solvers.pull.pull", "middle[:] = new", "q[:] = new")
+page.excerpt("cosserat.export.webassembly.pull.pull", "middle[:] = new", "q[:] = new")
 
 # %% [markdown]
 # ## Which code solves it
@@ -73,7 +73,7 @@ page.excerpt("cosserat.solvers.pull.pull", "middle[:] = new", "q[:] = new")
 # last bit. The module has its own, built from sums and products alone:
 
 # %% tags=["remove-input"]
-page.source("cosserat.solvers.elementary.atan2")
+page.source("cosserat.export.webassembly.elementary.atan2")
 
 # %% [markdown]
 # ## What is guaranteed
@@ -106,7 +106,7 @@ page.source("cosserat.solvers.elementary.atan2")
 # :::
 
 # %% tags=["hide-cell"]
-E, nu, side, length, moved = 1e6, 0.45, 0.02, 0.2, 0.002
+E, nu, side, length, moved = 1e6, 0.45, 0.02, 0.2, 2e-3
 base = cosserat.case("elastica").vary(
     "held_tip",
     rod={

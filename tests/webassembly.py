@@ -92,7 +92,7 @@ import sys
 import llvmlite.binding as llvm
 import numpy as np
 from numba import cfunc
-from cosserat.solvers import elementary
+from cosserat.export.webassembly import elementary
 
 def lend(name, count):
     function = getattr(elementary, name)

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from conftest import ROOT
 
-from cosserat.export.webassembly import pulled
+from cosserat.export.webassembly import elementary, pulled
 from cosserat.export.webassembly.compiled import FEATURES, TARGET
 from cosserat.export.webassembly.linked import module
-from cosserat.solvers import elementary
 from tests import webassembly
 
 MODULE = ROOT / "results/pull.wasm"

@@ -1,6 +1,7 @@
 """The module of WebAssembly that finds the equilibria of a rod as it is pulled, and a process that makes it.
 
-`python -m cosserat.export.webassembly.build FILE` is that process: Numba must not optimise there, see `compiled`.
+`python -m cosserat.export.webassembly.build FILE` is that process.  Numba must not optimise there: see
+`cosserat.export.webassembly.compiled`.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from cosserat.export.webassembly.linked import module
 NAMES = {"pull", "evaluate", "reserve", "sin", "cos", "tan", "atan2"}
 """The functions of the module.
 
-pull (room, size, vertices, by_3, by_2) and evaluate (room, size, vertices, task) : see `pulled`; room is the address
-of its array, size the number of its floats.  reserve (bytes) : an address with so much room.
+pull (room, size, vertices, by_3, by_2) and evaluate (room, size, vertices, task) : those of
+`cosserat.export.webassembly.pulled`; room is the address of the array, size the number of its floats.  reserve (bytes) : an address with so much room.
 """
 
 

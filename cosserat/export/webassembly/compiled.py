@@ -1,8 +1,8 @@
 """Functions of Numba as one object of WebAssembly: their own LLVM code, with a library of mathematics of our own.
 
 Numba leaves sine, cosine, tangent and arctangent to the machine that it runs on.  Here they are those of
-`cosserat.solvers.elementary`, compiled as well.  Memory is taken from a pile that each call puts back, and reference
-counts have no meaning.  So nothing is left to be lent by whoever runs the code.
+`cosserat.export.webassembly.elementary`, compiled as well.  Memory is taken from a pile that each call puts back, and
+reference counts have no meaning.  So nothing is left to be lent by whoever runs the code.
 
 Numba's optimised code has the sizes of pointers of this machine in it.  A process of its own, without optimisation,
 gives code without them, which LLVM then optimises for WebAssembly.  No operation on floats changes: there is no
@@ -23,9 +23,9 @@ from numba.core.dispatcher import Dispatcher
 from numba.extending import overload
 from numba.np import arrayobj
 
+from cosserat.export.webassembly import elementary
 from cosserat.rods.energies.reissner_kernel import assemble
 from cosserat.rods.space_kernel import planar
-from cosserat.solvers import elementary
 from cosserat.solvers.members import SPACE_KERNEL
 from cosserat.solvers.potential import KERNEL
 

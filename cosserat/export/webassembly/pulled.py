@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from cosserat.export.webassembly.pull import pull
 from cosserat.problems.static import RodStatics
 from cosserat.rods.energies.reissner_kernel import TERMS, VERTEX, assemble
 from cosserat.rods.space_kernel import planar
@@ -18,11 +19,10 @@ from cosserat.solvers.climb import assembled
 from cosserat.solvers.equilibrium import NewtonSettings
 from cosserat.solvers.members import Body, Limits
 from cosserat.solvers.potential import GRADIENT
-from cosserat.solvers.pull import pull
 
 OUTCOME, DONE, ITERATIONS, REFUSED, FALLS, ENERGY, FORCE_3, FORCE_2, RESIDUAL, TOLERANCE = range(10)
-"""First numbers of the array: what came of the last pull (`solvers.pull`), the fraction of it, counts, the energy [J],
-the force on the last vertex along E3 and E2 [N], the largest unbalanced force and the one allowed [N]."""
+"""First numbers of the array: what came of the last pull, the fraction of it and counts (see
+`cosserat.export.webassembly.pull`), the energy [J], the force on the last vertex along E3 and E2 [N], the largest unbalanced force and the one allowed [N]."""
 HEAD = 16
 """After them come DOFs, their reference, their scale and whether they are held, (n,) each, the constants of the energy,
 and its gradient (n,) and Hessian (n, 8) if they are asked for."""

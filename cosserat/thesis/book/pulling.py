@@ -14,14 +14,14 @@ from pathlib import Path
 import numpy as np
 from IPython.display import HTML
 
-import cosserat
-from cosserat.cases.catalogue import Case
+from cosserat.cases.catalogue import Case, find
 from cosserat.errors import InputError
 from cosserat.export.webassembly import pulled
 from cosserat.figures import player
 from cosserat.figures.rod import outline
 from cosserat.figures.stage import Line, Mark, Panel, Slider, Stage
 from cosserat.problems.static import RodStatics
+from cosserat.runner import run
 from cosserat.thesis.book.tables import mathematics
 from cosserat.thesis.book.workflow import results
 
@@ -31,7 +31,7 @@ REACH = 1.25
 """Farthest distance of the tip from the clamp, in lengths of the rod."""
 STEP = 0.002
 """The tip moves so far at a press of an arrow key [m]."""
-_VIEW = (-0.11, 0.28, -0.15, 0.15)  # what is drawn: from and to along E3, along E2 [m]
+_VIEW = (-0.1, 0.28, -0.125, 0.125)  # what is drawn: from and to along E3, along E2 [m]
 _RULER = 0.05  # length of the scale [m]
 _STRONGEST = 0.05  # section strain of the full colour
 _ARROW = 12.0  # pixels for a newton
@@ -48,7 +48,7 @@ _STORED_ALT = (
 
 def pulled_case(by_3: float = 0.0, by_2: float = 0.0) -> Case:
     """A rubber rod, clamped at its first end, with its last vertex moved by a displacement along E3 and E2 [m]."""
-    return cosserat.case("elastica").vary(
+    return find("elastica").vary(
         "pulled_rod",
         rod={
             "length": "0.2 m",
@@ -135,7 +135,7 @@ def pull(caption: str, name: str = "pull") -> HTML:
 def stored() -> Stage:
     """Equilibria as the tip is pushed back and up, for the player."""
     way = np.linspace(0.0, 1.0, _STATES)
-    found = [cosserat.run(pulled_case(-0.06 * part, 0.08 * part)) for part in way]
+    found = [run(pulled_case(-0.06 * part, 0.08 * part)) for part in way]
     problem = _problem()
     x, d = (np.array([data[key].to_numpy() for data in found]) for key in ("x", "d"))
     force = np.array([data.support_force.to_numpy()[-1, :2] for data in found])

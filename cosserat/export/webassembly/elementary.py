@@ -3,7 +3,7 @@
 Libraries of mathematics differ in the last bit, from one version or processor to the next.  These functions compute in
 pairs of floats, sums that are not rounded, and round once at the end.  So what they return is the float nearest to the
 exact number, unless that is half-way between two floats to some 30 digits.  They are for code that runs without a
-library, see `cosserat.export.webassembly`; nothing else of the package calls them.
+library, see `cosserat.export.webassembly.compiled`; nothing else of the package calls them.
 
 derived: let s, c be the sine and the cosine of any z near the angle of (x, y).  That angle is z + atan(t), where
 t = (y c - x s) / (x c + y s) is so small that two terms of the series are enough.
@@ -42,7 +42,7 @@ _COEFFICIENTS = tuple(_pair(Fraction((-1) ** (n // 2), factorial(n))) for n in r
 """Of x^n in the series of the cosine where n is even, of the sine where it is odd."""
 
 
-@njit(cache=True)
+@njit
 def _sum(a: float, b: float) -> Pair:
     """A sum and its rounding error."""
     s = a + b
@@ -50,7 +50,7 @@ def _sum(a: float, b: float) -> Pair:
     return s, (a - (s - part)) + (b - part)
 
 
-@njit(cache=True)
+@njit
 def _product(a: float, b: float) -> Pair:
     """A product and its rounding error."""
     p = a * b
@@ -63,7 +63,7 @@ def _product(a: float, b: float) -> Pair:
     return p, ((high * top - p) + high * rest + low * top) + low * rest
 
 
-@njit(cache=True)
+@njit
 def _added(a: Pair, b: Pair) -> Pair:
     """The sum of two pairs."""
     s, e = _sum(a[0], b[0])
@@ -72,14 +72,14 @@ def _added(a: Pair, b: Pair) -> Pair:
     return _sum(s, e + f)
 
 
-@njit(cache=True)
+@njit
 def _times(a: Pair, b: Pair) -> Pair:
     """The product of two pairs."""
     p, e = _product(a[0], b[0])
     return _sum(p, e + (a[0] * b[1] + a[1] * b[0]))
 
 
-@njit(cache=True, error_model="numpy")
+@njit(error_model="numpy")
 def _ratio(a: Pair, b: Pair) -> Pair:
     """The quotient of two pairs."""
     ratio = a[0] / b[0]
@@ -87,7 +87,7 @@ def _ratio(a: Pair, b: Pair) -> Pair:
     return ratio, ((a[0] - product) - error + a[1] - ratio * b[1]) / b[0]
 
 
-@njit(cache=True)
+@njit
 def _series(square: Pair, first: int) -> Pair:
     """The sum of the terms n = first, first + 2, ... of the series, over x^first."""
     tail = _COEFFICIENTS[_MOST + first % 2 - 2 * (first % 2)][0]
@@ -99,7 +99,7 @@ def _series(square: Pair, first: int) -> Pair:
     return total
 
 
-@njit(cache=True)
+@njit
 def _sine_and_cosine(x: float) -> tuple[Pair, Pair]:
     """Both as pairs; |x| is below a million."""
     quarters = np.floor(x * _QUARTERS_PER_RADIAN + 0.5)
@@ -116,7 +116,7 @@ def _sine_and_cosine(x: float) -> tuple[Pair, Pair]:
     return sine, cosine
 
 
-@njit(cache=True)
+@njit
 def sin(x: float) -> float:
     """The sine; |x| is below a million."""
     if abs(x) < 1e-8:  # of numbers so small that the next digits of the series vanish
@@ -124,13 +124,13 @@ def sin(x: float) -> float:
     return _sine_and_cosine(x)[0][0]
 
 
-@njit(cache=True)
+@njit
 def cos(x: float) -> float:
     """The cosine; |x| is below a million."""
     return _sine_and_cosine(x)[1][0]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(error_model="numpy")
 def tan(x: float) -> float:
     """The tangent; |x| is below a million."""
     if abs(x) < 1e-8:
@@ -139,7 +139,7 @@ def tan(x: float) -> float:
     return ratio + rest
 
 
-@njit(cache=True, error_model="numpy")
+@njit(error_model="numpy")
 def atan2(y: float, x: float) -> float:
     """The angle of (x, y) in [-pi, pi]; each is zero or between 1e-140 and 1e140 in size."""
     wide, high = abs(x), abs(y)
