@@ -20,12 +20,13 @@ def source(thing: Any) -> Markdown:
     return _code(found, inspect.getsource(getattr(found, "py_func", found)))
 
 
-def excerpt(thing: Any, first: str, last: str) -> Markdown:
-    """The lines of a function from the one with `first` up to, but without, the one with `last`."""
+def excerpt(thing: Any, first: str, last: str | None = None) -> Markdown:
+    """The lines of a function from the one with `first` up to, but without, the one with `last`, or to its end."""
     found = _found(thing)
     lines = inspect.getsource(getattr(found, "py_func", found)).splitlines()
     start = next(number for number, line in enumerate(lines) if first in line)
-    stop = next(number for number, line in enumerate(lines) if last in line and number > start)
+    after = range(start + 1, len(lines))
+    stop = next(number for number in after if last in lines[number]) if last else len(lines)
     return _code(found, "\n".join(lines[start:stop]))
 
 
