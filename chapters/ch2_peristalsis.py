@@ -36,6 +36,13 @@ from cosserat.thesis.book import page
 
 # %% tags=["remove-input"]
 page.figure(
+    "fig_worm_parts",
+    "The worm of this chapter at two times of a stride. Fronts travel from the front end to the rear end. Behind a front "
+    "$\\gamma$ the body anchors, ahead of it the body advances; at a front $\\eta$ it is the other way round.",
+)
+
+# %% tags=["remove-input"]
+page.figure(
     "fig_2_5",
     "(a) One muscle: load and contact force. (b) Muscles half a window apart: the force is constant between the first and "
     "the last and falls to zero over half a window outside. The window becomes smaller as their number grows.",

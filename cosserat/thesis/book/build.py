@@ -14,46 +14,10 @@ from pathlib import Path
 
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
+from cosserat.thesis.book.unused import drop_unused
 
 _FILE_LIST = ".cosserat-book"
 """File that lists the files of a book."""
-
-_SPHINX_CONFIGURATION = """
-project = "cosserat"
-author = "The cosserat project"
-extensions = ["myst_nb", "sphinx.ext.autodoc", "cosserat.thesis.book.api"]
-default_role = "code"
-autodoc_typehints_format = "short"
-aliases = ("Array", "Vector", "Band", "Mask", "Fields", "Place", "Direction", "Rows", "Track", "History", "Bytes")
-autodoc_type_aliases = {name: name for name in aliases}
-autodoc_preserve_defaults = True
-autodoc_member_order = "bysource"
-python_maximum_signature_line_length = 60
-nb_execution_mode = "off"
-nb_merge_streams = True
-nb_render_markdown_format = "myst"
-myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
-suppress_warnings = ["mystnb.unknown_mime_type"]
-html_theme = "sphinx_book_theme"
-html_title = "Cosserat curves"
-html_static_path = ["_static"]
-html_css_files = ["book.css"]
-html_copy_source = False
-html_show_sourcelink = False
-html_last_updated_fmt = None
-html_theme_options = {
-    "use_download_button": False,
-    "use_fullscreen_button": False,
-    "show_toc_level": 2,
-    "navbar_persistent": [],
-}
-mathjax_path = "mathjax/tex-chtml-full.js"
-mathjax3_config = {
-    "options": {"enableMenu": False},
-    "tex": {"tagSide": "right"},
-    "chtml": {"matchFontHeight": False},
-}
-"""
 
 
 def execute(chapter: Path, output: Path) -> None:
@@ -121,20 +85,25 @@ def render(notebooks: list[Path], output: Path) -> Path:
     output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".book.") as scratch:
         pages, built = Path(scratch) / "pages", Path(scratch) / "built"
-        (pages / "_static").mkdir(parents=True)
-        for path in notebooks:
-            shutil.copy(path, pages / path.name)
-        (pages / "conf.py").write_text(_SPHINX_CONFIGURATION, encoding="utf-8")
-        style = resources.files("cosserat.thesis.book") / "book.css"
-        (pages / "_static" / "book.css").write_text(style.read_text(encoding="utf-8"), encoding="utf-8")
-        _copy_mathjax(pages / "_static" / "mathjax")
+        _gather(notebooks, pages)
         _sphinx(pages, built, Path(scratch) / "doctrees")
+        drop_unused(built)
         (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")
         _check_destination(output, set(_files(built)))
         if output.exists():
             output.rename(Path(scratch) / "old")
         built.rename(output)
     return output / "index.html"
+
+
+def _gather(notebooks: list[Path], pages: Path) -> None:
+    """Put into a folder what Sphinx reads: the notebooks, its configuration, styles and scripts, and MathJax."""
+    with resources.as_file(resources.files("cosserat.thesis.book")) as here:
+        shutil.copytree(here / "static", pages / "_static", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(here / "conf.py", pages)
+    for path in notebooks:
+        shutil.copy(path, pages)
+    _copy_mathjax(pages / "_static" / "mathjax")
 
 
 def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
@@ -209,4 +178,3 @@ def _sphinx(pages: Path, built: Path, doctrees: Path) -> None:
             raise CosseratError(
                 f"{page.name}: write an equation of several lines as \\begin{{equation*}}, not in $$"
             )
-    (built / ".buildinfo").unlink(missing_ok=True)

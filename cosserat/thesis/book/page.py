@@ -44,9 +44,9 @@ __all__ = [
 def figure(name: str, caption: str) -> HTML:
     """A drawn figure with its number and a caption."""
     picture = base64.b64encode((results() / "figures" / f"{name}.svg").read_bytes()).decode()
-    title = entry(name).title
-    text = f"<b>{escape(title)}.</b> {mathematics(caption)}"
-    image = f'<img alt="{escape(title)}" src="data:image/svg+xml;base64,{picture}">'
+    found = entry(name)
+    text = f"<b>{escape(found.title)}.</b> {mathematics(caption)}"
+    image = f'<img alt="{escape(found.alt)}" src="data:image/svg+xml;base64,{picture}">'
     return HTML(f'<figure class="plot" id="{name}">{image}<figcaption>{text}</figcaption></figure>')
 
 

@@ -1,129 +1,26 @@
-"""The list of figures, with their titles, cases and rows."""
+"""The list of figures, and how each is drawn from stored results."""
 
 from __future__ import annotations
 
 import importlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cosserat.errors import InputError
 from cosserat.parameters import nearest
 from cosserat.text import shortened
+from cosserat.thesis.figures.entries import FIGURES, Entry
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
 
+__all__ = ["FIGURES", "TABLE", "Entry", "draw", "draw_all", "draw_to", "entry"]
+
 TABLE = Path("results/tolerances.csv")
 """The results table of the current checkout."""
-
-
-@dataclass(frozen=True)
-class Entry:
-    """One figure: its title, the module of `cosserat.thesis.figures` that draws it, and the cases it needs.
-
-    rows : rows of the results table whose published numbers it shows beside the cases.
-    studies : published studies that it needs.
-    round_off : whether it draws round-off, which is another one on each kind of processor.
-    """
-
-    title: str
-    module: str
-    cases: tuple[str, ...]
-    rows: tuple[str, ...] = ()
-    round_off: bool = False
-    studies: tuple[str, ...] = ()
-
-
-FIGURES: dict[str, Entry] = {
-    "fig_opening": Entry(
-        "What the package solves", "opening", ("worm", "column_path", "arch_path", "tumbling")
-    ),
-    "fig_directed_rod": Entry("A directed rod as the body it stands for", "chapter1", ("soft_robot",)),
-    "fig_2_1": Entry("Fig. 2.1: a stride of the earthworm", "chapter2", ("worm", "worm_printed")),
-    "fig_2_2": Entry(
-        "Fig. 2.2: segment 50 over three strides",
-        "chapter2",
-        ("worm", "worm_printed"),
-        ("2.8.6-mu1-ratio", "2.8.6-mu3-ratio", "2.8-p-longitudinal-measured", "2.8-p-circular-measured"),
-    ),
-    "fig_2_5": Entry("Fig. 2.5: muscles as forces along the centreline", "chapter2", ()),
-    "fig_2_7": Entry("Fig. 2.7: a cycle of push and pull", "gaits", ("soft_robot",)),
-    "fig_2_8": Entry("Fig. 2.8: fronts of the push-pull gait", "gaits", ("soft_robot",)),
-    "fig_2_9": Entry("Fig. 2.9: the soft robot crawls", "gaits", ("soft_robot",)),
-    "fig_2_11": Entry("Fig. 2.11: fronts of the protrusion-stance gait", "gaits", ("worm",)),
-    "fig_2_12": Entry("Fig. 2.12: the anchored point", "chapter2", ("worm", "worm_early")),
-    "fig_masses": Entry(
-        "Earthworms of every size",
-        "chapter2",
-        ("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
-    ),
-    "anim_robot": Entry("The soft robot crawls", "chapter2", ("soft_robot",)),
-    "anim_worm": Entry("The earthworm crawls", "chapter2", ("worm",)),
-    "fig_3_1": Entry("Fig. 3.1: reference and current configuration", "geometry", ("bent_rod",)),
-    "fig_3_2": Entry("Fig. 3.2: a rod-like body", "geometry", ("clamped_free",)),
-    "fig_3_3": Entry("Fig. 3.3: section and directors", "geometry", ("clamped_free",)),
-    "fig_3_4": Entry("Fig. 3.4: discrete osculating circle", "geometry", ("bent_rod",)),
-    "fig_3_5": Entry("Fig. 3.5: bending, then stretching", "geometry", ("clamped_free",)),
-    "fig_3_6": Entry("Fig. 3.6: tangents, director and angles", "geometry", ("bent_rod",)),
-    "fig_3_7": Entry("Fig. 3.7: energy characteristics", "geometry", ()),
-    "fig_3_8": Entry(
-        "Fig. 3.8: equilibria of the four static problems",
-        "chapter3",
-        tuple(
-            name + rod
-            for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
-            for rod in ("", "_consistent")
-        ),
-    ),
-    "fig_3_9": Entry(
-        "Fig. 3.9: bar hanging under its own weight",
-        "chapter3",
-        ("hanging_bar", "hanging_bar_consistent"),
-    ),
-    "fig_3_10": Entry(
-        "Fig. 3.10: clamped-free Timoshenko beam",
-        "chapter3",
-        ("clamped_free", "clamped_free_ends_halved", "clamped_free_consistent"),
-    ),
-    "fig_3_11": Entry(
-        "Fig. 3.11: clamped-clamped Timoshenko beam",
-        "chapter3",
-        ("clamped_clamped", "clamped_clamped_ends_halved", "clamped_clamped_consistent"),
-    ),
-    "fig_3_12": Entry(
-        "Fig. 3.12: necking", "chapter3", ("necking", "necking_printed", "necking_consistent")
-    ),
-    "fig_calibration": Entry("Calibration and the number of vertices", "calibration", ("calibration",)),
-    "fig_3_13": Entry(
-        "Fig. 3.13: free vibration",
-        "motion",
-        ("vibration_c4_2", "vibration_c4_20", "vibration_consistent"),
-    ),
-    "fig_convergence": Entry(
-        "Errors of the consistent rod", "consistent", ("convergence", "calibration")
-    ),
-    "fig_far": Entry(
-        "Large deflections", "consistent", ("elastica", "roll_up", "column_path", "arch_path")
-    ),
-    "fig_paths": Entry("Paths of equilibria", "consistent", ("column_path", "arch_path")),
-    "fig_tumbling": Entry("A tumbling rod", "consistent", ("tumbling",), round_off=True),
-    "fig_conventions": Entry("Frames and signs", "conventions", ()),
-    "fig_modes": Entry("The lowest modes of the vibrating beam", "motion", ("vibration_c4_20",)),
-    "fig_worm_stride": Entry("Which inputs decide the stride", "studies", (), studies=("worm_stride",)),
-    "fig_calibration_reach": Entry(
-        "How far the published calibration reaches", "studies", (), studies=("calibration_reach",)
-    ),
-    "fig_column_strength": Entry(
-        "The strength of imperfect columns", "studies", (), studies=("column_strength",)
-    ),
-    "anim_vibration": Entry("One period of the vibrating beam", "motion", ("vibration_c4_20",)),
-    "anim_relaxation": Entry("The clamped-free beam settles", "motion", ("relaxing_clamped_free",)),
-}
-"""Figures by the name of the function that draws them."""
 
 
 def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figure | str:

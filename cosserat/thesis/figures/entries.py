@@ -1,0 +1,322 @@
+"""The entries of all figures: what each is called, what is seen in it, and what it is drawn from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One figure.
+
+    title : its name, with its number in the thesis.
+    alt : one sentence that tells what is seen, for a reader who cannot see it; neither title nor caption.
+    module : the module of `cosserat.thesis.figures` that draws it.
+    cases : the cases that it needs.
+    rows : rows of the results table whose published numbers it shows beside the cases.
+    studies : published studies that it needs.
+    round_off : whether it draws round-off, which is another one on each kind of processor.
+    """
+
+    title: str
+    alt: str
+    module: str
+    cases: tuple[str, ...] = ()
+    rows: tuple[str, ...] = ()
+    round_off: bool = False
+    studies: tuple[str, ...] = ()
+
+
+FIGURES: dict[str, Entry] = {
+    "fig_opening": Entry(
+        "What the package solves",
+        "Four bodies of a worm below each other, orange where thin and long and blue where fat "
+        "and short, above a column that buckles, an arch that snaps through and a thrown rod.",
+        "opening",
+        cases=("worm", "column_path", "arch_path", "tumbling"),
+    ),
+    "fig_directed_rod": Entry(
+        "A directed rod as the body it stands for",
+        "A tube that is fat and short in its rear half and thin and long in front; its axis steps "
+        "down to the ground with it, and two arrows at right angles in each drawn section reach "
+        "to its boundary.",
+        "chapter1",
+        cases=("soft_robot",),
+    ),
+    "fig_worm_parts": Entry(
+        "A crawling worm and its parts",
+        "Two side views of a worm with names at its parts: the anchoring part is fat, the advancing "
+        "parts are thin, a line stands at each front and a triangle under the anchor.",
+        "worm_parts",
+        cases=("worm",),
+    ),
+    "fig_2_1": Entry(
+        "Fig. 2.1: a stride of the earthworm",
+        "Six side views of the worm below each other: a fat anchoring region travels from front "
+        "to rear while the thin regions before and behind it slide forward.",
+        "chapter2",
+        cases=("worm", "worm_printed"),
+    ),
+    "fig_2_2": Entry(
+        "Fig. 2.2: segment 50 over three strides",
+        "Over time the section switches between fat and long: two stretches fall as the third "
+        "rises, and the pressure jumps up in the same instants; dashed lines are the measured "
+        "levels.",
+        "chapter2",
+        cases=("worm", "worm_printed"),
+        rows=(
+            "2.8.6-mu1-ratio",
+            "2.8.6-mu3-ratio",
+            "2.8-p-longitudinal-measured",
+            "2.8-p-circular-measured",
+        ),
+    ),
+    "fig_2_5": Entry(
+        "Fig. 2.5: muscles as forces along the centreline",
+        "The load of one muscle is one block upwards beside an equal one downwards, and its force "
+        "is a triangle below zero; more and more muscles side by side make a trapezoid nearly a "
+        "rectangle.",
+        "chapter2",
+    ),
+    "fig_2_7": Entry(
+        "Fig. 2.7: a cycle of push and pull",
+        "Eight side views of the robot in three groups: its front grows thin and long while the "
+        "rear holds, both fronts pass, then the rear is pulled up while the front holds.",
+        "gaits",
+        cases=("soft_robot",),
+    ),
+    "fig_2_8": Entry(
+        "Fig. 2.8: fronts of the push-pull gait",
+        "Two bands of falling points, one for each front, start one after the other at the front "
+        "end and run to the rear in each cycle, with a pause at rest between the cycles.",
+        "gaits",
+        cases=("soft_robot",),
+    ),
+    "fig_2_9": Entry(
+        "Fig. 2.9: the soft robot crawls",
+        "Both ends of the robot climb in steps, first the front end and then the rear one, and "
+        "the drawn bodies of the second cycle are those of the first further along.",
+        "gaits",
+        cases=("soft_robot",),
+    ),
+    "fig_2_11": Entry(
+        "Fig. 2.11: fronts of the protrusion-stance gait",
+        "The fronts fall from the front end to the rear end again and again; the advancing region "
+        "between them widens and narrows, and one front bends down to twice its speed.",
+        "gaits",
+        cases=("worm",),
+    ),
+    "fig_2_12": Entry(
+        "Fig. 2.12: the anchored point",
+        "The anchored point runs backwards in the first part of a stride, jumps to the rear end, "
+        "stays, and jumps to the front end; the two readings differ only in when it reaches the "
+        "rear end.",
+        "chapter2",
+        cases=("worm", "worm_early"),
+    ),
+    "fig_masses": Entry(
+        "Earthworms of every size",
+        "On logarithmic axes stride and speed rise and frequency falls with the mass; the line of "
+        "constant stress runs along the one of the literature, the other laws are steeper or end "
+        "early.",
+        "chapter2",
+        cases=("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
+    ),
+    "anim_robot": Entry(
+        "The soft robot crawls",
+        "The robot from the side creeps to the right: a thin long region starts at its front end, "
+        "runs to the rear and pulls the body after it.",
+        "chapter2",
+        cases=("soft_robot",),
+    ),
+    "anim_worm": Entry(
+        "The earthworm crawls",
+        "The worm from the side creeps to the right while thin and fat regions run along its body "
+        "from front to rear and the anchor jumps between its ends.",
+        "chapter2",
+        cases=("worm",),
+    ),
+    "fig_3_1": Entry(
+        "Fig. 3.1: reference and current configuration",
+        "Left a straight chain of vertices with equal upright arrows, right the same chain bent "
+        "like a hook, its arrows turned and of several lengths; dashed, the arrows reflected "
+        "downwards.",
+        "geometry",
+        cases=("bent_rod",),
+    ),
+    "fig_3_2": Entry(
+        "Fig. 3.2: a rod-like body",
+        "A slender curved tube with one hatched elliptical section, a dashed line near its "
+        "middle, an arrow across for the height and a long one beside it for the length.",
+        "geometry",
+        cases=("clamped_free",),
+    ),
+    "fig_3_3": Entry(
+        "Fig. 3.3: section and directors",
+        "Two sections: a rounded oblique one whose two directors meet at less than a right angle, "
+        "and a rectangle whose two directors are at right angles and start below its middle.",
+        "geometry",
+        cases=("clamped_free",),
+    ),
+    "fig_3_4": Entry(
+        "Fig. 3.4: discrete osculating circle",
+        "A circle touches two neighbouring edges of a bent chain, each half a Voronoi length from "
+        "their common vertex, and an arc shows the clockwise turning angle there.",
+        "geometry",
+        cases=("bent_rod",),
+    ),
+    "fig_3_5": Entry(
+        "Fig. 3.5: bending, then stretching",
+        "Two rings, one inside the other: left smooth circles, right polygons with few corners; "
+        "the outer ring is the inner one stretched.",
+        "geometry",
+        cases=("clamped_free",),
+    ),
+    "fig_3_6": Entry(
+        "Fig. 3.6: tangents, director and angles",
+        "Arrows from one vertex: the tangents of both edges, their mean and the director; then "
+        "the upright to the mean tangent and the arcs of the two angles.",
+        "geometry",
+        cases=("bent_rod",),
+    ),
+    "fig_3_7": Entry(
+        "Fig. 3.7: energy characteristics",
+        "Both energies follow their dashed parabolas near rest; the stretching energy rises "
+        "without bound where the length vanishes, the shearing energy where the section lies "
+        "down.",
+        "geometry",
+    ),
+    "fig_3_8": Entry(
+        "Fig. 3.8: equilibria of the four static problems",
+        "Four magnified bodies: a bar that grows along itself, a beam that sags to its free end, "
+        "a beam that sags in its middle, and a pulled bar that is thick only at its fixed ends.",
+        "chapter3",
+        cases=tuple(
+            name + rod
+            for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
+            for rod in ("", "_consistent")
+        ),
+    ),
+    "fig_3_9": Entry(
+        "Fig. 3.9: bar hanging under its own weight",
+        "The displacement of the hanging bar rises and flattens towards its free end, and the "
+        "computed points lie on the curve; the differences are smooth and many orders smaller.",
+        "chapter3",
+        cases=("hanging_bar", "hanging_bar_consistent"),
+    ),
+    "fig_3_10": Entry(
+        "Fig. 3.10: clamped-free Timoshenko beam",
+        "The beam sags more and more towards its free end and its sections turn ever less; points "
+        "with full end areas lie on the curve, hollow ones beyond it.",
+        "chapter3",
+        cases=("clamped_free", "clamped_free_ends_halved", "clamped_free_consistent"),
+    ),
+    "fig_3_11": Entry(
+        "Fig. 3.11: clamped-clamped Timoshenko beam",
+        "The beam sags in its middle and its sections turn opposite ways in its two halves; the "
+        "points with full end areas lie above the curve, those of the consistent rod on it.",
+        "chapter3",
+        cases=("clamped_clamped", "clamped_clamped_ends_halved", "clamped_clamped_consistent"),
+    ),
+    "fig_3_12": Entry(
+        "Fig. 3.12: necking",
+        "The section strain is flat along the bar and rises to zero within a short reach of both "
+        "fixed ends; with the coupling as printed the points lie several times too deep.",
+        "chapter3",
+        cases=("necking", "necking_printed", "necking_consistent"),
+    ),
+    "fig_calibration": Entry(
+        "Calibration and the number of vertices",
+        "At the published coefficients the answers of the two beams rise with the number of "
+        "vertices and settle above one; of the coefficients that fit, the one of shear grows and "
+        "grows.",
+        "calibration",
+        cases=("calibration",),
+    ),
+    "fig_3_13": Entry(
+        "Fig. 3.13: free vibration",
+        "The tip swings like a cosine, the stiffer beam a little faster than the others; the "
+        "energies pulse twice a swing, and that of the stiff beam carries a fast small ripple.",
+        "motion",
+        cases=("vibration_c4_2", "vibration_c4_20", "vibration_consistent"),
+    ),
+    "fig_convergence": Entry(
+        "Errors of the consistent rod",
+        "Errors fall along straight lines of slope two as edges are doubled, in statics and in "
+        "vibration alike; the error of the published rod rises instead and levels off.",
+        "consistent",
+        cases=("convergence", "calibration"),
+    ),
+    "fig_far": Entry(
+        "Large deflections",
+        "Four strongly deformed rods: one bent up nearly upright, one rolled into a circle, a "
+        "column that leans over past its foot, and an arch pushed through to its other side.",
+        "consistent",
+        cases=("elastica", "roll_up", "column_path", "arch_path"),
+    ),
+    "fig_paths": Entry(
+        "Paths of equilibria",
+        "The load on the column rises straight, turns sharply aside at Euler's load and climbs "
+        "again along the exact curve; the load on the arch rises, falls below zero and rises, "
+        "hollow while unstable.",
+        "consistent",
+        cases=("column_path", "arch_path"),
+    ),
+    "fig_tumbling": Entry(
+        "A tumbling rod",
+        "A straight rod turns over and over as it flies away; on a logarithmic axis the changes "
+        "of energy, momentum and angular momentum stay far below a dashed line.",
+        "consistent",
+        cases=("tumbling",),
+        round_off=True,
+    ),
+    "fig_conventions": Entry(
+        "Frames and signs",
+        "Three drawings: a bent rod with its axes and surfaces, a cut with normal force, shear "
+        "force and moment in their positive senses, and a straight stress profile over the "
+        "height.",
+        "conventions",
+    ),
+    "fig_modes": Entry(
+        "The lowest modes of the vibrating beam",
+        "Four mode shapes of a clamped beam: bent once, bent twice, a pure change of length, and "
+        "bent three times, each with its opposite as a dotted outline.",
+        "motion",
+        cases=("vibration_c4_20",),
+    ),
+    "fig_worm_stride": Entry(
+        "Which inputs decide the stride",
+        "Bars show that advancing pressure, radius and length decide most of the stride; two "
+        "clouds of points rise with the two strongest inputs.",
+        "studies",
+        studies=("worm_stride",),
+    ),
+    "fig_calibration_reach": Entry(
+        "How far the published calibration reaches",
+        "The sag over that of the beam falls with slenderness; curves of different numbers of "
+        "vertices lie apart, those of different Poisson's ratios nearly on one another.",
+        "studies",
+        studies=("calibration_reach",),
+    ),
+    "fig_column_strength": Entry(
+        "The strength of imperfect columns",
+        "Strength falls as the bow grows, the computed dots on the crosses of the formula; the "
+        "histogram beside it is broad with its median near its middle.",
+        "studies",
+        studies=("column_strength",),
+    ),
+    "anim_vibration": Entry(
+        "One period of the vibrating beam",
+        "A clamped beam swings up and down once, magnified, its sections always nearly upright to "
+        "its axis.",
+        "motion",
+        cases=("vibration_c4_20",),
+    ),
+    "anim_relaxation": Entry(
+        "The clamped-free beam settles",
+        "A clamped beam falls under its own weight, magnified, swings less and less and comes to rest.",
+        "motion",
+        cases=("relaxing_clamped_free",),
+    ),
+}
+"""Figures by the name of the function that draws them."""
