@@ -159,6 +159,8 @@
 # .. autoclass:: cosserat.rods.variation.Station
 #    :members:
 #
+# .. autofunction:: cosserat.rods.variation.lump
+#
 # .. autoclass:: cosserat.rods.kinematics.Kinematics
 #    :members:
 #

@@ -12,6 +12,7 @@ from IPython.display import HTML, Markdown
 
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
+from cosserat.thesis.book.stored_variables import variables
 from cosserat.thesis.book.tables import mathematics, table
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
@@ -37,6 +38,7 @@ __all__ = [
     "study",
     "table",
     "text",
+    "variables",
     "written",
 ]
 
