@@ -187,7 +187,11 @@ page.rows("F3.13", "3.5.1")
 page.misprint("E3.18", "E3.25")
 
 # %% tags=["remove-input"]
-page.animation("anim_vibration", "Displacements × 10, slowed down some thirty times.")
+page.player(
+    "play_vibration",
+    "One period, slowed down some hundred times. Watch the two energies below the beam: where the beam is straight all of it is "
+    "kinetic, where it is bent most all of it is strain energy. Their sum stays.",
+)
 
 # %% [markdown]
 # Frequencies can be found without any motion, from the stiffness and the mass of the rod: `cosserat.modes`. The motion must agree
@@ -211,6 +215,13 @@ page.table(
         "period of the lowest mode [s]",
         "change of energy [1]",
     ),
+)
+
+# %% tags=["remove-input"]
+page.player(
+    cosserat.animate(cosserat.modes("vibration_c4_20", 4)),
+    "The same modes, each at its own pace. The higher ones are faster; the third one stretches the beam and does not bend it.",
+    name="play_modes",
 )
 
 # %% tags=["remove-input"]
@@ -307,7 +318,11 @@ page.text(
 page.misprint("E3.22")
 
 # %% tags=["remove-input"]
-page.animation("anim_relaxation", "Displacements × 20.")
+page.player(
+    "play_relaxation",
+    "The four rods of the last part are let go and settle, slowed down some seven times. The number behind each name "
+    "magnifies the displacements. Look how soon each is at rest: the lowest mode does not swing past it.",
+)
 
 # %% [markdown]
 # The four rods of the last part come to rest at the equilibria that Newton's method has found:
@@ -355,6 +370,13 @@ print(
 # %% tags=["remove-cell"]
 assert np.abs(total / total[0] - 1).max() < 1e-8
 assert np.abs(spin / spin[0] - 1).max() < 1e-10
+
+# %% tags=["remove-input"]
+page.player(
+    cosserat.animate(flight),
+    "The flight of this rod, slowed down. It rises and spins, and bends to and fro at the same time.",
+    name="play_thrown",
+)
 
 # %% [markdown]
 # ## Exercises

@@ -218,6 +218,20 @@ print(f"The tip of the rod of 1 m moves sideways by {float(bent.u.sel(axis='E2')
 # displacement and load together, is given, and the load is an unknown. So the path goes through *limit points*, where the load turns back.
 
 # %% tags=["remove-input"]
+page.player(
+    "play_column",
+    "The slider is the number of the point on the path, and the dot on the load curve goes with it. The column stays straight "
+    "until the curve bends.",
+)
+
+# %% tags=["remove-input"]
+page.player(
+    "play_arch",
+    "Follow the dot over the first limit point: the load falls while the arch goes on sinking. No dead load holds it there; it "
+    "would snap to the other side.",
+)
+
+# %% tags=["remove-input"]
 page.figure(
     "fig_paths",
     "Load over displacement; hollow points are unstable. (a) The column stays straight up to Euler's load and then bends with "
@@ -236,6 +250,12 @@ assert np.abs(column.load_factor.to_numpy() * problem.forces[0].force / euler).m
 # ## Motion
 #
 # The integrator of Chapter 3 computes the motion of this rod as well, with the same promise: energy and momenta stay.
+
+# %% tags=["remove-input"]
+page.player(
+    "play_tumbling",
+    "The throw of Chapter 3 with this rod, slowed down some thirty times, without gravity. It bends to and fro as it spins.",
+)
 
 # %% tags=["remove-input"]
 page.figure(

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
+from cosserat.figures import player
 from cosserat.thesis.book.unused import drop_unused
 
 _FILE_LIST = ".cosserat-book"
@@ -61,10 +62,12 @@ def execute(chapter: Path, output: Path) -> None:
         nbformat.write(notebook, temporary)
 
 
-def render(notebooks: list[Path], output: Path) -> Path:
+def render(notebooks: list[Path], output: Path, *, partial: bool = False) -> Path:
     """Build the book from executed notebooks, `index.ipynb` among them; returns its first page.
 
     Only a whole book replaces the folder, and only if the folder holds nothing but a book from this function.
+
+    partial : these are some pages of a book, so a number whose target is on another page stays plain text.
 
     Raises
     ------
@@ -86,7 +89,7 @@ def render(notebooks: list[Path], output: Path) -> Path:
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".book.") as scratch:
         pages, built = Path(scratch) / "pages", Path(scratch) / "built"
         _gather(notebooks, pages)
-        _sphinx(pages, built, Path(scratch) / "doctrees")
+        _sphinx(pages, built, Path(scratch) / "doctrees", partial)
         drop_unused(built)
         (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")
         _check_destination(output, set(_files(built)))
@@ -103,6 +106,8 @@ def _gather(notebooks: list[Path], pages: Path) -> None:
         shutil.copy(here / "conf.py", pages)
     for path in notebooks:
         shutil.copy(path, pages)
+    (pages / "_static" / "player.css").write_text(player.style(), encoding="utf-8")
+    (pages / "_static" / "player.js").write_text(player.script(), encoding="utf-8")
     _copy_mathjax(pages / "_static" / "mathjax")
 
 
@@ -142,7 +147,7 @@ def _files(folder: Path) -> list[str]:
 
 
 def _looks_built(file: Path) -> bool:
-    if file.parts[0] in ("_static", "_sources"):
+    if file.parts[0] in ("_static", "_sources", "_downloads", "source"):
         return True
     return len(file.parts) == 1 and (
         file.suffix == ".html" or file.name in ("objects.inv", "searchindex.js")
@@ -162,11 +167,23 @@ def _copy_mathjax(folder: Path) -> None:
     shutil.copy(shipped / "tex-chtml-full.js", folder)
 
 
-def _sphinx(pages: Path, built: Path, doctrees: Path) -> None:
+def _sphinx(pages: Path, built: Path, doctrees: Path, partial: bool) -> None:
     from sphinx.cmd.build import build_main
 
     said = io.StringIO()
-    arguments = ["-q", "-W", "--keep-going", "-b", "html", "-d", str(doctrees), str(pages), str(built)]
+    settings = ["-D", "links_are_complete=0"]
+    arguments = [
+        *settings,
+        "-q",
+        "-W",
+        "--keep-going",
+        "-b",
+        "html",
+        "-d",
+        str(doctrees),
+        str(pages),
+        str(built),
+    ]
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         failed = build_main(arguments)
     if failed:

@@ -6,7 +6,13 @@ project = "cosserat"
 author = "The cosserat project"
 version = release = edition().version
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_copybutton", "cosserat.thesis.book.api"]
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx_copybutton",
+    "cosserat.thesis.book.api",
+    "cosserat.thesis.book.links",
+]
 default_role = "code"
 suppress_warnings = ["mystnb.unknown_mime_type"]
 
@@ -37,7 +43,8 @@ myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
 html_theme = "sphinx_book_theme"
 html_title = "Cosserat curves"
 html_static_path = ["_static"]
-html_css_files = ["book.css"]
+html_css_files = ["player.css", "book.css"]
+html_js_files = ["player.js", "equations.js", "equation_preview.js"]
 html_copy_source = False
 html_show_sourcelink = False
 html_use_index = False

@@ -18,7 +18,7 @@ _FILES = (
     ".buildinfo",
 )
 """The font of icons that is left draws all of them; the script, five times as large, would draw them again."""
-_SCRIPT = re.compile(r'\s*<script defer src="_static/scripts/fontawesome\.js[^"]*"></script>')
+_SCRIPT = re.compile(r'\s*<script defer src="(?:\.\./)?_static/scripts/fontawesome\.js[^"]*"></script>')
 
 
 def drop_unused(built: Path) -> None:
