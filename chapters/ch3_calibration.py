@@ -41,8 +41,15 @@ from cosserat.studies.calibration import beam_of
 from cosserat.thesis.book import page
 
 run = page.data("calibration")
-problems = {"hanging_bar": ("c1",), "clamped_free": ("c3", "c4", "c5"), "necking": ("c2", "c6", "c7")}
+problems = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
 meshes = [int(n) for n in run.vertices.to_numpy()]
+
+
+def tens(number):
+    """One digit times a power of ten, as mathematics."""
+    digit, power = f"{number:.0e}".split("e")
+    return f"${digit} \\cdot 10^{{{int(power)}}}$"
+
 
 # %% tags=["remove-input"]
 page.excerpt("cosserat.studies.calibration.CalibrationProcedure.fit", "start = np.log")
@@ -68,7 +75,7 @@ page.misprint("E3.23")
 # fitted logarithms by up to as many times its own size.
 
 # %% tags=["remove-input"]
-first = {name: run[f"{name}_singular_values"][0].to_numpy() for name in (*problems, "clamped_clamped")}
+first = {name: run[f"{name}_singular_values"][0].to_numpy() for name in problems}
 for name in ("clamped_free", "clamped_clamped", "necking"):
     values = run[f"{name}_singular_values"].to_numpy()
     assert (values[:, 2] < 1e-5 * values[:, 1]).all()
@@ -78,7 +85,7 @@ assert least[1] * least[2] < 0
 first_one, second_one, third_one = first["clamped_free"]
 page.text(
     f"For the beam with one clamp and {meshes[0]} vertices the three sensitivities are {first_one:.2g}, {second_one:.2g} and "
-    f"{third_one:.0e}. The last one is zero up to round-off. Its direction has {least[1]:.2f} for $\\log c_4$ and {least[2]:.2f} "
+    f"{tens(third_one)}. The last one is zero up to round-off. Its direction has {least[1]:.2f} for $\\log c_4$ and {least[2]:.2f} "
     "for $\\log c_5$: more of the one and less of the other, in this proportion, leave the whole curve as it is."
 )
 
@@ -91,8 +98,8 @@ page.text(
 stated = statistics_of(run)
 page.table(
     [
-        [name.replace("_", " "), f"{stated[f'{name}_condition_number']:.0e}"]
-        for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking", "beams")
+        [name.replace("_", " "), tens(stated[f"{name}_condition_number"])]
+        for name in (*problems, "beams")
     ],
     ("fit", "condition number [1]"),
 )
@@ -136,7 +143,7 @@ page.table(
         (
             str(n),
             *(f"{float(c):.3f}" for c in run.clamped_free_coefficients[i]),
-            f"{float(run.clamped_free_misfit[i]):.0e}",
+            tens(float(run.clamped_free_misfit[i])),
         )
         for i, n in enumerate(meshes)
     ],
@@ -149,7 +156,7 @@ page.table(
         (
             str(n),
             *(f"{float(c):.3f}" for c in run.necking_coefficients[i]),
-            f"{float(run.necking_misfit[i]):.0e}",
+            tens(float(run.necking_misfit[i])),
         )
         for i, n in enumerate(meshes)
     ],

@@ -69,6 +69,8 @@
 # $$
 
 # %% tags=["remove-cell"]
+from dataclasses import replace
+
 import numpy as np
 
 import cosserat
@@ -363,9 +365,8 @@ thrown = cosserat.case("vibration_c4_20").vary(
 flight = cosserat.run(thrown)
 total = (flight.kinetic_energy + flight.strain_energy).to_numpy()
 spin = flight.angular_momentum.to_numpy()
-print(
-    f"energy changes by {np.abs(total / total[0] - 1).max():.0e}, angular momentum by {np.abs(spin / spin[0] - 1).max():.0e}"
-)
+print(f"change of energy {np.abs(total / total[0] - 1).max():.0e}")
+print(f"change of angular momentum {np.abs(spin / spin[0] - 1).max():.0e}")
 
 # %% tags=["remove-cell"]
 assert np.abs(total / total[0] - 1).max() < 1e-8
@@ -373,7 +374,7 @@ assert np.abs(spin / spin[0] - 1).max() < 1e-10
 
 # %% tags=["remove-input"]
 page.player(
-    cosserat.animate(flight),
+    replace(cosserat.animate(flight), title="A rod in the air"),
     "The flight of this rod, slowed down. It rises and spins, and bends to and fro at the same time.",
     name="play_thrown",
 )
