@@ -44,13 +44,6 @@ run = page.data("calibration")
 problems = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
 meshes = [int(n) for n in run.vertices.to_numpy()]
 
-
-def tens(number):
-    """One digit times a power of ten, as mathematics."""
-    digit, power = f"{number:.0e}".split("e")
-    return f"${digit} \\cdot 10^{{{int(power)}}}$"
-
-
 # %% tags=["remove-input"]
 page.excerpt("cosserat.studies.calibration.CalibrationProcedure.fit", "start = np.log")
 
@@ -85,7 +78,7 @@ assert least[1] * least[2] < 0
 first_one, second_one, third_one = first["clamped_free"]
 page.text(
     f"For the beam with one clamp and {meshes[0]} vertices the three sensitivities are {first_one:.2g}, {second_one:.2g} and "
-    f"{tens(third_one)}. The last one is zero up to round-off. Its direction has {least[1]:.2f} for $\\log c_4$ and {least[2]:.2f} "
+    f"{page.tens(third_one)}. The last one is zero up to round-off. Its direction has {least[1]:.2f} for $\\log c_4$ and {least[2]:.2f} "
     "for $\\log c_5$: more of the one and less of the other, in this proportion, leave the whole curve as it is."
 )
 
@@ -98,7 +91,7 @@ page.text(
 stated = statistics_of(run)
 page.table(
     [
-        [name.replace("_", " "), tens(stated[f"{name}_condition_number"])]
+        [name.replace("_", " "), page.tens(stated[f"{name}_condition_number"])]
         for name in (*problems, "beams")
     ],
     ("fit", "condition number [1]"),
@@ -143,7 +136,7 @@ page.table(
         (
             str(n),
             *(f"{float(c):.3f}" for c in run.clamped_free_coefficients[i]),
-            tens(float(run.clamped_free_misfit[i])),
+            page.tens(float(run.clamped_free_misfit[i])),
         )
         for i, n in enumerate(meshes)
     ],
@@ -156,7 +149,7 @@ page.table(
         (
             str(n),
             *(f"{float(c):.3f}" for c in run.necking_coefficients[i]),
-            tens(float(run.necking_misfit[i])),
+            page.tens(float(run.necking_misfit[i])),
         )
         for i, n in enumerate(meshes)
     ],

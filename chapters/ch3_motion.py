@@ -208,7 +208,7 @@ for name, row in (("vibration_c4_2", "F3.13-period-c4-2"), ("vibration_c4_20", "
     mode = 1 / float(cosserat.modes(cosserat.case(name), 1).natural_frequency[0])
     assert abs(seen / mode - 1) < 1e-3
     assert np.abs(energy / energy[0] - 1).max() < 1e-8
-    lines.append([name, f"{seen:.5f}", f"{mode:.5f}", f"{np.abs(energy / energy[0] - 1).max():.0e}"])
+    lines.append([name, f"{seen:.5f}", f"{mode:.5f}", page.tens(np.abs(energy / energy[0] - 1).max())])
 page.table(
     lines,
     (
@@ -337,7 +337,7 @@ for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking"):
     apart = max(float(np.abs(settled[v][-1] - newton[v]).max()) for v in ("x", "d")) / size
     ratio = float(settled.kinetic_energy[-1] / settled.strain_energy[-1])
     assert apart < 1e-6
-    lines.append([name, f"{apart:.0e}", f"{ratio:.0e}"])
+    lines.append([name, page.tens(apart), page.tens(ratio)])
 page.table(
     lines,
     (

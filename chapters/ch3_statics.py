@@ -390,7 +390,9 @@ page.misprint("E3.4", "E3.5", "E3.6", "E3.7", "E3.8")
 lines = []
 for name in ("hanging_bar", "clamped_free", "clamped_clamped", "necking"):
     done = statistics_of(page.data(name))
-    lines.append([name, done["iterations"], f"{done['residual_N']:.1e}", f"{done['tolerance_N']:.1e}"])
+    lines.append(
+        [name, done["iterations"], page.tens(done["residual_N"], 2), page.tens(done["tolerance_N"], 2)]
+    )
 page.table(lines, ("case", "Newton iterations", "largest unbalanced force [N]", "allowed [N]"))
 
 # %% [markdown]
@@ -454,7 +456,7 @@ excess = float(bar.u.sel(axis="E3")[-1]) / exact[-1] - 1
 at_support = beam.line_density * g * beam.length / beam.axial_stiffness
 assert abs(excess / (at_support / 2) - 1) < 1e-3
 page.text(
-    f"Computed tip over closed form, minus one: {excess:.4g}. Half the strain at the support: {at_support / 2:.4g}."
+    f"Computed tip over closed form, minus one: {page.tens(excess, 4)}. Half the strain at the support: {page.tens(at_support / 2, 4)}."
 )
 
 # %% [markdown]
@@ -703,10 +705,8 @@ expected = np.divide(
 )[0]
 ratios = {}
 for name in ("clamped_free", "clamped_free_consistent"):
-    sags = [
-        cosserat.run(case).u.sel(axis="E2")[-1].item()
-        for case in (cosserat.case(name).vary("low", rod=thin), cosserat.case(name))
-    ]
+    lower = cosserat.run(cosserat.case(name).vary("low", rod=thin))
+    sags = [float(data.u.sel(axis="E2")[-1]) for data in (lower, page.data(name))]
     ratios[name] = sags[0] / sags[1]
     print(f"{name}: {ratios[name]:.3f} times as far; expected {expected:.3f}")
 assert abs(ratios["clamped_free_consistent"] / expected - 1) < 1e-3

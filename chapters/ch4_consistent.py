@@ -153,7 +153,7 @@ orders = -np.diff(np.log(data.errors.to_numpy()), axis=1) / np.diff(np.log(edges
 assert np.abs(orders[:, 1:] - 2).max() < 0.15
 page.table(
     [
-        (name, *(f"{value:.1e}" for value in values[::2]), f"{order[-1]:.2f}")
+        (name, *(page.tens(value, 2) for value in values[::2]), f"{order[-1]:.2f}")
         for name, values, order in zip(
             data.measure.to_numpy(), data.errors.to_numpy(), orders, strict=True
         )
@@ -285,7 +285,7 @@ for side in (1e-1, 1e-2, 1e-3, 1e-4):
     exact, _ = elastica.shearable_tip(1.0, beam.axial_stiffness / unit, beam.shear_stiffness / unit)
     off = abs(float(cosserat.run(thin).u.sel(axis="E2")[-1]) / exact - 1)
     assert off < 1e-3
-    lines.append((f"{side:g}", f"{off:.1e}"))
+    lines.append((f"{side:g}", page.tens(off, 2)))
 page.table(lines, ("thickness over length [1]", "error of the tip's lateral displacement [1]"))
 
 # %% [markdown]
@@ -302,7 +302,7 @@ for gap in (0.4, 0.02, 2e-4):
     far = -nu * (1 + nu) * necked.problem.forces[-1].force / beam_of(necked.problem).axial_stiffness
     off = abs((float(data.lam[data.sizes["vertex"] // 2]) - 1) / far - 1)
     assert off < 1e-3
-    lines.append((f"{gap:g}", f"{off:.1e}"))
+    lines.append((f"{gap:g}", page.tens(off, 2)))
 page.table(lines, ("$1 - 2\\nu$ [1]", "error of the section strain far from the ends, plane strain [1]"))
 
 # %% [markdown]
@@ -353,9 +353,8 @@ print(f"by hand {euler:.4f} N")
 errors = []
 for edges in (10, 20, 40):
     column = case.vary("mesh", rod={"vertices": edges + 1}).problem
-    critical = RodCriticalLoads.of(column, 1)
-    found = cosserat.run(cosserat.Case(name="euler", title="Euler's load", problem=critical))
-    load = press * float(found.special_load_factor[0])
+    found = RodCriticalLoads.of(column, 1).solve("column")
+    load = press * float(found["special_load_factor"][0])
     errors.append(load / euler - 1)
     print(f"{edges} edges: {load:.4f} N, error {errors[-1]:+.1e}")
 assert min(errors) > 0  # a column of few edges is too stiff: the load comes from above

@@ -14,7 +14,7 @@ from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.players import player
 from cosserat.thesis.book.stored_variables import variables
-from cosserat.thesis.book.tables import mathematics, table
+from cosserat.thesis.book.tables import mathematics, table, tens
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
 from cosserat.thesis.figures.catalogue import entry
@@ -38,6 +38,7 @@ __all__ = [
     "source",
     "study",
     "table",
+    "tens",
     "text",
     "variables",
     "written",

@@ -24,3 +24,9 @@ def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
 def mathematics(html: str) -> str:
     """Text between dollars as mathematics of the book: MathJax ignores dollars in outputs."""
     return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)
+
+
+def tens(number: float, digits: int = 1) -> str:
+    """A number with so many digits and a power of ten, as mathematics."""
+    digit, power = f"{number:.{digits - 1}e}".split("e")
+    return f"${digit} \\cdot 10^{{{int(power)}}}$"

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.rod import draw_body, draw_outline
@@ -25,6 +26,7 @@ from cosserat.figures.style import (
 )
 from cosserat.rods.problem import RodProblem
 
+Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 _ALONG, _UP = r"along $\mathbf{E}_3$ [m]", r"along $\mathbf{E}_2$ [m]"
 _SAG = 20  # magnification of displacements under the weight
@@ -75,9 +77,7 @@ def _gravity(data: xr.Dataset) -> float:
     return gravity.g
 
 
-def _two_materials(
-    xi: np.ndarray, length: float, joint: float, young: float, density: float
-) -> np.ndarray:
+def _two_materials(xi: Array, length: float, joint: float, young: float, density: float) -> Array:
     """Displacement of a bar that hangs from 0, times EA / (rho0 g) of its upper part, (n,) [m^2].
 
     young, density : of the part below `joint`, over those of the part above.  derived: the integral of the weight below
@@ -86,30 +86,34 @@ def _two_materials(
     below = density * (length - joint)
     upper = np.minimum(xi, joint)
     lower = np.maximum(xi - joint, 0.0)
-    above: np.ndarray = (below + joint) * upper - upper**2 / 2
+    above: Array = (below + joint) * upper - upper**2 / 2
     return above + density / young * ((length - joint) * lower - lower**2 / 2)
 
 
 def fig_low_centreline(data: Data) -> Figure:
     """Sag of one body with its centreline in the middle and near the lower surface, by both rods."""
-    figure, (ax,) = canvas(5.2, 3.0)
+    figure, (ax,) = canvas(6.0, 3.6)
     for name, marker, colour, label in (
         ("clamped_free", "o", COMPUTED, "published rod, centreline in the middle"),
         ("low_centreline", "s", VARIANT, "published rod, centreline near the lower surface"),
     ):
-        hollow = "none" if marker == "s" else colour
-        style = {"linestyle": "none", "marker": marker, "color": colour, "markerfacecolor": hollow}
-        ax.plot(data[name].xi, 1e3 * data[name].u.sel(axis="E2"), label=label, **style)
-    for name, style, label in (
-        ("clamped_free_consistent", "-", "consistent rod, in the middle"),
-        ("low_centreline_consistent", ":", "consistent rod, near the lower surface"),
+        ax.plot(
+            data[name].xi,
+            1e3 * data[name].u.sel(axis="E2"),
+            linestyle="none",
+            marker=marker,
+            color=colour,
+            markerfacecolor="none" if marker == "s" else colour,
+            label=label,
+        )
+    for name, line, colour, width, label in (
+        ("clamped_free_consistent", "-", CONSISTENT, 1.0, "consistent rod, in the middle"),
+        ("low_centreline_consistent", ":", INK, 2.4, "consistent rod, near the lower surface"),
     ):
-        width = 2.4 if style == ":" else 1.0
-        colour = INK if style == ":" else CONSISTENT
         sag = 1e3 * data[name].u.sel(axis="E2")
-        ax.plot(data[name].xi, sag, style, color=colour, linewidth=width, label=label)
+        ax.plot(data[name].xi, sag, linestyle=line, color=colour, linewidth=width, label=label)
     ax.set(xlabel=r"arc length $\xi$ [m]", ylabel=r"displacement $\mathbf{u} \cdot \mathbf{E}_2$ [mm]")
-    ax.legend(loc="lower left")
+    figure.legend(loc="outside lower center", ncols=2, fontsize=8)
     return figure
 
 
