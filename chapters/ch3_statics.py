@@ -602,7 +602,7 @@ page.figure(
     "fig_3_12",
     "The section strain along the necked bar: flat inside, zero at the held ends. The published rod is compared with the "
     "printed decay (3.5.9), the consistent one with the decay of a section that is free to contract. (c) The same bar with "
-    "twice the Poisson term contracts more than three times too much. Right scales: the displacement of the surface.",
+    "twice the Poisson term contracts more than three times as much as (3.5.8) says. Right scales: the displacement of the surface.",
 )
 
 # %% tags=["remove-input"]
