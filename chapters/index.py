@@ -36,6 +36,7 @@
 # reliability
 # results_table
 # errata
+# equations
 # left_out
 # conventions
 # case_keys

@@ -10,33 +10,40 @@ from html import escape
 
 from IPython.display import HTML, Markdown
 
+from cosserat.thesis.book.equation_list import counts, equations, left_out, left_out_table
+from cosserat.thesis.book.judgements import errata_list, results_table, total_of
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.tables import mathematics, table
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
 from cosserat.thesis.figures.catalogue import entry
-from cosserat.thesis.table.left_out import LeftOutList, read_left_out
 
 __all__ = [
     "amount",
     "anchor",
     "animation",
     "common_keys",
+    "counts",
     "data",
+    "equations",
     "errata",
+    "errata_list",
     "excerpt",
     "figure",
     "keys",
     "left_out",
+    "left_out_table",
     "misprint",
     "results",
+    "results_table",
     "row",
     "rows",
     "source",
     "study",
     "table",
     "text",
+    "total_of",
     "written",
 ]
 
@@ -62,11 +69,6 @@ def animation(name: str, caption: str) -> HTML:
     return HTML(
         f'<figure class="plot" id="{name}">{drawing}<div>{button}</div><figcaption>{text}</figcaption></figure>'
     )
-
-
-def left_out() -> LeftOutList:
-    """Parts of the thesis that are left out, with the reasons."""
-    return read_left_out(results() / "left_out.toml")
 
 
 def text(sentence: str) -> Markdown:
