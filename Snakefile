@@ -258,7 +258,7 @@ rule peers:  # its table is tracked, so it is the output of no rule, and measure
 
 rule book:
     input:
-        package("thesis/book", "thesis/book/static"),
+        package("thesis/book", "thesis/book/static", "figures"),
         "cosserat/__init__.py",
         notebooks=expand("results/notebooks/{chapter}.ipynb", chapter=CHAPTERS),
     output:

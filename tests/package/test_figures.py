@@ -50,7 +50,6 @@ def needed(solved, name):
 
 
 DRAWN = {}
-GRAPHS = [name for name in FIGURES if not name.startswith("anim_")]
 
 
 def curves(ax):
@@ -70,7 +69,7 @@ def test_beam_figures_plot_the_computed_and_the_analytic_curve_in_millimetres(so
 
 
 def test_every_axis_of_a_graph_has_a_unit(solved):
-    for name in GRAPHS:
+    for name in FIGURES:
         for ax in drawing(solved, name).axes:
             assert "[" in ax.get_xlabel(), name
             assert "[" in ax.get_ylabel() or not ax.get_yticks().size, (
@@ -180,7 +179,7 @@ def strokes(ax):
             yield Stroke(ax.transData.transform([text.xy, text.get_position()]))
 
 
-@pytest.mark.parametrize("name", GRAPHS)
+@pytest.mark.parametrize("name", FIGURES)
 def test_texts_of_a_figure_are_visible_and_do_not_overlap(solved, name):
     figure = drawing(solved, name)
     pixels = laid_out(figure)

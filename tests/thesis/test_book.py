@@ -8,12 +8,14 @@ from pathlib import Path
 
 import jupytext
 import nbformat
+import numpy as np
 import pytest
 from conftest import ROOT
 
 import cosserat
 from cosserat.describe.keys import common_keys, keys
 from cosserat.errors import CosseratError, InputError
+from cosserat.figures.stage import Mark, Panel, Slider, Stage
 from cosserat.publications import kinds
 from cosserat.thesis.book import page
 from cosserat.thesis.book.api import as_markup
@@ -35,13 +37,15 @@ def shown(html):
 def notebooks(tmp_path_factory):
     """Two pages, the first with a numbered equation."""
     folder = tmp_path_factory.mktemp("notebooks")
+    time = np.linspace(0, 1, 5)
+    panel = Panel((Mark(time, time**2),), "time [s]", "height [m]")
+    moving = Stage("A point", "A point rises.", (panel,), Slider("time", time, "s"))
     with pytest.MonkeyPatch.context() as patch:
         (folder / "figures").mkdir()
         (folder / "figures" / "fig_2_1.svg").write_text("<svg/>")
-        (folder / "figures" / "anim_worm.svg").write_text("<svg/>")
         patch.setattr(page, "results", lambda: folder)
         drawn = page.figure("fig_2_1", "Ahead of $\\gamma$.").data
-        drawn += page.animation("anim_worm", "From $t_p/2$ on.").data
+        drawn += page.player(moving, "From $t_p/2$ on.", name="play_point").data
     table = page.table([["$a < b$", "5"]], ["of $\\mu_3$", "times"]).data
     toctree = "```{toctree}\nother\n```"
     for name, text in (

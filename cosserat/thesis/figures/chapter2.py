@@ -21,7 +21,6 @@ from cosserat.thesis.earthworm import LONGITUDINAL, SEGMENT_50
 from cosserat.thesis.table.crawl_readouts import (
     SLOPES,
     at_phase,
-    instants_per_stride,
     segment,
     slope,
 )
@@ -203,17 +202,3 @@ def fig_masses(data: Data) -> Figure:
             axes[3].semilogx(run.body_mass * 1e3, run[variable], color=colour, marker=marker)
     axes[3].set(xlabel="body mass [g]", ylabel=r"extreme $\mu_3$ of segment 50 [1]")
     return figure
-
-
-def anim_worm(data: Data) -> str:
-    """Two strides of the worm in real time."""
-    run = data["worm"]
-    count = 2 * instants_per_stride(run)
-    part = run.isel(time=slice(0, count + 1))
-    return crawlers.animation(part, seconds=float(part.time[-1]), mark=SEGMENT_50)
-
-
-def anim_robot(data: Data) -> str:
-    """Two cycles of the robot, four times as fast."""
-    run = data["soft_robot"]
-    return crawlers.animation(run, seconds=float(run.time[-1]) / 4)
