@@ -42,7 +42,7 @@ def package(*names):
     """Files of these folders of the package: Snakemake does not see edits of what a command imports."""
     folders = [os.path.join("cosserat", name) for name in names]
     files = [os.path.join(folder, file) for folder in folders for file in os.listdir(folder)]
-    return sorted(file for file in files if file.endswith((".py", ".css", ".js")))
+    return sorted(file for file in files if file.endswith((".py", ".css", ".js", ".toml")))
 
 
 def batches():

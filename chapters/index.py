@@ -40,7 +40,9 @@
 # left_out
 # conventions
 # case_keys
+# command_line
 # python_api
+# references
 # ```
 
 # %% tags=["remove-input"]

@@ -10,11 +10,13 @@ from html import escape
 
 from IPython.display import HTML, Markdown
 
+from cosserat.thesis.book.command_line import commands
 from cosserat.thesis.book.equation_list import counts, equations, left_out, left_out_table
 from cosserat.thesis.book.judgements import errata_list, results_table, total_of
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.players import player
+from cosserat.thesis.book.references import how_to_cite, references
 from cosserat.thesis.book.tables import mathematics, table
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
@@ -23,6 +25,7 @@ from cosserat.thesis.figures.catalogue import entry
 __all__ = [
     "amount",
     "anchor",
+    "commands",
     "common_keys",
     "counts",
     "data",
@@ -31,11 +34,13 @@ __all__ = [
     "errata_list",
     "excerpt",
     "figure",
+    "how_to_cite",
     "keys",
     "left_out",
     "left_out_table",
     "misprint",
     "player",
+    "references",
     "results",
     "results_table",
     "row",
