@@ -17,12 +17,14 @@ from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.players import player
 from cosserat.thesis.book.references import how_to_cite, references
-from cosserat.thesis.book.tables import mathematics, table
+from cosserat.thesis.book.tables import folded, mathematics, table
+from cosserat.thesis.book.tutorial import Folder
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
 from cosserat.thesis.figures.catalogue import entry
 
 __all__ = [
+    "Folder",
     "amount",
     "anchor",
     "commands",
@@ -34,6 +36,7 @@ __all__ = [
     "errata_list",
     "excerpt",
     "figure",
+    "folded",
     "how_to_cite",
     "keys",
     "left_out",
