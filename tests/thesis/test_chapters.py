@@ -13,6 +13,7 @@ from cosserat.thesis.table.errata import read_errata
 
 CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 NOT_YET = {
+    "beams_to_rods",
     "ch1_directed_rod",
     "ch3_calibration",
     "ch3_motion",
