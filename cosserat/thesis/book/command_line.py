@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import pkgutil
 from html import escape
 
 from IPython.display import HTML
 
-from cosserat.cli import parser_of_commands
-
+_PARSER = "cosserat.cli:parser_of_commands"
+"""By its name, as a chapter names what it shows: the command line imports the thesis, not the other way round."""
 _HIDDEN = ("help", "command")
 
 
@@ -19,7 +20,7 @@ def commands() -> HTML:
 
 def parsers() -> dict[str, argparse.ArgumentParser]:
     """The parser of each command, in the order of `cosserat --help`."""
-    actions = parser_of_commands()._actions
+    actions = pkgutil.resolve_name(_PARSER)()._actions
     (found,) = (action for action in actions if isinstance(action, argparse._SubParsersAction))
     return dict(found.choices)
 
