@@ -17,7 +17,8 @@ KNOWN = frozenset(
         r"\w+",
         """
 Newton Gauss Runge Kutta Rayleigh Lobatto Cholesky Hermite Sylvester Hessian Jacobian Latin Monte Carlo
-Poisson Young Euler Bernoulli Cauchy Hooke Lamé Piola Voronoi Kronecker Cosserat Voigt Kelvin Dirac Greenhill Steiner Huygens Archimedes
+Poisson Young Euler Bernoulli Cauchy Hooke Lamé Piola
+Voronoi Kronecker Cosserat Voigt Kelvin Dirac Greenhill Steiner
 University California Berkeley Evan Grant Debian Python Dataset Snakemake Slurm Exudyn Ctrl Jupyter Chromium
 Chapter Chapters Table Fig Figs Exercise Misprint Strains Discrete Curves Descriptions Peristalsis Pa
 """,
