@@ -12,7 +12,7 @@ from IPython.display import HTML, Markdown
 
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
-from cosserat.thesis.book.players import player
+from cosserat.thesis.book.players import explore, player
 from cosserat.thesis.book.tables import mathematics, table
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
@@ -26,6 +26,7 @@ __all__ = [
     "data",
     "errata",
     "excerpt",
+    "explore",
     "figure",
     "keys",
     "left_out",

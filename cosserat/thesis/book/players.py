@@ -1,4 +1,4 @@
-"""Players of a page: stored states with a slider, drawn by `cosserat.figures.player`."""
+"""Players of a page: stored states with a slider over time or over a parameter."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from cosserat.figures.player import figure
 from cosserat.figures.stage import Stage
 from cosserat.text import shortened
 from cosserat.thesis.book.tables import mathematics
-from cosserat.thesis.book.workflow import data
+from cosserat.thesis.book.workflow import data, study
+from cosserat.thesis.figures.explored import EXPLORED
 from cosserat.thesis.figures.played import PLAYED
 
 
@@ -37,6 +38,24 @@ def player(what: str | Stage, caption: str, *, name: str = "", alt: str = "") ->
         raise InputError("a player of a stage has no id; give it one with name=...")
     else:
         stage = what
-    if alt:
-        stage = replace(stage, alt=alt)
-    return HTML(figure(stage, name, f"<b>{escape(stage.title)}.</b> {mathematics(caption)}"))
+    return _shown(replace(stage, alt=alt) if alt else stage, name, caption)
+
+
+def explore(name: str, caption: str) -> HTML:
+    """A figure of `EXPLORED`, whose slider is a parameter of a study, with its title and a caption.
+
+    Raises
+    ------
+    InputError : there is no such figure.
+    """
+    if name not in EXPLORED:
+        raise InputError(
+            f"there is no figure {shortened(name)} to explore; they are {', '.join(EXPLORED)}"
+        )
+    explored = EXPLORED[name]
+    return _shown(explored.stage({one: study(one) for one in explored.studies}), name, caption)
+
+
+def _shown(stage: Stage, name: str, caption: str) -> HTML:
+    end = "" if stage.title.endswith("?") else "."
+    return HTML(figure(stage, name, f"<b>{escape(stage.title)}{end}</b> {mathematics(caption)}"))
