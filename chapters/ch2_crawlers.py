@@ -442,6 +442,7 @@ page.player(
     cosserat.animate(inchworm),
     "Three strides of the inchworm, in real time. In each second only one end of the body moves.",
     name="play_inchworm",
+    title="The inchworm crawls",
 )
 
 # %% [markdown]

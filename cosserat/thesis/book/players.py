@@ -17,11 +17,12 @@ from cosserat.thesis.figures.explored import EXPLORED
 from cosserat.thesis.figures.played import PLAYED
 
 
-def player(what: str | Stage, caption: str, *, name: str = "", alt: str = "") -> HTML:
+def player(what: str | Stage, caption: str, *, name: str = "", title: str = "", alt: str = "") -> HTML:
     """A player with its title and a caption.
 
     what : a name of `PLAYED`, or the stage of a result that the chapter has solved, from `cosserat.animate`.
-    name : the id of the figure, needed for a stage.  alt : what is seen; that of the stage if it is left out.
+    name : the id of the figure, needed for a stage.  title, alt : what it is and what is seen, by default as the stage
+        says.
 
     Raises
     ------
@@ -38,7 +39,8 @@ def player(what: str | Stage, caption: str, *, name: str = "", alt: str = "") ->
         raise InputError("a player of a stage has no id; give it one with name=...")
     else:
         stage = what
-    return _shown(replace(stage, alt=alt) if alt else stage, name, caption)
+    stage = replace(stage, title=title or stage.title, alt=alt or stage.alt)
+    return _shown(stage, name, caption)
 
 
 def explore(name: str, caption: str) -> HTML:

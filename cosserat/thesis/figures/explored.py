@@ -21,6 +21,7 @@ from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import RodProblem
 from cosserat.studies.calibration import beam_of
 from cosserat.studies.door import case_of_study
+from cosserat.thesis.figures.strained import deformations
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -295,6 +296,7 @@ def _arrow(tip: Array, force: Array) -> list[Line]:
 
 
 EXPLORED = {
+    "explore_deformations": Explored((), deformations),
     "explore_vertices": Explored(("vertices_published", "vertices_consistent"), vertices),
     "explore_muscles": Explored(("muscles_of_an_instant",), muscles),
     "explore_front": Explored(("front_through_the_body",), front),
