@@ -397,7 +397,7 @@ page.source(beams.necking_decay)
 # %% tags=["remove-input"]
 page.explore(
     "explore_poisson",
-    "The energy as printed contracts the bar twice as much as a bar in tension contracts, and without bound as $\\nu$ grows. "
+    "The energy as printed contracts the bar twice as much as it should, and more and more as $\\nu$ grows. "
     "The corrected and the consistent energy keep to $-\\nu n / EA$ far from the ends.",
 )
 
