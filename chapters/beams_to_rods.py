@@ -350,6 +350,16 @@ page.figure(
 )
 
 # %% [markdown]
+# Move the slider, and every body deforms at once. At a negative amplitude each strain has the other sign.
+
+# %% tags=["remove-input"]
+page.explore(
+    "explore_deformations",
+    "Behind each strain stands the stiffness that pays for it. The same body pays for two strains of opposite sign in the same "
+    "way, because the energy (1.2.97) is quadratic.",
+)
+
+# %% [markdown]
 # The bodies are drawn from directors, and the same directors go into the energy. For a round bar of rubber with a radius of
 # 1 cm the cell puts each body alone into the energy (1.2.97) and divides by the square of its strain. The result must be the
 # stiffness that the figure names.

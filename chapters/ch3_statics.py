@@ -395,6 +395,13 @@ page.text(f"Here the layer is {layer:.3f} m wide and an edge {stiff.edge[0]:.3f}
 page.source(beams.necking_decay)
 
 # %% tags=["remove-input"]
+page.explore(
+    "explore_poisson",
+    "The energy as printed contracts the bar twice as much as it should, and more and more as $\\nu$ grows. "
+    "The corrected and the consistent energy keep to $-\\nu n / EA$ far from the ends.",
+)
+
+# %% tags=["remove-input"]
 page.figure(
     "fig_3_12",
     "Left scales: the strain of the section. Right scales: the displacement of the lateral surface relative to the centreline, "

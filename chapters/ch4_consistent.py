@@ -119,6 +119,12 @@ for name in ("elastica", "roll_up"):
 page.table(lines, ("problem", "Newton iterations", "increments refused"))
 
 # %% tags=["remove-input"]
+page.explore(
+    "explore_load",
+    "Solid: the exact elastica. Dots: the rod under the load of the slider. Dashed: the line of small deflections.",
+)
+
+# %% tags=["remove-input"]
 page.figure("fig_far", "Dotted: the reference configuration. Light: intermediate points of the path.")
 
 # %% tags=["remove-input"]
