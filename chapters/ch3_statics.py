@@ -598,6 +598,13 @@ page.text(
 page.misprint("E3.12", "E3.13", "E3.14")
 
 # %% tags=["remove-input"]
+page.explore(
+    "explore_poisson",
+    "The energy as printed contracts the bar twice as much as it should, and more and more as $\\nu$ grows. "
+    "The corrected and the consistent energy keep to $-\\nu n / EA$ far from the ends.",
+)
+
+# %% tags=["remove-input"]
 page.figure(
     "fig_3_12",
     "The section strain along the necked bar: flat inside, zero at the held ends. The published rod is compared with the "

@@ -192,6 +192,16 @@ page.figure(
     "the rod into a closed circle; in (d) the arch has turned inside out.",
 )
 
+# %% [markdown]
+# How far is the textbook's straight line right? Move the load:
+
+# %% tags=["remove-input"]
+page.explore(
+    "explore_load",
+    "Solid: the exact elastica. Dots: the consistent rod under the load of the slider. Dashed: the line of small deflections. "
+    "It is right for small loads; for larger ones it goes on in proportion, and the rod cannot.",
+)
+
 # %% tags=["remove-input"]
 page.rows("C-e", "C-r", "C-column")
 

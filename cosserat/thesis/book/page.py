@@ -15,7 +15,7 @@ from cosserat.thesis.book.equation_list import counts, equations, left_out, left
 from cosserat.thesis.book.judgements import errata_list, results_table, total_of
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
-from cosserat.thesis.book.players import player
+from cosserat.thesis.book.players import explore, player
 from cosserat.thesis.book.references import how_to_cite, references
 from cosserat.thesis.book.stored_variables import variables
 from cosserat.thesis.book.tables import folded, mathematics, table, tens
@@ -36,6 +36,7 @@ __all__ = [
     "errata",
     "errata_list",
     "excerpt",
+    "explore",
     "figure",
     "folded",
     "how_to_cite",

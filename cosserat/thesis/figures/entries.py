@@ -45,6 +45,12 @@ FIGURES: dict[str, Entry] = {
         "chapter1",
         cases=("soft_robot",),
     ),
+    "fig_directors": Entry(
+        "Directors of a bar",
+        "A straight block with three arrows at right angles, and below it the same block curved, with a "
+        "thin and long part in its middle; there the arrows across it are short and the one along it is long.",
+        "beams",
+    ),
     "fig_slice": Entry(
         "A slice of a rod and its loads",
         "Three squares with arrows: one oblique force on each face and one at the middle; arrows up "
