@@ -19,12 +19,13 @@ NAMES = {"pull", "evaluate", "reserve", "sin", "cos", "tan", "atan2"}
 """The functions of the module.
 
 pull (room, size, vertices, by_3, by_2) and evaluate (room, size, vertices, task) : those of
-`cosserat.export.webassembly.pulled`; room is the address of the array, size the number of its floats.  reserve (bytes) : an address with so much room.
+`cosserat.export.webassembly.pulled`; room is the address of the array, size the number of its floats.
+reserve (bytes) : an address with so much room.
 """
 
 
 def pulled_rod() -> bytes:
-    """The module; the same sources and versions of LLVM and Numba give the same bytes.  It takes half a minute.
+    """The module; the same sources and versions of LLVM and Numba give the same bytes.  It takes 20 s.
 
     Raises
     ------

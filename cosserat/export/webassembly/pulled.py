@@ -22,7 +22,8 @@ from cosserat.solvers.potential import GRADIENT
 
 OUTCOME, DONE, ITERATIONS, REFUSED, FALLS, ENERGY, FORCE_3, FORCE_2, RESIDUAL, TOLERANCE = range(10)
 """First numbers of the array: what came of the last pull, the fraction of it and counts (see
-`cosserat.export.webassembly.pull`), the energy [J], the force on the last vertex along E3 and E2 [N], the largest unbalanced force and the one allowed [N]."""
+`cosserat.export.webassembly.pull`), the energy [J], the force on the last vertex along E3 and E2 [N],
+the largest unbalanced force and the one allowed [N]."""
 HEAD = 16
 """After them come DOFs, their reference, their scale and whether they are held, (n,) each, the constants of the energy,
 and its gradient (n,) and Hessian (n, 8) if they are asked for."""
