@@ -42,7 +42,7 @@ _COEFFICIENTS = tuple(_pair(Fraction((-1) ** (n // 2), factorial(n))) for n in r
 """Of x^n in the series of the cosine where n is even, of the sine where it is odd."""
 
 
-@njit
+@njit(error_model="numpy")
 def _sum(a: float, b: float) -> Pair:
     """A sum and its rounding error."""
     s = a + b
@@ -50,7 +50,7 @@ def _sum(a: float, b: float) -> Pair:
     return s, (a - (s - part)) + (b - part)
 
 
-@njit
+@njit(error_model="numpy")
 def _product(a: float, b: float) -> Pair:
     """A product and its rounding error."""
     p = a * b
@@ -63,7 +63,7 @@ def _product(a: float, b: float) -> Pair:
     return p, ((high * top - p) + high * rest + low * top) + low * rest
 
 
-@njit
+@njit(error_model="numpy")
 def _added(a: Pair, b: Pair) -> Pair:
     """The sum of two pairs."""
     s, e = _sum(a[0], b[0])
@@ -72,7 +72,7 @@ def _added(a: Pair, b: Pair) -> Pair:
     return _sum(s, e + f)
 
 
-@njit
+@njit(error_model="numpy")
 def _times(a: Pair, b: Pair) -> Pair:
     """The product of two pairs."""
     p, e = _product(a[0], b[0])
@@ -87,7 +87,7 @@ def _ratio(a: Pair, b: Pair) -> Pair:
     return ratio, ((a[0] - product) - error + a[1] - ratio * b[1]) / b[0]
 
 
-@njit
+@njit(error_model="numpy")
 def _series(square: Pair, first: int) -> Pair:
     """The sum of the terms n = first, first + 2, ... of the series, over x^first."""
     tail = _COEFFICIENTS[_MOST + first % 2 - 2 * (first % 2)][0]
@@ -99,7 +99,7 @@ def _series(square: Pair, first: int) -> Pair:
     return total
 
 
-@njit
+@njit(error_model="numpy")
 def _sine_and_cosine(x: float) -> tuple[Pair, Pair]:
     """Both as pairs; |x| is below a million."""
     quarters = np.floor(x * _QUARTERS_PER_RADIAN + 0.5)
@@ -116,7 +116,7 @@ def _sine_and_cosine(x: float) -> tuple[Pair, Pair]:
     return sine, cosine
 
 
-@njit
+@njit(error_model="numpy")
 def sin(x: float) -> float:
     """The sine; |x| is below a million."""
     if abs(x) < 1e-8:  # of numbers so small that the next digits of the series vanish
@@ -124,7 +124,7 @@ def sin(x: float) -> float:
     return _sine_and_cosine(x)[0][0]
 
 
-@njit
+@njit(error_model="numpy")
 def cos(x: float) -> float:
     """The cosine; |x| is below a million."""
     return _sine_and_cosine(x)[1][0]
