@@ -10,6 +10,7 @@ from cosserat.cases.catalogue import published
 from cosserat.data.provenance import computing_sources
 from cosserat.studies import elsewhere
 from cosserat.studies.door import find_study, published_studies
+from cosserat.thesis.book.edition import edition
 from cosserat.thesis.figures.catalogue import FIGURES
 
 min_version("9.0")
@@ -38,7 +39,7 @@ def package(*names):
     """Files of these folders of the package: Snakemake does not see edits of what a command imports."""
     folders = [os.path.join("cosserat", name) for name in names]
     files = [os.path.join(folder, file) for folder in folders for file in os.listdir(folder)]
-    return sorted(file for file in files if file.endswith((".py", ".css")))
+    return sorted(file for file in files if file.endswith((".py", ".css", ".js")))
 
 
 def batches():
@@ -254,11 +255,13 @@ rule peers:  # its table is tracked, so it is the output of no rule, and measure
 
 rule book:
     input:
-        package("thesis/book"),
+        package("thesis/book", "thesis/book/static", "figures"),
         "cosserat/__init__.py",
         notebooks=expand("results/notebooks/{chapter}.ipynb", chapter=CHAPTERS),
     output:
         "results/book/index.html",
+    params:
+        edition=edition().text,  # each page names its commit
     log:
         "results/logs/book.log",
     benchmark:

@@ -58,9 +58,7 @@ page.source(ground.placed)
 # The head is then the anchor, and the body pulls its rear forward.
 
 # %% tags=["remove-input"]
-page.animation(
-    "anim_robot", "Two cycles, four times as fast. Orange: advancing loads. The triangle is the anchor."
-)
+page.player("play_robot", "Two cycles, four times as fast. Lengths are true to scale.")
 
 # %% tags=["remove-input"]
 page.figure(
@@ -114,7 +112,9 @@ page.table(lines, ("soft robot", "displacement in a cycle"))
 page.rows("T2.1", "2.8-circumference", "2.8.2", "2.8.3")
 
 # %% tags=["remove-input"]
-page.animation("anim_worm", "Two strides in real time. Segment 50 is black, the triangle is the anchor.")
+page.player(
+    "play_worm", "Two strides in real time. Heights are drawn three times as large. Segment 50 is black."
+)
 
 # %% tags=["remove-input"]
 page.figure(

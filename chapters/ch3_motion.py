@@ -111,7 +111,7 @@ page.figure(
 page.rows("F3.13", "3.5.1")
 
 # %% tags=["remove-input"]
-page.animation("anim_vibration", "Displacements × 10, slowed down some thirty times.")
+page.player("play_vibration", "Slowed down some hundred times.")
 
 # %% tags=["remove-input"]
 lines = []
@@ -132,6 +132,13 @@ page.table(
 # The period of the computed motion is that of the lowest mode of the same rod, which follows from its Hessian and its mass.
 # `modes` gives frequencies and shapes about any stable equilibrium; an unstable one, such as a column above Euler's
 # load, is an error.
+
+# %% tags=["remove-input"]
+page.player(
+    cosserat.animate(cosserat.modes("vibration_c4_20", 4)),
+    "Each mode at its own pace; the amplitudes are arbitrary. The third one stretches the beam and does not bend it.",
+    name="play_modes",
+)
 
 # %% tags=["remove-input"]
 page.figure(
@@ -222,7 +229,10 @@ page.text(
 # computes this here; the explicit method of the thesis gives the same in many more steps.
 
 # %% tags=["remove-input"]
-page.animation("anim_relaxation", "Displacements × 20.")
+page.player(
+    "play_relaxation",
+    "The number behind each name magnifies the displacements. Slowed down some seven times.",
+)
 
 # %% tags=["remove-input"]
 lines = []

@@ -138,6 +138,18 @@ page.rows("C-e", "C-r", "C-column")
 page.source(continuation.corrected)
 
 # %% tags=["remove-input"]
+page.player(
+    "play_column",
+    "The slider is the number of the point on the path. The dot on the load curve goes with it.",
+)
+
+# %% tags=["remove-input"]
+page.player(
+    "play_arch",
+    "Between the two limit points no dead load holds the arch: it would snap to the other side.",
+)
+
+# %% tags=["remove-input"]
 page.figure(
     "fig_paths",
     "(a) leaves the straight column at Euler's load; (b) has two limit points, and loads of the opposite sign between them.",
@@ -160,6 +172,11 @@ assert readouts.buckling_ratio(page.data("column_path")).max() > 1.5
 # ## Motion
 #
 # The integrator of Chapter 3 also computes the motion of this rod.
+
+# %% tags=["remove-input"]
+page.player(
+    "play_tumbling", "A rod is thrown upwards and spins. Slowed down some thirty times, without gravity."
+)
 
 # %% tags=["remove-input"]
 page.figure(

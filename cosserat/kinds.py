@@ -21,7 +21,7 @@ class Kind:
 
     problem : a subclass of `cosserat.problem.Problem`.
     picture : a function from a Dataset to a figure; empty if `cosserat plot` has none.
-    animate : a function from a Dataset and a number of frames to an animation of Matplotlib; empty if nothing moves.
+    animate : a function from a Dataset and a number of frames to a `cosserat.figures.stage.Stage`, or empty.
     mesh : a function from a Dataset to the body as a `cosserat.export.mesh.Body`; empty if there is no body.
     moving : a function to a `cosserat.problems.tangents.Motion`, for exact derivatives; empty if there is none.
     refined : a function from a problem to its `cosserat.studies.analysis.refinements.Refinement`; empty without any.

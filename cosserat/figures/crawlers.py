@@ -1,4 +1,4 @@
-"""Crawlers as bodies on the ground: the side view of Figs. 2.1, 2.7 and 2.9, and animations of it."""
+"""Crawlers as bodies on the ground: the side view of Figs. 2.1, 2.7 and 2.9."""
 
 from __future__ import annotations
 
@@ -23,8 +23,6 @@ GAMMA, ETA, ANCHOR = FOURTH, COMPUTED, "#c1121f"  # purple, blue and red
 FRONTS = {"gamma": GAMMA, "eta": ETA}
 STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
 WIDTHS = {"mu_1": 2.4, "mu_2": 1.0, "mu_3": 1.4}  # mu_2 lies on mu_1 apart from the weight
-_WIDTH, _MARGIN = 720, 14  # of an animation, in pixels
-_SHOWN = 126  # sections of an animated outline
 
 
 def draw_crawler(
@@ -193,60 +191,6 @@ def draw_loads(ax: Axes, data: xr.Dataset, name: str) -> None:
     image = ax.pcolormesh(data.time, 1e2 * data.xi_section, values, cmap="viridis", rasterized=True)
     ax.figure.colorbar(image, ax=ax, label=label)
     ax.set(xlabel="time [s]", ylabel=r"$\xi$ [cm]")
-
-
-def animation(data: xr.Dataset, *, seconds: float, mark: float | None = None) -> str:
-    """A crawl as an SVG that plays by itself: body, advancing regions, anchor and ground."""
-    chosen = np.unique(np.linspace(0, data.sizes["section"] - 1, _SHOWN).round().astype(int))
-    along = data.along.to_numpy()[:, chosen]
-    radius = np.broadcast_to(resting_radius(data), data.sizes["section"])[chosen]
-    top = 2 * radius * data.mu_1.to_numpy()[:, chosen]
-    thin = data.advancing.to_numpy()[:, chosen] > 0.5
-    low, high = along.min() - radius.max(), along.max() + radius.max()
-    scale = (_WIDTH - 2 * _MARGIN) / (high - low)
-    ground = _MARGIN + scale * float(top.max())
-
-    def x(z: Array) -> Array:
-        pixels: Array = _MARGIN + scale * (z - low)
-        return pixels
-
-    def outline(frame: int, run: slice) -> str:
-        left, up = x(along[frame, run]), ground - scale * top[frame, run]
-        above = "L".join(f"{a:.1f} {b:.1f}" for a, b in zip(left, up, strict=True))
-        return f"M{above}L{left[-1]:.1f} {ground:.1f}L{left[0]:.1f} {ground:.1f}Z"
-
-    times = data.time.to_numpy()
-    keys = ";".join(f"{t:.5f}" for t in (times[:-1] - times[0]) / (times[-1] - times[0]))
-    frames = range(times.size - 1)
-
-    def shape(paths: list[str], look: str) -> str:
-        return (
-            f'<path d="{paths[0]}" {look}><animate attributeName="d" calcMode="discrete" dur="{seconds}s" '
-            f'repeatCount="indefinite" keyTimes="{keys}" values="{";".join(paths)}"/></path>'
-        )
-
-    bodies = [outline(f, slice(None)) for f in frames]
-    thinned = ["".join(outline(f, run) for run in runs(thin[f])) or "M0 0" for f in frames]
-    feet = x(data.anchor_along.to_numpy())
-    anchors = [f"M{a:.1f} {ground:.1f}l-6 11l12 0Z" for a in feet[:-1]]
-    parts = [
-        shape(bodies, f'fill="{BODY}"'),
-        shape(thinned, f'fill="{THINNED}"'),
-        shape(bodies, f'fill="none" stroke="{INK}" stroke-width="0.8"'),
-    ]
-    if mark is not None:
-        k = int(np.argmin(np.abs(chosen / chosen[-1] - mark)))
-        parts.append(shape([outline(f, slice(k - 1, k + 2)) for f in frames], 'fill="black"'))
-    height = int(ground + 13 + _MARGIN)
-    parts += [
-        f'<path d="M0 {ground:.1f}H{_WIDTH}" stroke="{INK}"/>',
-        shape(anchors, f'fill="{ANCHOR}"'),
-    ]
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {height}" width="{_WIDTH}">'
-        + "".join(parts)
-        + "</svg>\n"
-    )
 
 
 def runs(flags: NDArray[np.bool_]) -> list[slice]:

@@ -1,56 +1,120 @@
-"""Animations of crawls: the body on the ground, where advancing loads act, and the anchor."""
+"""Crawls as stages of the player: the body on the ground, its stretches, and the paths of its ends."""
 
 from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from matplotlib.animation import FuncAnimation
-from matplotlib.artist import Artist
-from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
 from cosserat.figures.animated import FRAMES
-from cosserat.figures.crawlers import ANCHOR, THINNED, legend_of_bodies, resting_radius, runs
-from cosserat.figures.style import BODY, INK, canvas, title_of
+from cosserat.figures.crawlers import resting_radius
+from cosserat.figures.stage import Line, Mark, Panel, Slider, Stage, chosen
 
 Array = NDArray[np.float64]
-_INTERVAL = 80  # from one frame to the next [ms]
+
+_SECTIONS = 101  # of a drawn body
+_PLACES = 76  # of the stretches along it
+_LONGEST = 20.0  # a crawl plays in real time, and faster if that takes longer [s]
+_STRETCHES = {
+    "mu_1": ("computed", "stretch of the radius \N{GREEK SMALL LETTER MU}\N{SUBSCRIPT ONE}", "")
+}
+_STRETCHES["mu_3"] = (
+    "variant",
+    "stretch of the length \N{GREEK SMALL LETTER MU}\N{SUBSCRIPT THREE}",
+    "6 3",
+)
+_ALT = (
+    "A body from the side on the ground. Where the advancing load acts it is thin and long, elsewhere short and thick; "
+    "these parts travel from the front to the rear. Below: the stretches along the body, and the places of its ends "
+    "and of its anchor in time."
+)
 
 
-def animate(data: xr.Dataset, frames: int = FRAMES) -> FuncAnimation:
-    """A crawl seen from the side, with the time in the title; lengths are true to scale, in cm.
+def animate(
+    data: xr.Dataset,
+    frames: int = FRAMES,
+    *,
+    tall: float = 1.0,
+    mark: float | None = None,
+    alt: str = _ALT,
+) -> Stage:
+    """A crawl in time; lengths are true to scale, in cm.
 
-    frames : most instants shown, at equal distances.
+    frames : most instants shown, at equal distances.  tall : magnification of heights in the drawing.
+    mark : fraction of the length at which a section is marked in black.
     """
-    radius, count = 1e2 * resting_radius(data), data.sizes["time"]
-    chosen = np.unique(np.linspace(0, count - 1, min(count, frames)).round().astype(int))
-    along, top = 1e2 * data.along.to_numpy(), 2 * radius * data.mu_1.to_numpy()
-    thin, foot = data.advancing.to_numpy() > 0.5, 1e2 * data.anchor_along.to_numpy()
-    margin = float(np.max(radius))
-    limits = (along.min() - 2 * margin, along.max() + 2 * margin), (-margin, top.max() + margin)
-    flat = (limits[1][1] - limits[1][0]) / (limits[0][1] - limits[0][0])
-    figure, (ax,) = canvas(7.2, 1.3 + 6.3 * flat)
-    body, advancing = (PolyCollection([], facecolor=colour, edgecolor=INK) for colour in (BODY, THINNED))
-    for part in (body, advancing):
-        part.set_linewidth(0.8)
-        ax.add_collection(part)
-    (anchor,) = ax.plot([], [], marker="^", color=ANCHOR, clip_on=False)
-    ax.axhline(0, color=INK, linewidth=0.8)
-    ax.set_aspect("equal")
-    ax.set(xlim=limits[0], ylim=limits[1], xlabel="along the ground [cm]", ylabel="height [cm]")
-    ax.grid(visible=False)
-    figure.legend(handles=legend_of_bodies(), loc="outside lower center", ncols=3)
-
-    def draw(frame: int) -> list[Artist]:
-        body.set_verts([_outline(along[frame], top[frame])])
-        advancing.set_verts([_outline(along[frame][run], top[frame][run]) for run in runs(thin[frame])])
-        anchor.set_data([foot[frame]], [0.0])
-        ax.set_title(f"{title_of(data)}, t = {data.time.to_numpy()[frame]:.2f} s")
-        return [body, advancing, anchor]
-
-    return FuncAnimation(figure, draw, frames=chosen.tolist(), interval=_INTERVAL)
+    shown = chosen(data.sizes["time"], frames)
+    state, time = data.isel(time=shown), data.time.to_numpy()[shown]
+    panels = (_side(state, tall, mark), stretches_panel(state), _paths(state, time))
+    seconds = min(float(time[-1] - time[0]), _LONGEST)
+    return Stage(
+        str(data.attrs.get("title", "")),
+        alt,
+        panels,
+        Slider("time", time, "s"),
+        seconds,
+        poster=(int(np.argmax(state.advancing.to_numpy().sum(axis=1))),),
+    )
 
 
-def _outline(along: Array, top: Array) -> Array:
-    """The outline of a part of the body from the side, shape (2 sections, 2)."""
-    return np.column_stack([np.r_[along, along[::-1]], np.r_[top, np.zeros_like(top)]])
+def _side(state: xr.Dataset, tall: float, mark: float | None) -> Panel:
+    """The body on the ground."""
+    sections = chosen(state.sizes["section"], _SECTIONS)
+    radius = np.broadcast_to(resting_radius(state), state.sizes["section"])[sections]
+    along = 1e2 * state.along.to_numpy()[:, sections]
+    top = 2e2 * radius * state.mu_1.to_numpy()[:, sections]
+    thin = state.advancing.to_numpy()[:, sections] > 0.5
+    reach = np.array([along.min(), along.max()])
+    parts: list[Line | Mark] = [
+        Line(reach, np.zeros(2), look="ink", width=1.0),
+        Line(along, top, look="ink", fill="body", base=0.0, width=0.9, label="anchoring load"),
+        Line(
+            along,
+            np.where(_extended(thin), top, np.nan),
+            "ink",
+            "thinned",
+            0.0,
+            width=0.9,
+            label="advancing load",
+        ),
+    ]
+    if mark is not None:
+        k = round(mark * (sections.size - 1))
+        near = slice(k, k + 2)
+        parts.append(
+            Line(along[:, near], top[:, near], "ink", "ink", 0.0, width=0.9, label="marked segment")
+        )
+    parts.append(
+        Mark(
+            1e2 * state.anchor_along.to_numpy(), np.zeros(along.shape[0]), "triangle", "anchor", "anchor"
+        )
+    )
+    height = "height [cm]" if tall == 1 else f"height, drawn \N{MULTIPLICATION SIGN} {tall:g} [cm]"
+    return Panel(tuple(parts), "along the ground [cm]", height, true=True, tall=tall, wide=True)
+
+
+def _extended(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Flags (states, sections), each run extended by one section so that neighbours meet."""
+    more: NDArray[np.bool_] = flags.copy()
+    more[:, 1:] |= flags[:, :-1]
+    return more
+
+
+def stretches_panel(state: xr.Dataset) -> Panel:
+    """The stretches along the body in each state."""
+    places = chosen(state.sizes["section"], _PLACES)
+    at = 1e2 * state.xi_section.to_numpy()[places]
+    parts = tuple(
+        Line(at, state[name].to_numpy()[..., places], look, dash=dash, label=label)
+        for name, (look, label, dash) in _STRETCHES.items()
+    )
+    return Panel(parts, "arc length \N{GREEK SMALL LETTER XI} of the resting body [cm]", "stretch [1]")
+
+
+def _paths(state: xr.Dataset, time: Array) -> Panel:
+    """Where the ends are in time, with dots at the state that is shown."""
+    parts: list[Line | Mark] = []
+    for section, look, label in ((0, "exact", "rear end"), (-1, "ink", "front end")):
+        along = 1e2 * state.along.to_numpy()[:, section]
+        parts += [Line(time, along, look, label=label), Mark(time, along, "dot", look)]
+    return Panel(tuple(parts), "time [s]", "along the ground [cm]")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import xarray as xr
 from matplotlib.figure import Figure
@@ -14,12 +13,10 @@ from cosserat.data.files import check_destination
 from cosserat.data.netcdf import opened
 from cosserat.errors import InputError, path_of
 from cosserat.figures.animated import ENDINGS, FRAMES, MOST_FRAMES, write_animation
+from cosserat.figures.stage import Stage
 from cosserat.figures.style import PICTURES, note, settings, write
 from cosserat.publications import kinds
 from cosserat.text import shown
-
-if TYPE_CHECKING:
-    from matplotlib.animation import FuncAnimation
 
 
 def plot(result: xr.Dataset | str | Path, path: str | Path | None = None) -> Figure:
@@ -87,13 +84,13 @@ def _refuse_analysis(data: xr.Dataset) -> None:
 
 def animate(
     result: xr.Dataset | str | Path, path: str | Path | None = None, frames: int = FRAMES
-) -> FuncAnimation:
-    """The animation of a result, by matplotlib.
+) -> Stage:
+    """The animation of a result: its body and curves in each state, with a slider.
 
-    A notebook shows it by "IPython.display.HTML(cosserat.animate(result).to_jshtml())".
+    A notebook shows it as a player.  What an animation consists of: `cosserat.figures.stage.Stage`.
 
     result : a Dataset, or the name of its file.
-    path : also write the animation there: a GIF, or HTML with buttons.
+    path : also write the animation there: a GIF, or HTML with a player.
     frames : most instants that are shown, at equal distances, from 2 to 1000.
 
     Raises
@@ -120,10 +117,10 @@ def animate(
             f"{name_of(data)} is of kind '{kind}', which has no animation; kinds with one are {moving}"
         )
     with settings(), holding_what_is_needed(data, "its animation"):
-        animation: FuncAnimation = kinds()[kind].animation_function()(data, frames)
+        stage: Stage = kinds()[kind].animation_function()(data, frames)
         if path is not None:
-            write_animation(animation, path_of(path))
-    return animation
+            write_animation(stage, path_of(path))
+    return stage
 
 
 def _files(result: xr.Dataset | str | Path) -> list[Path]:

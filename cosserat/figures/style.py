@@ -91,20 +91,17 @@ def canvas(width: float, height: float, rows: int = 1, columns: int = 1) -> tupl
     return figure, [ax for line in axes for ax in line]
 
 
-def note(figure: Figure | str, said: list[str]) -> None:
-    """Put warnings below a picture; an animation shows none."""
-    if said and isinstance(figure, Figure):
+def note(figure: Figure, said: list[str]) -> None:
+    """Put warnings below a picture."""
+    if said:
         width = int(20 * figure.get_size_inches()[0])
         lines = [textwrap.fill(f"Warning: {warning}", width) for warning in said]
         figure.supxlabel(plain("\n".join(lines)), x=0.01, ha="left", fontsize=7, color=VARIANT)
 
 
-def write(figure: Figure | str, path: Path) -> None:
-    """Write a picture without a date, whole or not at all, as the name ends; a text is already an SVG."""
+def write(figure: Figure, path: Path) -> None:
+    """Write a picture without a date, whole or not at all, as the name ends."""
     with settings(), whole_or_absent(path) as temporary:
-        if isinstance(figure, str):
-            temporary.write_text(figure, encoding="utf-8")
-            return
         date = PICTURES[path.suffix]
         figure.savefig(
             temporary,

@@ -69,7 +69,7 @@ def solve_many(
 
 def _family(problem: RodStatics, columns: Mapping[str, Array]) -> tuple[Family, MechanicalSystem] | None:
     """What all members have in common, and one of them; None if the compiled loop or these formulas do not fit."""
-    if not all(_fits(problem, key, columns) for key in columns):
+    if not all(fits(problem, key, columns) for key in columns):
         return None
     geometry = problem.geometry
     system = problem.system(geometry)
@@ -77,12 +77,17 @@ def _family(problem: RodStatics, columns: Mapping[str, Array]) -> tuple[Family, 
         check_supports(system, "the rod")
     except UnsupportedRodError:
         return None
-    family = Family.of(system, problem.newton) if problem.pose is None else None
+    family = family_of(problem, system)
     return None if family is None else (family, system)
 
 
-def _fits(problem: RodStatics, key: str, columns: Mapping[str, Array]) -> bool:
-    """Whether a key may differ between members of this problem."""
+def family_of(problem: RodStatics, system: MechanicalSystem) -> Family | None:
+    """What rods that differ in columns have in common; None if the compiled loop does not take them."""
+    return Family.of(system, problem.newton) if problem.pose is None else None
+
+
+def fits(problem: RodStatics, key: str, columns: Mapping[str, Array]) -> bool:
+    """Whether a key may differ between members of this problem; columns : all keys that differ."""
     if key not in OF_BODY:
         kind, *_, number = key.split(".")
         return OF_LOADS.get(kind) == number and quantity_of(problem, key) is not None

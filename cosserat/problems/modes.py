@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.errors import InputError
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Run
-from cosserat.problems.posed import PosedProblem
+from cosserat.problems.grown import GrownProblem
 from cosserat.problems.special import leading
 from cosserat.problems.static import check_supports, equilibrium_solution
 from cosserat.rods.holding import free_motions
@@ -23,8 +22,8 @@ from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, coarse
 from cosserat.solution import Field, Solution
 from cosserat.solvers.banded import Vector, band_product
-from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
-from cosserat.solvers.incremental import without_load
+from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
+from cosserat.solvers.incremental import solve_full_load, without_load
 from cosserat.solvers.modes import SmallMotions, small_motions
 from cosserat.solvers.system import MechanicalSystem
 
@@ -33,7 +32,7 @@ _MOVED = ("prescribed_displacements", "prescribed_rotations")  # keys of constra
 _GROWS = 1e-7  # growth per radian of oscillation below which it is round-off
 
 
-class RodModes(PosedProblem):
+class RodModes(GrownProblem):
     """Natural modes of a rod: small undamped motions about its equilibrium.
 
     Shapes have a modal mass of one, v . M v = 1, and their largest displacement is positive.  The effective mass of a
@@ -43,7 +42,6 @@ class RodModes(PosedProblem):
     """
 
     kind: Literal["modes"] = "modes"
-    newton: NewtonSettings = NewtonSettings()
     count: Annotated[int, Count(at_least=1, at_most=100_000)] = 6
     """Number of modes, from the lowest."""
     about: Literal["equilibrium", "reference"] = "equilibrium"
@@ -59,18 +57,20 @@ class RodModes(PosedProblem):
                 "has 'pose' and about = 'reference', but a rod that is bent into a pose is not at rest there; "
                 "leave one of them out",
             )
+        if self.start_from is not None and self.about == "reference":
+            raise PydanticCustomError(
+                "start",
+                "has 'start_from' and about = 'reference', but the loads of 'start_from' stay; leave one of them out",
+            )
         return self
 
     @classmethod
     def of(cls, problem: RodProblem, count: int) -> Self:
         """The modes of the rod of another problem: about its equilibrium; of a motion, without its loads."""
-        if not problem.in_time and getattr(problem, "start_from", None) is not None:
-            raise InputError(
-                "the case has 'start_from', whose loads stay while its own grow, and natural modes are about one "
-                "equilibrium; give all loads to one case of kind 'modes'"
-            )
         left = {*LOADS, *_MOVED} if problem.in_time else set()
-        own = {*PosedProblem.model_fields, "newton"} - left
+        if problem.in_time:  # a motion has its own start
+            left.add("start_from")
+        own = {*GrownProblem.model_fields} - left
         given = {name: getattr(problem, name) for name in own if hasattr(problem, name)}
         about = "reference" if problem.in_time and given.get("pose") is None else "equilibrium"
         return cls(**given, count=count, about=about)
@@ -85,7 +85,7 @@ class RodModes(PosedProblem):
         CrossingError : neighbouring sections of the equilibrium cross.
         """
         geometry = self.geometry
-        point, solver = self.settled_rod(geometry, name)
+        point, solver, said = self.settled_rod(geometry, name)
         rest = equilibrium_solution(self, geometry, point, solver)
         check_crossing(geometry, rest["x"], rest["d"], self.rod.below, name)
         system, held = solver.system, not free_motions(solver.system).any()
@@ -99,7 +99,7 @@ class RodModes(PosedProblem):
             "lowest_Hz": float(found.angular_frequency[0] / (2 * np.pi)),
             "highest_Hz": float(found.angular_frequency[-1] / (2 * np.pi)),
         }
-        warnings = (*solver.warnings(), *coarse(rest["d"]), *_growing(found), *self._fewer(found))
+        warnings = (*said, *solver.warnings(), *coarse(rest["d"]), *_growing(found), *self._fewer(found))
         return replace(rest, fields=fields, statistics=statistics, warnings=warnings)
 
     def mode_fields(
@@ -130,17 +130,24 @@ class RodModes(PosedProblem):
             ]
         )
 
-    def settled_rod(self, geometry: Geometry, name: str) -> tuple[Equilibrium, EquilibriumSolver]:
-        """What the rod moves about, in displacements, with its solver."""
+    def settled_rod(
+        self, geometry: Geometry, name: str
+    ) -> tuple[Equilibrium, EquilibriumSolver, tuple[str, ...]]:
+        """What the rod moves about, in displacements, with its solver, and warnings of where its loads begin."""
+        stay = self.branch == "stay"
+        if self.start_from is not None:
+            grown, said = self.grown(geometry, name)
+            solver = EquilibriumSolver(grown, self.newton, name)
+            return solve_full_load(solver, stay=stay), solver, said
         system = self.system(geometry)
         loaded = any(self.loads_of(key) for key in LOADS) or system.constraints.moving
         bent = loaded or self.pose is not None
         if self.about == "equilibrium" and (bent or not free_motions(system).any()):
             check_supports(system, name)
             solver = EquilibriumSolver(system, self.newton, name)
-            return self.settled(geometry, solver, stay=self.branch == "stay")
+            return (*self.settled(geometry, solver, stay=stay), ())
         bare = system.unloaded()
-        return without_load(bare), EquilibriumSolver(bare, self.newton, name)
+        return without_load(bare), EquilibriumSolver(bare, self.newton, name), ()
 
     def _shapes(self, found: SmallMotions) -> dict[str, Field]:
         """Frequencies, rates of growth and shapes; imaginary parts where there are any."""

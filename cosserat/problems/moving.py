@@ -9,6 +9,7 @@ from typing import cast
 import numpy as np
 
 from cosserat.problem import Problem
+from cosserat.problems.moving_rows import moved_by_rows
 from cosserat.problems.static import FIELDS, RodStatics, State, equilibrium_solution
 from cosserat.problems.tangents import Body, Motion, Moved, Nearby, move, total_mass
 from cosserat.publications import kinds
@@ -30,21 +31,22 @@ class MovedStatics:
 
     def solution(self, step: float) -> Solution:
         """Fields of the equilibrium after a step, to first order, at least those that are wanted."""
-        body = self.moved.body(step)
-        return self._few(step, body) if self.wanted <= _QUICK else self._whole(step, body)
+        return self._few(step) if self.wanted <= _QUICK else self._whole(step)
 
-    def _few(self, step: float, body: Body) -> Solution:
+    def _few(self, step: float) -> Solution:
         """The wanted ones alone."""
-        rod = body.problem.rod
-        point = self.moved.state(step).unframed(body.system)
-        state = State(rod, body.geometry, point.q, np.zeros_like(point.q), point.reaction)
+        rod, geometry = self.moved.shape(step)
+        point = self.moved.state(step).unframed(self.moved.system(step))
+        state = State(rod, geometry, point.q, np.zeros_like(point.q), point.reaction)
         fields = {name: (FIELDS[name][0], FIELDS[name][1](state)) for name in self.wanted & set(FIELDS)}
         labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs}
         if "total_mass" in self.wanted:
+            body = self.moved.body(step)
             fields |= total_mass(body.problem, body.geometry)[0]
         return Solution(fields, {}, labels)
 
-    def _whole(self, step: float, body: Body) -> Solution:
+    def _whole(self, step: float) -> Solution:
+        body = self.moved.body(step)
         problem = cast("RodStatics", body.problem)
         solver = EquilibriumSolver(body.system, problem.newton, self.name)
         found = equilibrium_solution(problem, body.geometry, self.moved.state(step), solver)
@@ -61,7 +63,7 @@ def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str, wan
     """
     base = Body.of(problem)
     point, _ = problem.equilibrium(base.geometry, base.system, name)
-    moved = [Moved(one, base, point) for one in nearby]
+    moved = moved_by_rows(problem, nearby, base, point)
     found = MovedStatics(Moved(lambda _: problem, base, point), name, {"every"}).solution(0.0)
     check_crossing(base.geometry, found["x"], found["d"], problem.rod.below, name)
     lost = move(moved) if moved else []

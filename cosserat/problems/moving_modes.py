@@ -15,6 +15,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from cosserat.errors import InputError
 from cosserat.problems.modes import RodModes
 from cosserat.problems.static import equilibrium_solution
 from cosserat.problems.tangents import Body, Motion, Moved, Nearby, move
@@ -152,8 +153,13 @@ def moving_modes(
     ------
     CosseratError : it has no modes.
     """
+    if problem.start_from is not None:
+        raise InputError(
+            f"{name}: its loads grow from another equilibrium, and derivatives are of loads that grow from rest; "
+            "give all loads to one case"
+        )
     geometry = problem.geometry
-    point, solver = problem.settled_rod(geometry, name)
+    point, solver, _ = problem.settled_rod(geometry, name)
     system = solver.system
     bare = point.factor == 0.0
     made = (lambda other, own: other.system(own).unloaded()) if bare else None

@@ -21,6 +21,7 @@ from cosserat.errors import CosseratError, InputError
 from cosserat.problems.posed import PosedProblem
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
+from cosserat.rods.rod import Rod
 from cosserat.solution import Field, Solution
 from cosserat.solvers.equilibrium import Equilibrium
 from cosserat.solvers.slopes import slope
@@ -30,6 +31,23 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Nearby = Callable[[float], Any]
 """The problem after a step of its parameter; a step of zero is the problem itself."""
+
+
+@dataclass(frozen=True)
+class NearKey:
+    """The problem after a step of one of its keys, a `Nearby`.
+
+    made : the problem after a step.  key : its dotted path.  after : its value after a step.
+    """
+
+    made: Nearby
+    key: str
+    after: Callable[[float], float]
+
+    def __call__(self, step: float) -> Any:
+        """The problem after a step."""
+        return self.made(step)
+
 
 _SINGULAR = 1e-8  # of the load, within which of a critical one the equilibrium has no derivative
 _ROUGH = 1e-5  # of the largest derivative, above which its error says that there is none
@@ -114,6 +132,26 @@ def _shifted(before: Complex, after: Complex, away: Complex, moved: Complex) -> 
     return np.asarray((strain + (1 + strain) * np.expm1(moved / (before + away))) * after)
 
 
+def placed(base: Body, q: Array, rate: Array, steps: Array, references: Array) -> Array:
+    """The DOFs along the axes of space after some steps, (..., n): edges and directors rotate and stretch at the rates.
+
+    q, rate : (n,) of the base.  steps : (...).  references : (..., N, m, 2) [m].
+    """
+    split, out = base.problem.rod.kinematics.split, base.system.frame.out
+    before, after = _turned(base.reference), _turned(references)
+    away = _turned(split(out(q)))
+    moved = np.asarray(steps)[..., None, None] * _turned(split(out(rate)))
+    found = np.empty_like(after)
+    edges = _shifted(
+        np.diff(before[:, 0]), np.diff(after[..., 0]), np.diff(away[:, 0]), np.diff(moved[..., 0])
+    )
+    found[..., 0] = away[0, 0] + moved[..., :1, 0]
+    found[..., 1:, 0] += np.cumsum(edges, axis=-1)
+    found[..., 1:] = _shifted(before[:, 1:], after[..., 1:], away[:, 1:], moved[..., 1:])
+    flat = np.stack([found.real, found.imag], axis=-1)
+    return flat.reshape(*flat.shape[:-3], -1)
+
+
 class Moved:
     """An equilibrium that moves with a parameter.
 
@@ -163,20 +201,27 @@ class Moved:
     def _placed(self, step: float, rate: Array) -> Array:
         if step == 0.0 or not (self.point.q.any() or rate.any()):
             return self.point.q
-        body, base = self.body(step), self.base
-        split, out = base.problem.rod.kinematics.split, base.system.frame.out
-        before, after = _turned(base.reference), _turned(body.reference)
-        away, moving = _turned(split(out(self.point.q))), _turned(split(out(rate)))
-        found = np.empty_like(away)
-        edges = _shifted(
-            np.diff(before[:, 0]),
-            np.diff(after[:, 0]),
-            np.diff(away[:, 0]),
-            step * np.diff(moving[:, 0]),
+        found = placed(self.base, self.point.q, rate, np.array(step), self.reference(step))
+        return self.system(step).frame.into(found)
+
+    def system(self, step: float) -> MechanicalSystem:
+        """The system after a step, or one with the same frames, constraints and internal variables."""
+        return self.body(step).system
+
+    def reference(self, step: float) -> Array:
+        """Positions and directors of the reference after a step, (N, m, 2) [m]."""
+        return self.body(step).reference
+
+    def shape(self, step: float) -> tuple[Rod, Geometry]:
+        """The rod and its reference after a step."""
+        body = self.body(step)
+        return body.problem.rod, body.geometry
+
+    def gradient(self, step: float) -> Array:
+        """The gradient of the carried equilibrium after a step, (n,) [N]."""
+        return (
+            self.body(step).tangent(self.carried(step), self.point.history, self.point.factor).gradient
         )
-        found[:, 0] = away[0, 0] + step * moving[0, 0] + np.concatenate([[0], np.cumsum(edges)])
-        found[:, 1:] = _shifted(before[:, 1:], after[:, 1:], away[:, 1:], step * moving[:, 1:])
-        return body.system.frame.into(np.stack([found.real, found.imag], axis=-1).ravel())
 
     def state(self, step: float) -> Equilibrium:
         """The equilibrium after a step, to first order."""
@@ -187,7 +232,7 @@ class Moved:
             self.point,
             q=q,
             reaction=self.point.reaction + step * self.reaction_rate,
-            history=self.body(step).system.committed(q, self.point.history),
+            history=self.system(step).committed(q, self.point.history),
         )
 
     def unbalanced(self) -> Array:
@@ -197,12 +242,8 @@ class Moved:
         ------
         InputError : it has none, or the parameter is at an end of its range.
         """
-        history, factor = self.point.history, self.point.factor
         held = float(np.abs(self.point.reaction).max(initial=0.0))
-        found = slope(
-            lambda step: self.body(step).tangent(self.carried(step), history, factor).gradient,
-            max(self.point.rounding, _ROUNDED * held),
-        )
+        found = slope(self.gradient, max(self.point.rounding, _ROUNDED * held))
         free = ~self.base.system.constrained
         if found.relative > _ROUGH or found.kink[free].any():
             raise InputError("its forces do not change smoothly with the parameter")
@@ -216,7 +257,7 @@ class Moved:
 
         def held(step: float) -> Array:
             carried = self.carried(step)
-            return self.body(step).system.prescribe(carried, factor) - carried
+            return self.system(step).prescribe(carried, factor) - carried
 
         size = float(np.abs(self.base.reference).max() + np.abs(self.point.q).max())
         return slope(held, np.finfo(float).eps * size).value

@@ -28,6 +28,8 @@ class Material(Parameters):
     """Mass per length of the reference configuration; this or 'density' is given."""
     density: Annotated[float, Quantity("kg/m^3", r"\rho_0^*", "section 3.5", above=0)] | None = None
     """Mass per volume of the reference configuration; this or 'line_density' is given."""
+    expansion: Annotated[float, Quantity("K^-1", r"\alpha")] | None = None
+    """Coefficient of linear thermal expansion, for 'temperatures' that give none."""
 
     @model_validator(mode="after")
     def _determined(self) -> Self:

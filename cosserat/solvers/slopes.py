@@ -45,6 +45,16 @@ class Slope:
         return bool(self.kink.any()), float(self.error.max(initial=0.0))
 
 
+def steps_with(step: float) -> tuple[float, ...]:
+    """All steps to one side that are taken together with one of them; none if `slope` takes no such step."""
+    trials = (_halved(LARGEST / _SHORTER**trial) for trial in range(_TRIALS))
+    return next((steps for steps in trials if abs(step) in steps), ())
+
+
+def _halved(step: float) -> tuple[float, ...]:
+    return tuple(step / 2**level for level in range(_LEVELS))
+
+
 def slope(values: Callable[[float], Array], floor: float) -> Slope:
     """The derivative of a function at zero.
 
@@ -76,7 +86,7 @@ def slope(values: Callable[[float], Array], floor: float) -> Slope:
 
 def _extrapolated(values: Callable[[float], Array], step: float, floor: float) -> Slope:
     middle = np.asarray(values(0.0), dtype=np.float64)
-    steps = [step / 2**level for level in range(_LEVELS)]
+    steps = _halved(step)
     ahead, behind = ([np.asarray(values(sign * h)) for h in steps] for sign in (1.0, -1.0))
     odd = [(a - b) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
     even = [(a + b - 2 * middle) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]

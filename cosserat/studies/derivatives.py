@@ -14,7 +14,7 @@ from cosserat.errors import CosseratError, InputError
 from cosserat.problem import Problem
 from cosserat.problems.many import put_inside
 from cosserat.problems.moving import moves_exactly, moving
-from cosserat.problems.tangents import Motion, Moving, Nearby
+from cosserat.problems.tangents import Motion, Moving, Nearby, NearKey
 from cosserat.solution import Solution
 from cosserat.solvers.slopes import Slope, slope
 from cosserat.studies.keys import VariedKey, put, table_of, varied_key
@@ -149,7 +149,7 @@ def _nearby(problem: Problem, table: Mapping[str, Any], own: Parameter) -> Nearb
         valid[ahead] = abs(step)
         return found
 
-    return cast("Nearby", after)
+    return NearKey(after, own.key.path, own.after)
 
 
 class _Solved:

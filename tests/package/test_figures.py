@@ -51,7 +51,6 @@ def needed(solved, name):
 
 
 DRAWN = {}
-GRAPHS = [name for name in FIGURES if not name.startswith("anim_")]
 PHONE = 332  # pixels of a figure on a phone of 390
 
 
@@ -74,7 +73,7 @@ def test_beam_figures_plot_the_computed_and_the_analytic_curve_in_millimetres(so
 
 
 def test_every_axis_of_a_graph_has_a_unit(solved):
-    for name in GRAPHS:
+    for name in FIGURES:
         for ax in drawing(solved, name).axes:
             assert "[" in ax.get_xlabel(), name
             assert "[" in ax.get_ylabel() or not ax.get_yticks().size, (
@@ -184,7 +183,7 @@ def strokes(ax):
             yield Stroke(ax.transData.transform([text.xy, text.get_position()]))
 
 
-@pytest.mark.parametrize("name", GRAPHS)
+@pytest.mark.parametrize("name", FIGURES)
 def test_texts_of_a_figure_are_visible_and_do_not_overlap(solved, name):
     figure = drawing(solved, name)
     pixels = laid_out(figure)
@@ -213,7 +212,7 @@ def test_texts_of_a_figure_are_visible_and_do_not_overlap(solved, name):
                 assert not any(box.contains(*point) for point in points), line.get_label()
 
 
-@pytest.mark.parametrize("name", GRAPHS)
+@pytest.mark.parametrize("name", FIGURES)
 def test_curves_of_one_pair_of_axes_differ_for_a_deuteranope_and_are_seen_on_white(solved, name):
     for ax in drawing(solved, name).axes:
         colours = {line.get_color() for line in ax.lines if line.get_xydata().size}
@@ -222,7 +221,7 @@ def test_curves_of_one_pair_of_axes_differ_for_a_deuteranope_and_are_seen_on_whi
             assert distance(one, other) >= 20, (one, other)
 
 
-@pytest.mark.parametrize("name", GRAPHS)
+@pytest.mark.parametrize("name", FIGURES)
 def test_texts_of_a_figure_are_read_on_a_phone(solved, name):
     figure = drawing(solved, name)
     shrunk = min(1.0, PHONE / (96 * figure.get_size_inches()[0]))

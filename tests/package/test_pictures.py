@@ -11,8 +11,7 @@ from matplotlib.text import Annotation, Text
 
 import cosserat
 from cosserat.cli import main
-from cosserat.figures import motion, rod
-from cosserat.figures.animated import _page
+from cosserat.figures import motion, player, rod
 from cosserat.publications import kinds
 from cosserat.text import printable
 
@@ -127,4 +126,5 @@ def test_no_title_is_mathematics_in_any_picture(kind, solved):
 
 
 def test_the_name_of_a_file_is_no_markup_in_its_page():
-    assert "<title>&lt;b&gt;&amp;\\x1b</title>" in _page("", "<b>&\x1b")
+    shown = cosserat.animate(shaken())
+    assert "<title>&lt;b&gt;&amp;\\x1b</title>" in player.page(shown, "<b>&\x1b")

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 import cosserat
 from cosserat.errors import InputError
 from cosserat.problems.critical import RodCriticalLoads
+from cosserat.problems.modes import RodModes
 from cosserat.problems.path import RodPath
 
 HINGES = [{"at": "first", "fixed": "pinned"}, {"at": "last", "fixed": "roller"}]
@@ -241,11 +242,52 @@ def test_a_start_that_does_not_fit_is_refused_in_one_sentence(start, changes, se
         grown(static(**start), **{"forces": [push(1.0)]} | changes).solve("it")
 
 
-def test_modes_refuse_loads_that_stay():
-    from cosserat.problems.modes import RodModes
+def test_modes_of_a_path_are_about_the_end_of_its_loads_with_those_that_stay():
+    start = static(side=1e-2, forces=[push(10.0)])
+    path = grown(start, forces=[push(5.0)])
+    both = RodModes.of(static(side=1e-2, forces=[push(15.0)]).problem, 3).solve("it")
+    found = RodModes.of(path, 3).solve("it")
+    np.testing.assert_allclose(found["natural_frequency"], both["natural_frequency"], rtol=1e-9)
 
-    with pytest.raises(
-        InputError, match="the case has 'start_from', whose loads stay while its own grow"
-    ):
-        RodModes.of(grown(static(), forces=[push(1.0)]), 3)
-    assert RodCriticalLoads.of(grown(static(), forces=[push(1.0)]), 3).start_from == static().problem
+
+def hinged_frequency(side, push):
+    """The lowest angular frequency of a slender hinged column of length one under an axial push."""
+    material = static(side=side).problem.rod
+    euler = np.pi**2 * YOUNG * side**4 / 12
+    return np.pi**2 * np.sqrt(YOUNG * side**4 / 12 / material.line_density * (1 - push / euler))
+
+
+@pytest.mark.parametrize("own", [0.0, 0.4])
+def test_modes_about_a_held_push_are_those_of_a_column_under_all_of_it(own):
+    """Frequency pi^2 sqrt(EI / rho_0) sqrt(1 - P / P_E), P the held push with that of the case, of second order."""
+    side = 5e-3
+    euler, errors = np.pi**2 * YOUNG * side**4 / 12, []
+    for vertices in (11, 21, 41):
+        start = static(vertices, side, forces=[push(0.5 * euler)])
+        forces = [push(own * euler)] if own else []
+        found = grown(start, RodModes, forces=forces, count=1).solve("it")
+        right = hinged_frequency(side, (0.5 + own) * euler)
+        errors.append(2 * np.pi * found["natural_frequency"][0] / right - 1)
+    second_order(errors)
+    assert abs(errors[-1]) < 0.02
+
+
+def test_modes_about_a_held_bend_are_those_of_all_loads_at_once():
+    """Tension across a clamped rod that hangs far to one side, which straight rods do not see."""
+    held, more = push(6.0, along="E2"), push(3.0, along="-E3")
+    start = static(side=1e-2, supports=[CLAMP], forces=[held])
+    both = static(side=1e-2, supports=[CLAMP], forces=[held, more])
+    found = grown(start, RodModes, forces=[more], count=4).solve("it")
+    right = RodModes.of(both.problem, 4).solve("it")
+    np.testing.assert_allclose(found["natural_frequency"], right["natural_frequency"], rtol=1e-9)
+    np.testing.assert_allclose(found["x"], right["x"], atol=1e-9)
+    bare = RodModes.of(static(side=1e-2, supports=[CLAMP]).problem, 4).solve("it")
+    assert abs(found["natural_frequency"][0] / bare["natural_frequency"][0] - 1) > 0.02
+
+
+def test_modes_say_which_supports_let_go_and_take_no_reference():
+    start = static(side=1e-2, supports=[CLAMP], forces=[push(1.0, along="E2")])
+    with pytest.raises(InputError, match="a support holds the rod in the equilibrium of 'start_from'"):
+        grown(start, RodModes, supports=HINGES).solve("it")
+    with pytest.raises(InputError, match="has 'start_from' and about = 'reference'"):
+        grown(start, RodModes, about="reference")

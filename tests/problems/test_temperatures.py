@@ -240,7 +240,7 @@ def test_a_bar_heated_at_once_swings_about_its_length_at_rest():
     [
         (
             {"temperatures": [{"change": 40}]},
-            r"'temperatures.0.expansion' is missing, coefficient of linear",
+            r"'temperatures' has one without 'expansion', and 'rod.material' has none either",
         ),
         ({"temperatures": [{"change": "40 degC", "expansion": 1e-5}]}, "whose zero is not zero K"),
         (

@@ -1,22 +1,26 @@
 """The book: pages with readable equations, and a folder in which only files of a book are replaced."""
 
 import html
+import importlib.metadata
 import re
 import shutil
 from pathlib import Path
 
 import jupytext
 import nbformat
+import numpy as np
 import pytest
 from conftest import ROOT
 
 import cosserat
 from cosserat.describe.keys import common_keys, keys
 from cosserat.errors import CosseratError, InputError
+from cosserat.figures.stage import Mark, Panel, Slider, Stage
 from cosserat.publications import kinds
 from cosserat.thesis.book import page
 from cosserat.thesis.book.api import as_markup
 from cosserat.thesis.book.build import execute, render
+from cosserat.thesis.book.edition import edition
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::DeprecationWarning", "ignore::PendingDeprecationWarning"
@@ -33,13 +37,15 @@ def shown(html):
 def notebooks(tmp_path_factory):
     """Two pages, the first with a numbered equation."""
     folder = tmp_path_factory.mktemp("notebooks")
+    time = np.linspace(0, 1, 5)
+    panel = Panel((Mark(time, time**2),), "time [s]", "height [m]")
+    moving = Stage("A point", "A point rises.", (panel,), Slider("time", time, "s"))
     with pytest.MonkeyPatch.context() as patch:
         (folder / "figures").mkdir()
         (folder / "figures" / "fig_2_1.svg").write_text("<svg/>")
-        (folder / "figures" / "anim_worm.svg").write_text("<svg/>")
         patch.setattr(page, "results", lambda: folder)
         drawn = page.figure("fig_2_1", "Ahead of $\\gamma$.").data
-        drawn += page.animation("anim_worm", "From $t_p/2$ on.").data
+        drawn += page.player(moving, "From $t_p/2$ on.", name="play_point").data
     table = page.table([["$a < b$", "5"]], ["of $\\mu_3$", "times"]).data
     toctree = "```{toctree}\nother\n```"
     for name, text in (
@@ -73,8 +79,10 @@ def contents(folder):
 
 
 def rules(book):
-    """Declarations of the stylesheet by selector."""
-    text = (book / "_static" / "book.css").read_text()
+    """Declarations of the stylesheet by selector, those for screens."""
+    text = re.sub(r"/\*.*?\*/", "", (book / "_static" / "book.css").read_text(), flags=re.DOTALL).split(
+        "@media print"
+    )[0]
     return {
         selector.strip(): block
         for selectors, block in re.findall(r"([^{}]+)\{([^}]*)\}", text)
@@ -114,6 +122,22 @@ def test_dark_captions_have_the_background_of_the_page(built):
     assert 'html[data-theme="dark"]' in selector
     assert len(re.findall(r"[.\[]", selector)) > 5
     assert "background: none; color: inherit" in rules(built)[selector]
+
+
+def test_a_page_names_its_edition_and_loads_no_more_than_it_needs(built):
+    text = (built / "index.html").read_text()
+    assert f"<p>{edition().text}</p>" in text
+    assert edition().text.startswith(f"version {importlib.metadata.version('cosserat')}")
+    assert 'data-default-mode="auto"' in text
+    assert "fontawesome.js" not in text
+    asked = re.findall(r'(?:src|href)="(_static/[^"?]+)', text)
+    assert len(asked) > 10
+    assert [file for file in asked if not (built / file).is_file()] == []
+    kept = contents(built)
+    assert not [
+        name for name in kept if name.endswith(".map") or "/locales/" in name or name == "genindex.html"
+    ]
+    assert sum(map(len, kept.values())) < 5e6
 
 
 def test_a_book_replaces_a_book_and_an_empty_folder(notebooks, book, tmp_path):

@@ -8,7 +8,8 @@ it, in proportion to the load factor.
 A temperature that changes by T in the middle of the section, and by T' per height towards the director, strains every
 fibre by alpha (T + T' y): the axial strain is alpha T, the curvature -alpha T', and the section stretches by alpha T.
 Where the sections keep their width (plane strain), 1 + nu times as much: the stress alpha T (3 Lambda + 2 mu) of the
-solid over 2 (Lambda + mu).  For an incompressible section nu = 1/2.
+solid over 2 (Lambda + mu).  For an incompressible section nu = 1/2.  Layers of several coefficients also bend under T
+alone; see `rods.sections.composite`.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ from cosserat.parameters import Quantity
 from cosserat.rods.energies.reissner import Reissner, stressed
 from cosserat.rods.loads.load import LoadedRod, Stretch
 from cosserat.rods.rod import Rod
-from cosserat.rods.variation import mean, overlap, vertex_cuts
+from cosserat.rods.sections.section import FreeStrains, expanded
+from cosserat.rods.variation import Scales, mean, overlap, vertex_cuts
 from cosserat.solvers.potential import Potential
 
 Array = NDArray[np.float64]
@@ -52,11 +54,8 @@ class StressFreeStrain(Stretch):
         return self
 
     @abstractmethod
-    def strains(self, poisson: Array) -> tuple[Array, Array, Array]:
-        """Axial strain [1], curvature [1/m] and stretch of the sections [1] where Poisson's ratio counts so much.
-
-        poisson : the ratio where the sections keep their width, zero where they are free.
-        """
+    def strains(self, rod: Rod, cuts: Array) -> FreeStrains:
+        """The strains without stress of the parts of a rod between cuts (n + 1,) [m], each (n,)."""
 
     def check(self, rod: Rod, key: str) -> None:
         """Require a stretch of the rod, and an energy that is quadratic in its measures."""
@@ -81,10 +80,10 @@ class StressFreeStrain(Stretch):
         for load in loads:
             on_edges = overlap(arc, *load.ends(body.rod)) / np.diff(arc)
             round_vertices = load.covered(body) / np.diff(parts)
-            strain, bend, _ = load.strains(_confined(body.rod, arc))
-            extension += on_edges * strain
-            curvature += on_edges * bend
-            section += round_vertices * load.strains(_confined(body.rod, parts))[2]
+            strains = load.strains(body.rod, arc)
+            extension += on_edges * strains.axial
+            curvature += on_edges * strains.curvature
+            section += round_vertices * load.strains(body.rod, parts).section
         energy = body.rod.strain_energy.potential(
             body.rod, body.geometry, displacements=body.origin is not None
         )
@@ -111,10 +110,10 @@ class PreStrain(StressFreeStrain):
     section: Annotated[float, Quantity("1", above=-1)] = 0.0
     """Strain of the sections along their directors without stress."""
 
-    def strains(self, poisson: Array) -> tuple[Array, Array, Array]:
+    def strains(self, rod: Rod, cuts: Array) -> FreeStrains:
         """As given."""
-        same = np.ones_like(poisson)
-        return self.extension * same, self.curvature * same, self.section * same
+        same = np.ones(cuts.size - 1)
+        return FreeStrains(self.extension * same, self.curvature * same, self.section * same)
 
 
 class Temperature(StressFreeStrain):
@@ -125,10 +124,21 @@ class Temperature(StressFreeStrain):
     """Change of the temperature at the elastic centres of the sections, which are the area centres of one material."""
     gradient: Annotated[float, Quantity("K/m")] = 0.0
     """Increase of that change per height of the section, from the lower to the upper surface."""
-    expansion: Annotated[float, Quantity("K^-1")]
-    """Coefficient of linear thermal expansion."""
+    expansion: Annotated[float, Quantity("K^-1", r"\alpha")] | None = None
+    """Coefficient of linear thermal expansion, the same everywhere; those of the materials by default."""
 
-    def strains(self, poisson: Array) -> tuple[Array, Array, Array]:
-        """Those of an expansion in all directions."""
-        expansion = (1 + poisson) * self.expansion
-        return expansion * self.change, -expansion * self.gradient, expansion * self.change
+    def check(self, rod: Rod, key: str) -> None:
+        """Require a coefficient of expansion here or in the materials."""
+        super().check(rod, key)
+        if self.expansion is None:
+            rod.section.check_expansion(rod.material, key)
+
+    def strains(self, rod: Rod, cuts: Array) -> FreeStrains:
+        """Those of an expansion in all directions; layers of several materials also bend."""
+
+        def free(scale: Scales, _: Array) -> Array:
+            if self.expansion is not None:
+                return np.stack(expanded(self.expansion, self.change, self.gradient, scale.height))
+            return np.stack(rod.section.expand(rod.material, self.change, self.gradient, scale.height))
+
+        return FreeStrains(*((1 + _confined(rod, cuts)) * mean(rod.stations, free, cuts)))

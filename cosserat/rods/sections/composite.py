@@ -11,6 +11,15 @@ that is, `Elastic` with volume = S n, section = S (1 - n), axial = EA - S n (1 -
 Lambda A.  Strain and bending do not couple about the elastic centre, where sum E_i A_i y_i = 0.  A bent section of
 layers also changes its height by the mean of nu y times the curvature; this is left out: it changes no stiffness and
 no displacement of the centreline, only the stretch that is shown.
+
+derived: a layer of the coefficient a_i that is warmer by T_i would strain by f_i = a_i T_i in all directions.  The same
+energy, with e - f_i and w_i - f_i in place of e and w_i, is
+
+    sum E_i A_i (e - f_i)^2 / 2 + S (w + n e - sum t_i (1 + nu_i) f_i)^2 / 2,
+
+so a section without resultant has EA e = sum E_i A_i f_i and w = sum t_i (1 + nu_i) f_i - n e.  A fibre at the height
+y above the elastic centre has the strain e - kappa y, and with T_i = T + T' y the moment vanishes for
+EI kappa = -sum E_i a_i (T A_i y_i + T' I_i), I_i about the elastic centre: Timoshenko's bimetal (1925) of two layers.
 """
 
 from __future__ import annotations
@@ -26,7 +35,7 @@ from pydantic_core import PydanticCustomError
 from cosserat.parameters import Items, Parameters, Quantity
 from cosserat.rods.elasticity import Along, Elastic, LateralConstraint
 from cosserat.rods.material import Material
-from cosserat.rods.sections.section import Section, ShearFactor
+from cosserat.rods.sections.section import FreeStrains, Section, ShearFactor, require_expansion
 from cosserat.rods.variation import Scales, Station
 
 Array = NDArray[np.float64]
@@ -200,6 +209,25 @@ class Layers(Composite):
             )
         )
 
+    def check_expansion(self, material: Material | None, key: str) -> None:
+        """Require a coefficient of thermal expansion of every layer."""
+        for number, layer in enumerate(self.layers):
+            require_expansion(layer.material, f"rod.section.layers.{number}.material", key)
+
+    def expand(
+        self, material: Material | None, change: float, gradient: float, scale: Array
+    ) -> FreeStrains:
+        """Those at which the section has no resultant, though its layers have stresses."""
+        (young, poisson), areas, share = self._moduli, self._areas, self._thickness / self.height
+        expansion = np.array([layer.material.expansion for layer in self.layers])
+        y = self._middles - self.centre * self.height
+        second = areas * (y**2 + self._thickness**2 / 12)
+        stiff, bent, s = young * areas * expansion, young * second, np.asarray(scale)[..., None]
+        axial = ((change + gradient * y * s) * stiff).sum(axis=-1) / (young @ areas)
+        curvature = -(change * y / s * stiff + gradient * expansion * bent).sum(axis=-1) / bent.sum()
+        free = (share * (1 + poisson) * expansion * (change + gradient * y * s)).sum(axis=-1)
+        return FreeStrains(axial, curvature, free - float(share @ poisson) * axial)
+
     def _jourawski(self, bending: float) -> float:
         """Shear stiffness of stresses that balance those of bending [N]."""
         top, above, compliance = self.height * (1 - self.centre), 0.0, 0.0
@@ -276,6 +304,20 @@ class Stiffnesses(Composite):
                 "write material = { line_density = \"2.5 kg/m\" } ('none' removes an inherited key)",
             )
         self._check_constraint(lateral_constraint)
+
+    def check_expansion(self, material: Material | None, key: str) -> None:
+        """Require that the load has the coefficient: given stiffnesses have no material to take it from."""
+        raise PydanticCustomError(
+            "expansion",
+            f"'{key}' has one without 'expansion', and a section with shape = '{self.shape}' has none either; give it "
+            'with the load, such as "12e-6 K^-1"',
+        )
+
+    def expand(
+        self, material: Material | None, change: float, gradient: float, scale: Array
+    ) -> FreeStrains:
+        """None; see `check_expansion`."""
+        raise AssertionError("checked")
 
     @property
     def _lateral(self) -> float:

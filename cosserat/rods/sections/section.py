@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,25 @@ from cosserat.rods.variation import Station
 from cosserat.text import shown
 
 Array = NDArray[np.float64]
+
+
+class FreeStrains(NamedTuple):
+    """Strains at which a section is without stress, arrays of one shape.
+
+    axial : along the rod at the elastic centre [1].  curvature : from E3 towards E2 [1/m].  section : along E2 [1].
+    """
+
+    axial: Array
+    curvature: Array
+    section: Array
+
+
+def expanded(expansion: float, change: float, gradient: float, scale: Array) -> FreeStrains:
+    """The strains of one coefficient of expansion [1/K]: every fibre expands alike in all directions."""
+    same = np.ones_like(scale)
+    return FreeStrains(
+        expansion * change * same, -expansion * gradient * same, expansion * change * same
+    )
 
 
 class Section(Parameters):
@@ -47,6 +66,20 @@ class Section(Parameters):
     @abstractmethod
     def along(self, material: Material | None, lateral_constraint: LateralConstraint) -> Along:
         """Its stiffnesses at places of a rod, about its elastic centre."""
+
+    @abstractmethod
+    def check_expansion(self, material: Material | None, key: str) -> None:
+        """Raise PydanticCustomError unless its materials have coefficients of thermal expansion; key : of the load."""
+
+    @abstractmethod
+    def expand(
+        self, material: Material | None, change: float, gradient: float, scale: Array
+    ) -> FreeStrains:
+        """Strains without stress under a change of temperature, its sections free to expand.
+
+        change : at the elastic centre [K].  gradient : of the change, towards the upper surface [K/m].
+        scale : heights over the nominal one, any shape [1].
+        """
 
     @abstractmethod
     def line_density(self, material: Material | None) -> float:
@@ -181,3 +214,28 @@ class Homogeneous(Section):
         """Mass per length, given or from that per volume [kg/m]."""
         assert material is not None
         return material.mass_per_length(self.area)
+
+    def check_expansion(self, material: Material | None, key: str) -> None:
+        """Require a coefficient of thermal expansion of the material."""
+        require_expansion(material, "rod.material", key)
+
+    def expand(
+        self, material: Material | None, change: float, gradient: float, scale: Array
+    ) -> FreeStrains:
+        """Those of the coefficient of its material."""
+        assert material is not None
+        assert material.expansion is not None
+        return expanded(material.expansion, change, gradient, scale)
+
+
+def require_expansion(material: Material | None, place: str, key: str) -> None:
+    """Raise PydanticCustomError if a material has no coefficient of thermal expansion.
+
+    place : of the material.  key : of the load that needs it.
+    """
+    if material is None or material.expansion is None:
+        raise PydanticCustomError(
+            "expansion",
+            f"'{key}' has one without 'expansion', and '{place}' has none either; give it in one of them, such as "
+            '"12e-6 K^-1"',
+        )

@@ -14,46 +14,11 @@ from pathlib import Path
 
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
+from cosserat.figures import player
+from cosserat.thesis.book.unused import drop_unused
 
 _FILE_LIST = ".cosserat-book"
 """File that lists the files of a book."""
-
-_SPHINX_CONFIGURATION = """
-project = "cosserat"
-author = "The cosserat project"
-extensions = ["myst_nb", "sphinx.ext.autodoc", "cosserat.thesis.book.api"]
-default_role = "code"
-autodoc_typehints_format = "short"
-aliases = ("Array", "Vector", "Band", "Mask", "Fields", "Place", "Direction", "Rows", "Track", "History", "Bytes")
-autodoc_type_aliases = {name: name for name in aliases}
-autodoc_preserve_defaults = True
-autodoc_member_order = "bysource"
-python_maximum_signature_line_length = 60
-nb_execution_mode = "off"
-nb_merge_streams = True
-nb_render_markdown_format = "myst"
-myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
-suppress_warnings = ["mystnb.unknown_mime_type"]
-html_theme = "sphinx_book_theme"
-html_title = "Cosserat curves"
-html_static_path = ["_static"]
-html_css_files = ["book.css"]
-html_copy_source = False
-html_show_sourcelink = False
-html_last_updated_fmt = None
-html_theme_options = {
-    "use_download_button": False,
-    "use_fullscreen_button": False,
-    "show_toc_level": 2,
-    "navbar_persistent": [],
-}
-mathjax_path = "mathjax/tex-chtml-full.js"
-mathjax3_config = {
-    "options": {"enableMenu": False},
-    "tex": {"tagSide": "right"},
-    "chtml": {"matchFontHeight": False},
-}
-"""
 
 
 def execute(chapter: Path, output: Path) -> None:
@@ -97,10 +62,12 @@ def execute(chapter: Path, output: Path) -> None:
         nbformat.write(notebook, temporary)
 
 
-def render(notebooks: list[Path], output: Path) -> Path:
+def render(notebooks: list[Path], output: Path, *, partial: bool = False) -> Path:
     """Build the book from executed notebooks, `index.ipynb` among them; returns its first page.
 
     Only a whole book replaces the folder, and only if the folder holds nothing but a book from this function.
+
+    partial : these are some pages of a book, so a number whose target is on another page stays plain text.
 
     Raises
     ------
@@ -121,20 +88,27 @@ def render(notebooks: list[Path], output: Path) -> Path:
     output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".book.") as scratch:
         pages, built = Path(scratch) / "pages", Path(scratch) / "built"
-        (pages / "_static").mkdir(parents=True)
-        for path in notebooks:
-            shutil.copy(path, pages / path.name)
-        (pages / "conf.py").write_text(_SPHINX_CONFIGURATION, encoding="utf-8")
-        style = resources.files("cosserat.thesis.book") / "book.css"
-        (pages / "_static" / "book.css").write_text(style.read_text(encoding="utf-8"), encoding="utf-8")
-        _copy_mathjax(pages / "_static" / "mathjax")
-        _sphinx(pages, built, Path(scratch) / "doctrees")
+        _gather(notebooks, pages)
+        _sphinx(pages, built, Path(scratch) / "doctrees", partial)
+        drop_unused(built)
         (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")
         _check_destination(output, set(_files(built)))
         if output.exists():
             output.rename(Path(scratch) / "old")
         built.rename(output)
     return output / "index.html"
+
+
+def _gather(notebooks: list[Path], pages: Path) -> None:
+    """Put into a folder what Sphinx reads: the notebooks, its configuration, styles and scripts, and MathJax."""
+    with resources.as_file(resources.files("cosserat.thesis.book")) as here:
+        shutil.copytree(here / "static", pages / "_static", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(here / "conf.py", pages)
+    for path in notebooks:
+        shutil.copy(path, pages)
+    (pages / "_static" / "player.css").write_text(player.style(), encoding="utf-8")
+    (pages / "_static" / "player.js").write_text(player.script(), encoding="utf-8")
+    _copy_mathjax(pages / "_static" / "mathjax")
 
 
 def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:
@@ -173,7 +147,7 @@ def _files(folder: Path) -> list[str]:
 
 
 def _looks_built(file: Path) -> bool:
-    if file.parts[0] in ("_static", "_sources"):
+    if file.parts[0] in ("_static", "_sources", "_downloads", "source"):
         return True
     return len(file.parts) == 1 and (
         file.suffix == ".html" or file.name in ("objects.inv", "searchindex.js")
@@ -193,11 +167,23 @@ def _copy_mathjax(folder: Path) -> None:
     shutil.copy(shipped / "tex-chtml-full.js", folder)
 
 
-def _sphinx(pages: Path, built: Path, doctrees: Path) -> None:
+def _sphinx(pages: Path, built: Path, doctrees: Path, partial: bool) -> None:
     from sphinx.cmd.build import build_main
 
     said = io.StringIO()
-    arguments = ["-q", "-W", "--keep-going", "-b", "html", "-d", str(doctrees), str(pages), str(built)]
+    settings = ["-D", "links_are_complete=0"]
+    arguments = [
+        *settings,
+        "-q",
+        "-W",
+        "--keep-going",
+        "-b",
+        "html",
+        "-d",
+        str(doctrees),
+        str(pages),
+        str(built),
+    ]
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         failed = build_main(arguments)
     if failed:
@@ -209,4 +195,3 @@ def _sphinx(pages: Path, built: Path, doctrees: Path) -> None:
             raise CosseratError(
                 f"{page.name}: write an equation of several lines as \\begin{{equation*}}, not in $$"
             )
-    (built / ".buildinfo").unlink(missing_ok=True)

@@ -12,6 +12,7 @@ from IPython.display import HTML, Markdown
 
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
+from cosserat.thesis.book.players import player
 from cosserat.thesis.book.tables import mathematics, table
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
@@ -21,7 +22,6 @@ from cosserat.thesis.table.left_out import LeftOutList, read_left_out
 __all__ = [
     "amount",
     "anchor",
-    "animation",
     "common_keys",
     "data",
     "errata",
@@ -30,6 +30,7 @@ __all__ = [
     "keys",
     "left_out",
     "misprint",
+    "player",
     "results",
     "row",
     "rows",
@@ -48,20 +49,6 @@ def figure(name: str, caption: str) -> HTML:
     text = f"<b>{escape(found.title)}.</b> {mathematics(caption)}"
     image = f'<img alt="{escape(found.alt)}" src="data:image/svg+xml;base64,{picture}">'
     return HTML(f'<figure class="plot" id="{name}">{image}<figcaption>{text}</figcaption></figure>')
-
-
-def animation(name: str, caption: str) -> HTML:
-    """A drawn animation with a button that stops and starts it."""
-    drawing = (results() / "figures" / f"{name}.svg").read_text(encoding="utf-8")
-    text = f"<b>{escape(entry(name).title)}.</b> {mathematics(caption)}"
-    toggle = (
-        "const s=this.closest('figure').querySelector('svg');"
-        "s.animationsPaused()?s.unpauseAnimations():s.pauseAnimations()"
-    )
-    button = f'<button type="button" onclick="{toggle}">play / pause</button>'
-    return HTML(
-        f'<figure class="plot" id="{name}">{drawing}<div>{button}</div><figcaption>{text}</figcaption></figure>'
-    )
 
 
 def left_out() -> LeftOutList:

@@ -23,8 +23,8 @@ TABLE = Path("results/tolerances.csv")
 """The results table of the current checkout."""
 
 
-def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figure | str:
-    """Draw a figure, or the text of an animated SVG, from its Datasets by case name.
+def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figure:
+    """Draw a figure from its Datasets by case name.
 
     table : the results table, read where the figure shows published numbers.
 
@@ -38,7 +38,7 @@ def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figu
     module = importlib.import_module(f"cosserat.thesis.figures.{found.module}")
     published = (_published(found.rows, table),) if found.rows else ()
     with settings():
-        figure: Figure | str = getattr(module, name)(data, *published)
+        figure: Figure = getattr(module, name)(data, *published)
     return figure
 
 

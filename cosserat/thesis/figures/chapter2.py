@@ -22,7 +22,6 @@ from cosserat.thesis.earthworm import LONGITUDINAL, SEGMENT_50
 from cosserat.thesis.table.crawl_readouts import (
     SLOPES,
     at_phase,
-    instants_per_stride,
     segment,
     slope,
 )
@@ -236,17 +235,3 @@ def _extremes(ax: Axes, data: Data) -> None:
             if name == "worm_masses":
                 beside(ax, (grams[0], float(run[variable][0])), text, (0, 10), color=colour)
     ax.set(ylabel=r"$\mu_3$ [1]", title=r"extremes of $\mu_3$ in segment 50")
-
-
-def anim_worm(data: Data) -> str:
-    """Two strides of the worm in real time."""
-    run = data["worm"]
-    count = 2 * instants_per_stride(run)
-    part = run.isel(time=slice(0, count + 1))
-    return crawlers.animation(part, seconds=float(part.time[-1]), mark=SEGMENT_50)
-
-
-def anim_robot(data: Data) -> str:
-    """Two cycles of the robot, four times as fast."""
-    run = data["soft_robot"]
-    return crawlers.animation(run, seconds=float(run.time[-1]) / 4)

@@ -122,20 +122,6 @@ FIGURES: dict[str, Entry] = {
         "chapter2",
         cases=("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
     ),
-    "anim_robot": Entry(
-        "The soft robot crawls",
-        "The robot from the side creeps to the right: a thin long region starts at its front end, "
-        "runs to the rear and pulls the body after it.",
-        "chapter2",
-        cases=("soft_robot",),
-    ),
-    "anim_worm": Entry(
-        "The earthworm crawls",
-        "The worm from the side creeps to the right while thin and fat regions run along its body "
-        "from front to rear and the anchor jumps between its ends.",
-        "chapter2",
-        cases=("worm",),
-    ),
     "fig_3_1": Entry(
         "Fig. 3.1: reference and current configuration",
         "Left a straight chain of vertices with equal upright arrows, right the same chain bent "
@@ -304,19 +290,6 @@ FIGURES: dict[str, Entry] = {
         "histogram beside it is broad with its median near its middle.",
         "studies",
         studies=("column_strength",),
-    ),
-    "anim_vibration": Entry(
-        "One period of the vibrating beam",
-        "A clamped beam swings up and down once, magnified, its sections always nearly upright to "
-        "its axis.",
-        "motion",
-        cases=("vibration_c4_20",),
-    ),
-    "anim_relaxation": Entry(
-        "The clamped-free beam settles",
-        "A clamped beam falls under its own weight, magnified, swings less and less and comes to rest.",
-        "motion",
-        cases=("relaxing_clamped_free",),
     ),
 }
 """Figures by the name of the function that draws them."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures import crawlers
-from cosserat.figures.style import COMPUTED, EXACT, INK, WIDTH, Picture, beside, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, WIDTH, Picture, beside, canvas
 from cosserat.problems.crawl import Crawl
 from cosserat.thesis.table.printed import number
 
@@ -86,7 +86,7 @@ def _fill_regions(ax: Axes, run: xr.Dataset) -> None:
     """The load of each part of the body over time, in the colours of the drawn bodies."""
     places = np.linspace(0, 1, run.sizes["section"])
     ax.contourf(run.time, places, run.advancing.to_numpy().T, [0.5, 1.5], colors=[crawlers.THINNED])
-    ax.set_facecolor(crawlers.BODY)
+    ax.set_facecolor(BODY)
     ax.grid(visible=False)
 
 

@@ -1,4 +1,4 @@
-"""Motions: Fig. 3.13 and animations of the body, as SVG that plays in any browser by itself."""
+"""Motions: Fig. 3.13 and natural modes."""
 
 from __future__ import annotations
 
@@ -12,14 +12,13 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.exact import beams, elastica
-from cosserat.figures.rod import draw_outline, outline
+from cosserat.figures.rod import draw_outline
 from cosserat.figures.style import (
     BODY,
     COMPUTED,
     CONSISTENT,
     EARLIER,
     EXACT,
-    INK,
     VARIANT,
     WIDTH,
     canvas,
@@ -43,7 +42,6 @@ _BEAMS = (
 _MOVED = (4, 9, 14, 19)  # vertices with an arrow from one extreme of a mode to the other
 _LEAST_ARROW = 0.01  # shortest displacement with an arrow, in lengths of the rod
 _MODE_AMPLITUDE = 0.06  # largest displacement of a mode shape in a picture, in lengths of the rod
-_WIDTH, _HEIGHT, _MARGIN = 640, 200, 12  # of an animation, in pixels
 
 
 def fig_3_13(data: Data) -> Figure:
@@ -59,7 +57,7 @@ def fig_3_13(data: Data) -> Figure:
     omega, last = beams.first_frequency(beam), float(stiff.time[-1])
     for ax, length in ((top, np.pi / omega), (bottom, 2 * np.pi / omega)):
         for start in np.arange(0, last, length):
-            label = "periods by (3.5.15)" if start == 0 else None
+            label = "" if start else "periods by (3.5.15)"
             ax.axvline(start, color=EXACT, linestyle=":", linewidth=0.9, label=label)
     consistent = beam_of(problem_of(data["vibration_consistent"], RodProblem))
     exact = 2 * np.pi / elastica.timoshenko_frequencies(consistent, 1)[0]
@@ -128,46 +126,3 @@ def fig_modes(data: Data) -> Figure:
             title=f"({letter}) {frequency:,.0f} rad/s",
         )
     return figure
-
-
-def anim_vibration(data: Data) -> str:
-    """The beam with high shear stiffness over one period, displacements magnified."""
-    run = data["vibration_c4_20"]
-    period = 4 * np.pi / beams.first_frequency(beam_of(problem_of(run, RodProblem))) / 2
-    return _animation(run.sel(time=slice(0, 0.963 * period)), magnified=10.0, seconds=2.0)
-
-
-def anim_relaxation(data: Data) -> str:
-    """The clamped-free beam settling under its weight, displacements magnified."""
-    run = data["relaxing_clamped_free"]
-    return _animation(run.sel(time=slice(0, 0.5)), magnified=20.0, seconds=4.0)
-
-
-def _animation(data: xr.Dataset, *, magnified: float, seconds: float, frames: int = 60) -> str:
-    chosen = np.unique(np.linspace(0, data.sizes["time"] - 1, frames).round().astype(int))
-    x = data.x_ref.to_numpy() + magnified * (data.x.to_numpy()[chosen] - data.x_ref.to_numpy())
-    d = data.d_ref.to_numpy() + magnified * (data.d.to_numpy()[chosen] - data.d_ref.to_numpy())
-    surfaces = outline(x, d, problem_of(data, RodProblem))
-    low, high = surfaces.min(axis=(0, 1)), surfaces.max(axis=(0, 1))
-    scale = min((_WIDTH - 2 * _MARGIN) / (high - low)[0], (_HEIGHT - 2 * _MARGIN) / (high - low)[1])
-
-    def path(points: Array, *, closed: bool) -> str:
-        pixels = _MARGIN + scale * np.column_stack([points[:, 0] - low[0], high[1] - points[:, 1]])
-        return "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in pixels) + ("Z" if closed else "")
-
-    def moving(curves: Array, *, closed: bool, look: str) -> str:
-        shapes = [path(points, closed=closed) for points in curves]
-        values = ";".join(shapes)
-        return (
-            f'<path d="{shapes[0]}" {look}><animate attributeName="d" dur="{seconds}s" '
-            f'repeatCount="indefinite" values="{values}"/></path>'
-        )
-
-    support = path(np.array([x[0, 0] - 1.5 * d[0, 0], x[0, 0] + 1.5 * d[0, 0]]), closed=False)
-    height = int(scale * (high - low)[1]) + 2 * _MARGIN
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {height}" width="{_WIDTH}">'
-        + moving(surfaces, closed=True, look=f'fill="{BODY}" stroke="{COMPUTED}"')
-        + moving(x, closed=False, look=f'fill="none" stroke="{INK}" stroke-dasharray="5 4"')
-        + f'<path d="{support}" stroke="{INK}" stroke-width="5"/></svg>\n'
-    )
