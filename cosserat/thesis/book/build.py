@@ -15,7 +15,7 @@ from pathlib import Path
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
 from cosserat.figures import player
-from cosserat.thesis.book.unused import drop_unused
+from cosserat.thesis.book.finish import finish
 
 _FILE_LIST = ".cosserat-book"
 """File that lists the files of a book."""
@@ -90,7 +90,7 @@ def render(notebooks: list[Path], output: Path, *, partial: bool = False) -> Pat
         pages, built = Path(scratch) / "pages", Path(scratch) / "built"
         _gather(notebooks, pages)
         _sphinx(pages, built, Path(scratch) / "doctrees", partial)
-        drop_unused(built)
+        finish(built)
         (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")
         _check_destination(output, set(_files(built)))
         if output.exists():

@@ -15,6 +15,7 @@ class Entry:
     cases : the cases that it needs.
     rows : rows of the results table whose published numbers it shows beside the cases.
     studies : published studies that it needs.
+    tables : tracked tables beside the results table, such as "peers.csv", whose rows it shows.
     round_off : whether it draws round-off, which is another one on each kind of processor.
     """
 
@@ -25,6 +26,7 @@ class Entry:
     rows: tuple[str, ...] = ()
     round_off: bool = False
     studies: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
 
 
 FIGURES: dict[str, Entry] = {
@@ -42,6 +44,24 @@ FIGURES: dict[str, Entry] = {
         "to its boundary.",
         "chapter1",
         cases=("soft_robot",),
+    ),
+    "fig_slice": Entry(
+        "A slice of a rod and its loads",
+        "Three squares with arrows: one oblique force on each face and one at the middle; arrows up "
+        "and down at faces, middle and surface; and arrows that pull above and push below.",
+        "beams",
+    ),
+    "fig_strains": Entry(
+        "Six strains of one section",
+        "Six small blocks over their dotted shapes at rest: one is longer, one is sheared in its end "
+        "face, one is higher, one wider, and two slope up or aside with upright ends.",
+        "beams",
+    ),
+    "fig_gradients": Entry(
+        "Six changes from one section to the next",
+        "Six small blocks over their dotted shapes at rest: one is an arch, one curves aside, one "
+        "grows in height and one in width along itself, and two are twisted or skewed more and more.",
+        "beams",
     ),
     "fig_worm_parts": Entry(
         "A crawling worm and its parts",
@@ -77,6 +97,13 @@ FIGURES: dict[str, Entry] = {
         "is a triangle below zero; more and more muscles side by side make a trapezoid nearly a "
         "rectangle.",
         "chapter2",
+    ),
+    "fig_five_regions": Entry(
+        "Five regions of muscles",
+        "A worm with two thin parts between three fat ones; along it each stretch is flat within a "
+        "part and changes steeply where two parts meet, over less than the radius of the body.",
+        "postures",
+        cases=("worm", "worm_at_rest"),
     ),
     "fig_2_7": Entry(
         "Fig. 2.7: a cycle of push and pull",
@@ -290,6 +317,13 @@ FIGURES: dict[str, Entry] = {
         "histogram beside it is broad with its median near its middle.",
         "studies",
         studies=("column_strength",),
+    ),
+    "fig_peers": Entry(
+        "Error against time",
+        "In three panels with logarithmic axes the points of two packages lie together or side by "
+        "side at the left, those of the third far to the right with an equal or larger error.",
+        "peers",
+        tables=("peers.csv",),
     ),
 }
 """Figures by the name of the function that draws them."""

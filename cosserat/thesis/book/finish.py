@@ -1,4 +1,4 @@
-"""What the theme ships and no page of the book needs is taken out of a built book."""
+"""Last touches on a built book: what no page needs goes, and heads of tables say what they head."""
 
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ _FILES = (
     ".buildinfo",
 )
 """The font of icons that is left draws all of them; the script, five times as large, would draw them again."""
+_HEAD = re.compile(r'<th (class="head[^"]*")>')
 _SCRIPT = re.compile(r'\s*<script defer src="(?:\.\./)?_static/scripts/fontawesome\.js[^"]*"></script>')
 
 
-def drop_unused(built: Path) -> None:
-    """Remove unused files of a built book, and the scripts that ask for them from its pages."""
+def finish(built: Path) -> None:
+    """Remove files that are not used from a built book, and mend its pages."""
     for folder in _FOLDERS:
         shutil.rmtree(built / folder, ignore_errors=True)
     for file in (*(built / name for name in _FILES), *(built / "_static").rglob("*.map")):
         file.unlink(missing_ok=True)
     for file in built.rglob("*.html"):
         page = file.read_text(encoding="utf-8")
-        file.write_text(_SCRIPT.sub("", page), encoding="utf-8")
+        file.write_text(_HEAD.sub(r'<th scope="col" \1>', _SCRIPT.sub("", page)), encoding="utf-8")
     for file in (built / "_static").rglob("*.[cj]s*"):
         if file.suffix in (".css", ".js"):
             text = file.read_text(encoding="utf-8")

@@ -1,0 +1,28 @@
+// Boxes that scroll sideways take part in Tab, and mathematics in a line that is wider than its paragraph becomes such a box.
+(() => {
+  const boxes = "div.math, span.math, pre, table.rows, table.docutils, .cell_output .output";
+  const mark = () => {
+    for (const line of document.querySelectorAll("span.math")) {
+      line.classList.remove("wide");
+      const block = line.closest("p, td, th, li, dd, figcaption, summary, div");
+      const set = line.querySelector("mjx-container");
+      line.classList.toggle("wide", !!(set && block && set.getBoundingClientRect().width > block.clientWidth + 1 && block.clientWidth > 0));
+    }
+    for (const box of document.querySelectorAll(boxes)) {
+      const moves = box.scrollWidth > box.clientWidth + 1 && ["auto", "scroll"].includes(getComputedStyle(box).overflowX);
+      if (moves) box.tabIndex = 0;
+      else if (!box.matches("table.rows")) box.removeAttribute("tabindex");
+    }
+  };
+  const start = () => {
+    mark();
+    let waiting = 0;
+    window.addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(mark, 100); });
+    document.addEventListener("toggle", mark, true);  // a box inside a folded part has no width before
+  };
+  window.addEventListener("load", () => {
+    const typeset = window.MathJax && window.MathJax.startup && window.MathJax.startup.promise;
+    if (typeset) typeset.then(start);
+    else start();
+  });
+})();
