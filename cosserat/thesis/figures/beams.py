@@ -61,7 +61,7 @@ def _gallery(shown: list[Deformation]) -> Figure:
         text = f"${found.measure}$,  ${found.pays}$"
         ax.annotate(text, (above[0], above[1] - 0.06), ha="center", va="top", color=VARIANT)
         below = (place[0], place[1] - 1.12)
-        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top", fontsize=9)
+        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top")
     ax.set(
         xlim=(-0.5 * _SPACING[0], (_COLUMNS - 0.5) * _SPACING[0]),
         ylim=(-_SPACING[1] * (rows - 1) - 1.7, 2.0),

@@ -63,5 +63,4 @@ def _panel(ax: Axes, rows: Sequence[Row], *, crowded: bool) -> None:
                 va="center",
                 bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.5},
                 color=colour,
-                fontsize=8,
             )
