@@ -38,7 +38,7 @@
 #
 # ## Body and muscles
 #
-# In `my.toml`:
+# The first part of the case is the body:
 
 # %% tags=["remove-input"]
 from cosserat.thesis.book import page
@@ -133,16 +133,23 @@ here.replace("gamma.csv", "time, front", "time [s], front [cm]")
 # %% tags=["remove-input"]
 here.command("cosserat run robot --file my.toml")
 
-# %% tags=["remove-input"]
-here.command("cosserat plot robot.nc")
+# %% [markdown]
+# `cosserat plot robot.nc` draws the last instant, in which the robot is fat everywhere. Python draws any part of a result: here
+# all instants until the middle of the second stride.
+
+# %%
+import cosserat
+
+robot = cosserat.load("robot.nc")
+_ = cosserat.plot(robot.sel(time=slice(0, 3.2)), "second_stride.svg")
 
 # %% tags=["remove-input"]
 here.picture(
-    "robot.svg",
-    "A fat round body on the ground at the end of its second stride, its three stretches along the body, and the paths of both "
-    "ends over time: the front end advances in each first second, the rear end in each next one.",
-    "The robot after two strides: its body, its stretches, and the paths of its ends. Each end stays where it is while it "
-    "is the anchor.",
+    "second_stride.svg",
+    "A body on the ground that is thin in its middle and fat at both ends, its three stretches along the body with a step at each "
+    "front, and the paths of both ends over time: the front end advances first, and the rear end follows.",
+    "The robot in its second stride. Above: the thin part is between both fronts; the triangle is the anchor. Middle: the "
+    "stretches. Below: the paths of both ends. Each end stays where it is while it is the anchor.",
 )
 
 # %% [markdown]
@@ -151,9 +158,6 @@ here.picture(
 # How far does it crawl in one stride? Ask for the place of the rear end, in m along the ground:
 
 # %%
-import cosserat
-
-robot = cosserat.load("robot.nc")
 rear = robot.along.isel(section=0)
 stride = rear.sel(time=2.0).item() - rear.sel(time=0.0).item()
 print(f"a stride is {1e3 * stride:.2f} mm")

@@ -245,7 +245,7 @@ def reference_page(tmp_path_factory):
         nbformat.write(
             nbformat.v4.new_notebook(cells=cells, metadata=notebook.metadata), folder / f"{name}.ipynb"
         )
-    render(sorted(folder.glob("*.ipynb")), folder / "book")
+    render(sorted(folder.glob("*.ipynb")), folder / "book", partial=True)
     article = (
         (folder / "book" / "python_api.html").read_text().split("<article")[1].split("</article>")[0]
     )

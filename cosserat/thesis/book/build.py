@@ -171,7 +171,7 @@ def _sphinx(pages: Path, built: Path, doctrees: Path, partial: bool) -> None:
     from sphinx.cmd.build import build_main
 
     said = io.StringIO()
-    settings = ["-D", "links_are_complete=0"]
+    settings = ["-D", f"links_are_complete={int(not partial)}"]
     arguments = [
         *settings,
         "-q",

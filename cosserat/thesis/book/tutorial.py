@@ -88,7 +88,7 @@ class Folder:
 
 def _as_on_a_terminal(line: str) -> list[str]:
     """A line in parts that fit the page."""
-    return textwrap.wrap(line, _COLUMNS, drop_whitespace=False) or [""]
+    return textwrap.wrap(line, _COLUMNS) or [""]
 
 
 def _listing(name: str, text: str) -> Markdown:

@@ -57,7 +57,7 @@ def _panel(ax: Axes, rows: Sequence[Row], *, crowded: bool) -> None:
             ax.annotate(
                 row["problem"].split(", ")[1].split()[0],
                 (at, height),
-                xytext=shift,
+                xytext=tuple(shift),
                 textcoords="offset points",
                 ha=side,
                 va="center",
