@@ -57,9 +57,7 @@ def fig_directors(data: Data) -> Figure:
                 beyond = foot + along * (1 + 0.24 / np.hypot(*along))
                 box = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
                 text = rf"$\mathbf{{{letter}}}_{number}$"
-                ax.annotate(
-                    text, tuple(beyond), ha="center", va="center", color=VARIANT, fontsize=9, bbox=box
-                )
+                ax.annotate(text, tuple(beyond), ha="center", va="center", color=VARIANT, bbox=box)
         ax.annotate(title, (4.0, lowest), ha="center", va="top", color=INK)
     ax.set(xlim=(-0.8, 9.2), ylim=(-3.3, 4.7), xticks=[], yticks=[])
     ax.set(xlabel=r"along $\mathbf{E}_3$ [heights of the section]")
