@@ -138,6 +138,12 @@ DEFORMATIONS: dict[str, Deformation] = {
 """Six gamma and six combinations of kappa: together every homogeneous deformation of a section, eq. (1.2.19)."""
 
 
+def on_paper(points: Array) -> Array:
+    """Points or vectors (..., 3) as the reader sees them, shape (..., 2)."""
+    seen: Array = points @ _OBLIQUE
+    return seen
+
+
 def draw_body(
     ax: Axes,
     r: Array,
