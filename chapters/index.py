@@ -100,6 +100,7 @@ page.text(f"The results table today: {verdict[0]} Of all rows: {verdict[-1]}.")
 # :caption: Reference
 # :maxdepth: 1
 #
+# notation
 # conventions
 # case_keys
 # command_line
