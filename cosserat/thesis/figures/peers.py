@@ -57,7 +57,7 @@ def _panel(ax: Axes, rows: Sequence[Row], *, crowded: bool) -> None:
             ax.annotate(
                 row["problem"].split(", ")[1].split()[0],
                 (at, height),
-                xytext=tuple(shift),
+                xytext=(shift[0], shift[1]),
                 textcoords="offset points",
                 ha=side,
                 va="center",
