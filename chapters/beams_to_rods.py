@@ -43,7 +43,26 @@
 # lies along $\mathbf{E}_3$. Its points on the axis are told apart by their distance $\xi$ from one end, and its sections
 # have coordinates $X^1, X^2$ along $\mathbf{E}_1$ and $\mathbf{E}_2$. Draw two arrows of unit length into each section:
 # $\mathbf{D}_1 = \mathbf{E}_1$ and $\mathbf{D}_2 = \mathbf{E}_2$. These are the *reference directors*.
-#
+
+# %% tags=["remove-cell"]
+import itertools
+
+import numpy as np
+
+import cosserat
+from cosserat.figures.deformations import DEFORMATIONS
+from cosserat.rods import directed_rod
+from cosserat.thesis.book import page
+
+# %% tags=["remove-input"]
+page.figure(
+    "fig_directors",
+    "A bar at rest, and the same bar when it is bent, twisted and thinned. The lines on its surface move with the material. In "
+    "its neck the directors $\\mathbf{d}_1$ and $\\mathbf{d}_2$ are short and $\\mathbf{d}_3$ is long. Each of the three has "
+    "a scale of its own.",
+)
+
+# %% [markdown]
 # Now load the rod. The point $\xi$ of the axis moves to $\mathbf{r}(\xi)$. The two arrows move with the material: they
 # become $\mathbf{d}_1(\xi)$ and $\mathbf{d}_2(\xi)$, the *directors*. They may be longer or shorter than before, and the angle
 # between them may change. The theory assumes that the whole section deforms as its two arrows do. Then the place of
@@ -61,16 +80,6 @@
 # So a section has nine numbers: three of $\mathbf{r}$, three of $\mathbf{d}_1$ and three of $\mathbf{d}_2$. If the section is
 # rigid, both directors keep their unit length and their right angle. These are three conditions, and six numbers are left:
 # Timoshenko's.
-
-# %% tags=["remove-cell"]
-import itertools
-
-import numpy as np
-
-import cosserat
-from cosserat.figures.deformations import DEFORMATIONS
-from cosserat.rods import directed_rod
-from cosserat.thesis.book import page
 
 # %% [markdown]
 # ## Strains are what a rotation does not change

@@ -17,7 +17,8 @@ from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.players import explore, player
 from cosserat.thesis.book.references import how_to_cite, references
-from cosserat.thesis.book.tables import folded, mathematics, table
+from cosserat.thesis.book.stored_variables import variables
+from cosserat.thesis.book.tables import folded, mathematics, table, tens
 from cosserat.thesis.book.tutorial import Folder
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
@@ -52,8 +53,10 @@ __all__ = [
     "source",
     "study",
     "table",
+    "tens",
     "text",
     "total_of",
+    "variables",
     "written",
 ]
 

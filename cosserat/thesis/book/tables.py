@@ -46,6 +46,12 @@ def mathematics(html: str) -> str:
     return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)
 
 
+def tens(number: float, digits: int = 1) -> str:
+    """A number with so many digits and a power of ten, as mathematics."""
+    digit, power = f"{number:.{digits - 1}e}".split("e")
+    return f"${digit} \\cdot 10^{{{int(power)}}}$"
+
+
 def prose(text: str) -> str:
     """A sentence of a table as HTML: mathematics between dollars, code between backquotes, *emphasis*."""
     parts = re.split(r"(\$[^$]+\$|`[^`]+`)", escape(text, quote=False))
