@@ -195,6 +195,7 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
             cases=sorted({f"results/cases/{case}.nc" for name in drawn for case in FIGURES[name].cases}),
             studies=sorted({f"results/studies/{study}.nc" for name in drawn for study in FIGURES[name].studies}),
             table=["results/tolerances.csv"] if any(FIGURES[name].rows for name in drawn) else [],
+            tables=sorted({f"results/{table}" for name in drawn for table in FIGURES[name].tables}),
         output:
             *(
                 report(

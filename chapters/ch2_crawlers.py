@@ -11,33 +11,73 @@
 # %% [markdown]
 # # Chapter 2: the soft robot and the earthworm crawl
 #
-# Peristalsis is a sequence of equilibrium states. Two kinds of fronts travel from the front end of the body to the rear.
-# The body anchors behind a front $\gamma$ and advances ahead of it. It advances behind a front $\eta$ and anchors ahead of
-# it. At each instant one point is fixed to the ground, and the rest of the body moves relative to it:
+# In the last chapter muscles held a body in one shape. Now the active regions travel along the body, and the body crawls. The
+# chapter first shows the motion. It then says how positions on the ground follow from stretches, and computes a soft
+# robot and an earthworm of 10 g beside what was measured on worms.
+#
+# :::{admonition} After this chapter you can
+# :class: objectives
+# * describe a gait by its fronts and its anchor;
+# * predict the length of a stride by hand from the stretches of two plateaus;
+# * say which number of the thesis belongs to its printed equations, which to the corrected ones, and which to neither;
+# * write a gait of your own.
+# :::
+
+# %% tags=["remove-cell"]
+import numpy as np
+
+import cosserat
+from cosserat.thesis.book import page
+
+# %% [markdown]
+# ## Watch it first
+
+# %% tags=["remove-input"]
+page.player(
+    "play_worm", "Two strides in real time. Heights are drawn three times as large. Segment 50 is black."
+)
+
+# %% [markdown]
+# * A **front** is a junction that travels from the front end of the body to the rear. Behind a front $\gamma$ the body anchors,
+#   ahead of it it advances. Behind a front $\eta$ the body advances, ahead of it it anchors.
+# * The **anchor** is the one point that is fixed to the ground at an instant. It is the section $\xi_A$.
+# * In the **protrusion**, which lasts $t_p$, the front part becomes long and reaches forward while the rear holds. In the
+#   **stance**, which lasts $t_s$, the front end holds, and the rear part becomes short and follows.
+# * A **stride** is a protrusion and a stance. Its length $\Delta$ is how far the body is moved by both.
+# * An earthworm consists of some 150 rings, the segments, counted from the front end. Quillin measured **segment 50**. It lies two
+#   fifths of the length behind the front end, so at $\xi = 3\ell_0/5$. It is in **longitudinal contraction** when it
+#   lies in an anchoring region, and in **circular contraction** when it lies in an advancing one.
+#
+# ## From stretches to motion
+#
+# The motion is slow, so it is a sequence of states at rest. The states are numbered by $i$, which stands at the upper left. At
+# each instant the last chapter gives the stretches. The anchor of an instant stays where that section was at the instant
+# before, and all other sections follow from it along the body:
 #
 # $$
 # {}^i z({}^i \xi_A) = {}^{i-1} z({}^i \xi_A) , \tag{2.5.10}
 # $$
 #
 # $$
-# {}^i z(\xi) = {}^{i-1} z({}^i \xi_A) + \int_{{}^i \xi_A}^{\xi} \sqrt{{}^i \mu_3^2 - R^2\, {}^i \mu_1'^2}\, d\bar{\xi} . \tag{2.5.11}
+# {}^i z(\xi) = {}^{i-1} z({}^i \xi_A) + \int_{{}^i \xi_A}^{\xi} \sqrt{{}^i \mu_3^2 - R^2\, {}^i {\mu'_1}^2}\, d\bar{\xi} .
+# \tag{2.5.11}
 # $$
 
-# %% tags=["remove-cell"]
-import numpy as np
-
-import cosserat
-from cosserat.peristalsis import ground
-from cosserat.thesis import earthworm
-from cosserat.thesis.book import page
-from cosserat.thesis.table import crawl_readouts
-
 # %% tags=["remove-input"]
-page.source(ground.placed)
+page.excerpt("cosserat.peristalsis.ground.placed", "for number, poses", "return steps")
 
 # %% [markdown]
-# A gait is data: tracks of points (phase, place) for $\gamma$, $\eta$ and the anchor. The case file of the robot has this
-# gait:
+# Why does this move the body forward? Follow one short piece of the body, $d\xi$ long at rest. When a front $\gamma$ passes it,
+# the piece changes from fat to thin, and its length grows by $(\mu_3^{adv} - \mu_3^{anch})\, d\xi$, the difference of the two
+# plateaus. If the anchor is behind the front, everything ahead of the piece is pushed forward by this much. When a front $\eta$
+# passes, the piece becomes shorter by the same amount. If the anchor is ahead of the front, everything behind is pulled
+# forward. So a body crawls if it pushes from a rear anchor with $\gamma$ and pulls to a front anchor with $\eta$. The same
+# fronts with the wrong anchor move it backward.
+#
+# ## A gait is data
+#
+# Fronts and anchor are given as tracks of points `[phase, place]`. A phase counts the parts of a stride from its start. A place
+# is a fraction of the length from the rear end. Here is the gait of the robot:
 #
 # ```toml
 # [soft_robot.gait]
@@ -47,31 +87,39 @@ page.source(ground.placed)
 # anchor = [[[0, 0], [2, 0]], [[2, 1], [4, 1]]]
 # ```
 #
+# A cycle begins with a pause. In phase 1 the front $\gamma$ starts at the front end; in phase 2 it has a quarter of the body
+# left, and $\eta$ starts; in phase 3 $\gamma$ leaves the body at the rear end. The anchor is the rear end up to phase 2 and the
+# front end after it.
+#
 # The library refuses a gait with a gap in time, with fronts that cross, with an anchor off the body or on a front, or with
-# loads that change suddenly on a part of the body. A front leaves the body when its distance to an end is less than a
-# clearance, which is a key of the case. The page says only that fronts must not come "too close".
-#
-# ## Push and pull
-#
-# The robot first waits in longitudinal contraction. Then $\gamma$ starts at the front. The thin part grows and pushes the
-# head forward, while the rear end is anchored. When $\gamma$ has a quarter of the body left, $\eta$ appears at the front.
-# The head is then the anchor, and the body pulls its rear forward.
+# loads that change suddenly on a part of the body. A front leaves the body when its distance to an end is less than a clearance,
+# which is a key of the case; the thesis asks only that fronts do not come too close to the ends.
+
+# %% tags=["remove-input"]
+page.misprint("E2.14", "E2.16")
+
+# %% [markdown]
+# ## The soft robot pushes and pulls
 
 # %% tags=["remove-input"]
 page.player("play_robot", "Two cycles, four times as fast. Lengths are true to scale.")
 
+# %% [markdown]
+# The robot waits in longitudinal contraction. Then $\gamma$ travels, the thin part grows, and the head goes forward from the
+# rear anchor. When $\eta$ appears, the head becomes the anchor, and the body pulls its rear forward.
+
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_7",
-    "One cycle: (a) push from the rear, (b) transition, (c) pull to the front. Ahead of $\\gamma$ (green) and behind "
-    "$\\eta$ (blue) advancing loads make the body thin and long; the red triangle is the anchor.",
+    "One cycle: (a) push from the rear, (b) transition, (c) pull to the front. Look at the head: it moves in (a) and holds "
+    "in (b) and (c). Ahead of $\\gamma$ and behind $\\eta$ the body is thin and long.",
 )
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_8",
-    "Discrete values of both fronts: (a) at the stored instants, from the first pause on, (b) at the time step "
-    "of the thesis, which the library does not need. A front is on the body only between the ends, never at an end.",
+    "Places of both fronts over time: (a) at the stored instants of both cycles, (b) at the time step of the thesis, which the "
+    "library does not need. A front is on the body only between the ends, never at an end.",
 )
 
 # %% tags=["remove-input"]
@@ -82,112 +130,168 @@ page.figure(
 )
 
 # %% [markdown]
-# If the weight is a force per reference length, the robot's equations are linear, and the displacement in a cycle has a
-# closed form: the head advances while $\gamma$ travels and is anchored from the instant when $\eta$ appears. The table shows
-# the cycle with the largest difference from the closed form.
-#
-# Inflated artificial muscles ($\bar D = 0$, $p < 0$) are short and thick where their load acts, so $\gamma$ and $\eta$ must
-# be exchanged. With the gait of the robot they crawl backwards and anchor with a thin part; the library then gives a warning.
+# The equations of the robot are linear, so its displacement in a cycle has a closed form. The row compares it with
+# the cycle that differs most from it. The thesis prints no number here.
 
 # %% tags=["remove-input"]
 page.rows("2.7")
 
+
 # %% tags=["remove-input"]
-lines = []
-for name, what in (
-    ("soft_robot", "as in the table"),
-    ("soft_robot_printed_contact", "weight over the current length, (2.2.20) as printed"),
-    ("soft_robot_held", "contact force constant through advancing regions, as in section 2.4"),
-):
-    lines.append((what, f"{1e3 * crawl_readouts.strides(page.data(name))[-1]:.2f} mm"))
-page.table(lines, ("soft robot", "displacement in a cycle"))
+def displacement(name):
+    """Mean displacement of the front end in a stride or a cycle of a stored case [m]."""
+    run = page.data(name)
+    front = run.along.isel(section=-1)
+    return float(front[-1] - front[0]) / cosserat.case_of(run).problem.strides
+
+
+page.table(
+    [
+        (what, f"{1e3 * displacement(name):.2f} mm")
+        for name, what in (
+            ("soft_robot", "corrected equations"),
+            ("soft_robot_printed_contact", "weight divided by $\\mu_3$, as printed in (2.2.20)"),
+            ("soft_robot_held", "contact force continuous at junctions, the rule of section 2.4"),
+        )
+    ],
+    ("soft robot", "displacement in a cycle"),
+)
 
 # %% [markdown]
-# ## Protrusion and stance
+# An inflated artificial muscle has no longitudinal force, $\bar D = 0$, and a negative pressure $p$. It is short and thick where
+# its load acts, so $\gamma$ and $\eta$ change their parts. With the gait above it crawls backward and anchors with a thin
+# part; the library gives a warning.
 #
-# The worm of 10 g protrudes its front end while its rear is anchored, and pulls its rear forward while the front is
-# anchored. Its dimensions and times follow from the scaling laws of Table 2.1:
+# ## The earthworm: protrusion and stance
+#
+# The worm of the thesis has a mass of 10 g. Its dimensions and times follow from the scaling laws of Table 2.1, which were
+# measured on worms of every size. The peak loads of its muscles follow from strips of muscle in the laboratory; the thesis uses
+# a share of them.
 
 # %% tags=["remove-input"]
 page.rows("T2.1", "2.8-circumference", "2.8.2", "2.8.3")
 
 # %% tags=["remove-input"]
-page.player(
-    "play_worm", "Two strides in real time. Heights are drawn three times as large. Segment 50 is black."
-)
+page.misprint("E2.13", "E2.22", "E2.28")
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_1",
-    "The six times of the thesis, heights magnified. Solid: the corrected equations. Dotted: the equations as printed, "
-    "which give the numbers of the thesis.",
+    "The six times of the thesis. Look at the fat part: it travels to the rear, while the black segment goes forward when the fat "
+    "part is elsewhere. Solid: the corrected equations. Dotted: the equations as printed.",
 )
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_11",
-    'The fronts over three strides. Lines: two other readings of the sentence that $\\gamma$ "then speeds up" at $t_p/2$. '
-    "In both readings the front is at one half before the protrusion ends (assumption E2.15).",
+    "The fronts over three strides. Lines: two other readings of the sentence that $\\gamma$ "
+    '"then speeds up" at $t_p/2$. In both the front has passed one half before the protrusion ends.',
 )
+
+# %% tags=["remove-input"]
+page.misprint("E2.15")
+
+# %% [markdown]
+# ### Segment 50, computed and measured
+#
+# Segment 50 is read in the middle of the protrusion, when it lies well inside an anchoring region, and in the middle of the
+# stance, when it lies well inside an advancing one.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_2",
-    "Segment 50 over three strides, by the corrected and by the printed equations. Quillin measured the pressures, and the "
-    "ratios of length and of width between circular and longitudinal contraction. The figure shows these ratios times "
-    "the stretches of the corrected worm in longitudinal contraction.",
+    "The stretches have two levels, because the segment lies in one of two plateaus. Dashed: the pressures that Quillin measured, "
+    "and the measured ratios of length and width between the two contractions, times the stretches of the corrected worm in "
+    "longitudinal contraction.",
 )
 
+# %% tags=["remove-cell"]
+NUMBERS = {
+    name: float(page.row(name)["measured"])
+    for name in (
+        "2.8-stride",
+        "2.8-stride-printed-early",
+        "2.8-stride-corrected",
+        "2.8-stride-corrected-early",
+        "2.8-mu3-circular-corrected",
+        "2.8-mu3-longitudinal-corrected",
+        "2.8-p-circular-corrected",
+        "2.8-p-longitudinal-corrected",
+        "2.8-p-rest",
+    )
+}
+
 # %% [markdown]
-# Segment 50 is read in the middle of the stance and in the middle of the protrusion, when it lies well inside an advancing
-# and an anchoring region. The longitudinal contraction agrees with the published one. In circular contraction the printed
-# equations give the published lateral stretch; their axial stretch and pressure differ from the published ones by less than
-# one printed unit. The corrected equations give other numbers (erratum E2.5). Separate rows show the correction of (2.4.18)
-# alone and with that of the weight. The corrected model agrees with the measured ratio of axial stretches, but not with the
-# lateral one. No round body of constant volume agrees with both (question E2.21).
+# The printed and the corrected equations both give the published stretches and pressure of longitudinal contraction. In circular
+# contraction they differ. The printed ones give the published lateral stretch, and miss the axial stretch and the pressure by
+# less than one unit of the last digit. The corrected ones give other numbers, so the published numbers were computed
+# with the misprint of E2.5. Separate rows show (2.4.18) corrected alone, and with the weight of E2.7.
 
 # %% tags=["remove-input"]
 page.rows("2.8-mu1", "2.8-mu3", "2.8-p-")
 
+# %% [markdown]
+# Quillin gives ratios between the two contractions. The corrected worm agrees with the ratio of lengths, but not with the ratio
+# of widths. No round body of constant volume agrees with both: the square of the one times the other is not 1.
+
 # %% tags=["remove-input"]
 page.rows("2.8.10", "2.8.6")
 
+# %% tags=["remove-input"]
+page.misprint("E2.5", "E2.21")
+
 # %% [markdown]
-# The pressure here is that of the page: a Piola traction, per area of the reference. A gauge in the fluid measures the
-# Cauchy pressure, which is the Piola traction divided by $\mu_1 \mu_2$ (question E2.20):
+# The thesis divides the force on a section by the area of the section at rest. This is a Piola pressure. A gauge in the fluid
+# measures the Cauchy pressure, a force per present area. The present area is $\mu_1 \mu_2 = 1/\mu_3$ times the area at rest, so
+# the gauge shows $\mu_3$ times as much:
 
 # %% tags=["remove-input"]
-worm = page.data("worm")
-lines = []
-for phase, what in (
-    (crawl_readouts.CIRCULAR, "circular"),
-    (crawl_readouts.LONGITUDINAL, "longitudinal"),
-):
-    at = crawl_readouts.at_phase(worm, phase)
-    cauchy = float(at.p_coelom / (at.mu_1 * at.mu_2))
-    lines.append((f"{what} contraction", f"{float(at.p_coelom):.0f} Pa", f"{cauchy:.0f} Pa"))
-page.table(lines, ("segment 50", "Piola, as published", "Cauchy"))
+page.table(
+    [
+        (
+            f"{load} contraction",
+            f"{pressure:.0f} Pa",
+            f"{pressure * NUMBERS[f'2.8-mu3-{load}-corrected']:.0f} Pa",
+            page.row(f"2.8-p-{load}-measured")["published"],
+        )
+        for load in ("circular", "longitudinal")
+        for pressure in [NUMBERS[f"2.8-p-{load}-corrected"]]
+    ],
+    ("segment 50", "Piola, as in the thesis", "Cauchy", "measured by Quillin"),
+)
+
+# %% tags=["remove-input"]
+page.text(
+    "At rest only the weight acts. The pressure is then "
+    f"$\\mu_1 \\mu_2 \\, \\rho_0 g / (3 \\pi R)$, which is {NUMBERS['2.8-p-rest']:.0f} Pa. "
+    f"Quillin measured {page.row('2.8-p-rest-measured')['published']}: the muscles of a resting worm keep some tone. "
+    "Neither the thesis nor this library models it."
+)
+
+# %% tags=["remove-input"]
+page.misprint("E2.20", "E2.26")
 
 # %% [markdown]
-# At rest the weight alone causes the pressure, which is $\rho_0 g / (3 \pi R)$ times $\mu_1 \mu_2$. The page calls it
-# "minimal (10 Pa)". Quillin measured ten times as much: the muscles of a worm at rest have some tone. Neither the page nor
-# this library models it (assumption E2.26).
-#
 # ## The stride: which reading gives which length
-#
-# The page prints a stride of 39 mm. No reading of the page gives 39 mm. Three choices are open; none of them was tuned.
-#
-# **When the anchor changes from the mean of $\gamma$ and $\eta$ to the rear end.** Both fronts are on the body until $t_p/2$,
-# when $\eta$ leaves it. Until then the rear is thin; afterwards it is fat. Section 2.1 says that a worm anchors "where the
-# worm longitudinally contracts and fattens". Only with a switch at $t_p/2$ is the anchor never in a thin part, so this
-# library uses $t_p/2$ (assumption E2.17). The other reading is $t_p/3$, an instant at which the page draws the worm. It
-# gives a stride nearer to the printed one, but its worm anchors with a thin rear end and slips back.
+
+# %% tags=["remove-input"]
+page.text(
+    f"The thesis prints a stride of {page.row('2.8-stride')['published']}. No reading of its text gives this number. Three "
+    "choices are open, and none of them was tuned to come near it."
+)
+
+# %% [markdown]
+# **When does the anchor change to the rear end?** In the beginning of the protrusion there are two fronts, and the anchor is in the
+# middle between them, in the fat part. Later the anchor is the rear end. The thesis does not say when it changes. Until $t_p/2$,
+# when $\eta$ leaves the body, the rear end is thin; after that it is fat. Section 2.1 says that a worm anchors "where the worm
+# longitudinally contracts and fattens". Only a change at $t_p/2$ never anchors with a thin part, so this library uses it. The other
+# reading is $t_p/3$, an instant at which the thesis draws the worm. From $t_p/3$ to $t_p/2$ that worm holds on with
+# its thin rear end. Meanwhile $\eta$ passes a sixth of the body, which becomes shorter and pulls everything ahead of it backward.
 
 # %% tags=["remove-input"]
 page.figure(
     "fig_2_12",
-    "The anchored point: at the beginning of the protrusion the mean of both fronts, then the rear end. From $t_p/3$ "
-    "to $t_p/2$ the rear end is thin.",
+    "The anchored point over three strides, in both readings. From $t_p/3$ to $t_p/2$ they differ: the rear end is thin there.",
 )
 
 # %% tags=["remove-input"]
@@ -195,13 +299,13 @@ lines = []
 for name, what in (("worm", "$t_p/2$"), ("worm_early", "$t_p/3$")):
     run = page.data(name)
     back = np.maximum.accumulate(run.along.to_numpy()) - run.along.to_numpy()
-    case = cosserat.case(name).problem
-    thin = len(case.thin_anchors()), len(case.gait.instants(case.step))
+    crawl = cosserat.case(name).problem
+    thin, all_of_them = len(crawl.thin_anchors()), len(crawl.gait.instants(crawl.step))
     lines.append(
         (
             what,
-            f"{1e3 * crawl_readouts.strides(run)[-1]:.1f} mm",
-            f"{thin[0]} of {thin[1]} instants",
+            f"{1e3 * displacement(name):.1f} mm",
+            f"{thin} of {all_of_them} instants",
             f"{1e3 * back[:, -1].max():.1f} mm",
             f"{1e3 * back.max():.1f} mm",
         )
@@ -209,37 +313,41 @@ for name, what in (("worm", "$t_p/2$"), ("worm_early", "$t_p/3$")):
 page.table(
     lines,
     (
-        "switch to the rear at",
+        "change to the rear end at",
         "stride",
         "anchor in a thin part",
-        "head slips back",
-        "any part slips back",
+        "head slips back by",
+        "any part slips back by",
     ),
 )
 
 # %% [markdown]
-# The page says that "backslipping may be accounted for" by a model with one anchor. The last two columns give the lengths.
+# The thesis says that a model with one anchor may account for "backslipping". The last two columns say how much.
 #
-# **How $\gamma$ moves in the second half of the protrusion.** Two sentences of the page contradict each other, and each
-# reading keeps a part of them (assumption E2.15). The stride is the same in all three readings, to all digits: the head
-# advances until $\gamma$ is at 0.5, and is at rest after that.
+# **How does $\gamma$ move in the second half of the protrusion?** Two sentences of the thesis contradict each other, and each
+# reading keeps a part of them (E2.15). The stride is the same in all three, to all digits: the head moves until $\gamma$
+# has reached the middle of the body, and is the anchor after that.
 #
-# **How near to the ends the fronts may come.** If a front leaves the body a little earlier, the stride does not change. If
-# a front stops before the end and waits, the stride of the worm with the switch at $t_p/2$ falls by some millimetres, which
-# is not enough. The stride of the worm with the switch at $t_p/3$ does not change (assumption E2.14).
+# **How near do the fronts come to the ends?** If a front leaves the body a little early, the stride does not change. If it stops
+# before the end and waits there, a short piece of the body never changes, and the stride with the change at $t_p/2$ becomes some
+# millimetres shorter (E2.14). That is not enough either.
 
 # %% tags=["remove-input"]
 page.rows("2.8-stride", "2.8.4-stride")
 
+# %% tags=["remove-input"]
+page.misprint("E2.17", "E2.18")
+
 # %% [markdown]
 # The stride does not depend on the time step if the events of the gait are times of the grid. While the anchor lies between
-# the fronts, it is on a plateau that moves without a change of stretch. Any point of the plateau gives the same stride.
+# two fronts, it lies on a plateau whose stretches do not change. So every point of this plateau gives the same stride.
 #
 # ## Calibrated again
 #
-# The page found E, the force and the pressure by calibration "to match the expected outcomes": the two ratios (2.8.6) and
-# the two measured pressures. A least-squares fit of the relative misfits of these four numbers gives other values
-# (assumption E2.27). With these values both pressures agree, and the ratios of stretches agree as well as before.
+# The thesis chose $E$, $\bar{D}$ and $p$ "to match the expected outcomes", and does not say how. The expected outcomes are four
+# numbers: the two ratios (2.8.6) and the two measured pressures. Here the three parameters are fitted to them by least squares,
+# each misfit relative to its number. Other values come out. With them both pressures agree, and the ratios agree as well as
+# before.
 
 # %% tags=["remove-input"]
 page.rows("2.8-E", "2.8-share")
@@ -249,37 +357,51 @@ lines = []
 for name, what in (("worm_calibration_printed", "as printed"), ("worm_calibration", "corrected")):
     fit = page.data(name)
     for label, values in (
-        ("the page's parameters", fit.given_outcomes),
-        ("calibrated again", fit.fitted_outcomes),
+        ("those of the thesis", fit.given_outcomes),
+        ("fitted", fit.fitted_outcomes),
     ):
         lines.append((what, label, *(f"{float(ratio):.3f}" for ratio in values)))
-names = [str(name) for name in fit.outcome.to_numpy()]
-page.table(lines, ("equations", "model over measured, with", *names))
+assert fit.sizes["outcome"] == 4
+outcomes = ("ratio of $\\mu_1$", "ratio of $\\mu_3$", "longitudinal pressure", "circular pressure")
+page.folded(
+    "Four outcomes, computed over measured, before and after the fit",
+    page.table(lines, ("equations", "parameters", *outcomes)),
+)
+
+# %% tags=["remove-input"]
+page.misprint("E2.27")
 
 # %% [markdown]
 # ## Worms of every size
 #
-# Quillin measured earthworms from hatchlings of 0.01 g to adults of 10 g. How does the force of the muscles depend on the
-# mass? In section 2.8 a strip of muscle has the same tension in every worm. Then the force is proportional to the
-# circumference. The pressure is inversely proportional to the radius by hoop balance, or constant as the 5.7 kPa of the
-# page. If instead the *stress* of the muscle is constant and its thickness is proportional to the radius, the force is
-# proportional to the area, and the pressure is constant.
+# Quillin measured earthworms from hatchlings of 0.01 g to adults of 10 g. Table 2.1 gives their length, radius and times. It does
+# not give the loads. How do the force and the pressure of the muscles depend on the radius? Three laws are tried:
+#
+# | law | force $\bar{D}$ grows as | pressure $p$ grows as | why |
+# |---|---|---|---|
+# | strip tension | $R$ | $1/R$ | a strip of muscle has the same tension in every worm; the pressure is this tension over the radius, as in a tube |
+# | strip tension, constant $p$ | $R$ | 1 | the same strip, and one pressure for all |
+# | constant stress | $R^2$ | 1 | the muscle is as thick as its worm is large, and its force per area is the same |
 
 # %% tags=["remove-input"]
-page.source(earthworm.BodyMasses.scaled)
+page.excerpt("cosserat.thesis.earthworm.BodyMasses.scaled", "radius = ")
 
 # %% tags=["remove-input"]
-page.figure("fig_masses", "Three laws for the muscles; slopes in the legends.")
+page.figure(
+    "fig_masses",
+    "Stride, speed, frequency and the extreme stretches of segment 50 over the mass of the body, under three laws for the "
+    "muscles, beside the slopes of the literature. Look at the stretches: only one law keeps them constant.",
+)
 
 # %% tags=["remove-input"]
 page.rows("2.8.4-exponent", "2.8-slope", "2.8-strain")
 
 # %% [markdown]
-# Only worms with muscles of constant stress crawl like earthworms of every size: their strains do not depend on the mass,
-# and their stride grows with it as in (2.8.4). With constant tension and constant pressure small worms hardly become
-# thinner. With constant tension and the pressure of hoop balance they become so thin that their surface cannot stay on the
-# ground. The frequency is an input, from Table 2.1, and is the same in all three. The exponent of the speed is the sum of
-# the exponents of stride and frequency.
+# Only worms with muscles of constant stress crawl like earthworms of every size. Their strains do not depend on the mass, as
+# Quillin found, and their stride grows with it as in (2.8.4). With constant tension and constant pressure small worms hardly become
+# thin. With constant tension and the pressure of a tube they become so thin that their surface cannot stay on the
+# ground (E2.13). The frequency is an input, from Table 2.1, and is the same in all three. A speed is a stride times a frequency,
+# so its power of the mass is the sum of the two.
 
 # %%
 small = cosserat.case("worm_masses_strip").vary("one_gram", masses=["1 g"])
@@ -290,6 +412,8 @@ except cosserat.CosseratError as error:
 
 # %% [markdown]
 # ## A gait of your own
+#
+# An inchworm sends $\gamma$ over most of its body in one second, then $\eta$ over all of it in the next:
 #
 # ```toml
 # [inchworm]
@@ -303,30 +427,65 @@ except cosserat.CosseratError as error:
 # `cosserat run inchworm --file my.toml` computes it, and `cosserat plot inchworm.nc` draws it. In Python:
 
 # %%
-inchworm = cosserat.case("worm").vary(
-    "inchworm",
-    gait={
-        "phases": ["1 s", "1 s"],
-        "gamma": [[[0, 1], [1, 0.2], [2, 0]]],
-        "eta": [[[1, 1], [2, 0]]],
-        "anchor": [[[0, 0], [1, 0]], [[1, 1], [2, 1]]],
-    },
-)
-crawled = cosserat.run(inchworm)
-print(f"The stride is {1e3 * float(crawled.along[-1, -1] - crawled.along[0, -1]) / 3:.0f} mm.")
+gait = {
+    "phases": ["1 s", "1 s"],
+    "gamma": [[[0, 1], [1, 0.2], [2, 0]]],
+    "eta": [[[1, 1], [2, 0]]],
+    "anchor": [[[0, 0], [1, 0]], [[1, 1], [2, 1]]],
+}
+inchworm = cosserat.run(cosserat.case("worm").vary("inchworm", gait=gait))
+head = inchworm.along.isel(section=-1)
+print(f"The stride is {1e3 * float(head[-1] - head[0]) / 3:.0f} mm.")
 
 # %% [markdown]
-# ## Errata and open questions
+# ## Exercises
+#
+# :::{admonition} Exercise 2.4: a stride by hand
+# :class: exercise
+# In the protrusion $\gamma$ travels from the front end to the middle of the body, while the anchor is behind it. In the stance
+# the front end holds. Predict the stride of the worm from the stretches of the two plateaus alone, and do the same for the
+# inchworm.
+# :::
 
-# %% tags=["remove-input"]
-page.table(
-    [
-        (name, entry.standing, entry.where, entry.why)
-        for name, entry in page.errata().items()
-        if name.startswith("E2.")
-    ],
-    ("entry", "standing", "where", "why"),
-)
+# %% tags=["hide-cell"]
+worm = page.data("worm")
+length = float(worm.xi_section[-1])
+thin = worm.advancing.to_numpy() > 0.5
+advancing, anchoring = (np.median(worm.mu_3.to_numpy()[where]) for where in (thin, ~thin))
+growth = length * (advancing - anchoring)  # of the whole body from fat to thin [m]
+by_hand = growth / 2  # half of the body changes
+assert abs(by_hand / displacement("worm") - 1) < 0.01
+assert abs(0.8 * growth / (float(head[-1] - head[0]) / 3) - 1) < 0.01
+print(f"By hand {1e3 * by_hand:.1f} mm, computed {1e3 * displacement('worm'):.1f} mm.")
+print(f"The inchworm: by hand {1e3 * 0.8 * growth:.1f} mm.")
 
-# %% tags=["remove-cell"]
-assert len([name for name in page.errata() if name.startswith("E2.")]) >= 20
+# %% [markdown]
+# :::{admonition} Exercise 2.5: the price of the wrong anchor
+# :class: exercise
+# With the change at $t_p/3$ the worm holds on with its thin rear end until $t_p/2$. The front $\eta$ starts at the middle of the
+# body and reaches the rear end at $t_p/2$. How much shorter does the stride become?
+# :::
+
+# %% tags=["hide-cell"]
+# From t_p/3 to t_p/2 the front passes the last third of its way, so a sixth of the body becomes short.
+early = by_hand - growth / 6
+assert abs(early / displacement("worm_early") - 1) < 0.01
+print(f"By hand {1e3 * early:.1f} mm, computed {1e3 * displacement('worm_early'):.1f} mm.")
+
+# %% [markdown]
+# :::{admonition} Exercise 2.6: why muscles of constant stress keep the shape
+# :class: exercise
+# Show that without weight the plateaus depend on $\bar{D}/(E R^2)$ and $p/E$ alone. Under which of the three laws are both
+# the same in every worm? By which power of the mass does the stride then grow?
+# :::
+
+# %% tags=["hide-cell"]
+# k_I and p pi R^2 grow as E R^2.  Divide a plateau of (2.4.13) by k_I: D / k_I and p pi R^2 / k_I are left.
+# Constant stress keeps both, so the stretches are the same, and the stride grows as the length of the body.
+masses = page.data("worm_masses")
+scaled = cosserat.case("worm_masses").problem.scaled
+lengths = np.array([scaled(mass).crawler.length for mass in masses.body_mass.to_numpy()])
+power = np.polyfit(np.log(masses.body_mass), np.log(masses.stride), 1)[0]
+expected = np.polyfit(np.log(masses.body_mass), np.log(lengths), 1)[0]
+assert abs(power - expected) < 5e-3
+print(f"The stride grows as the power {power:.2f} of the mass, the length as {expected:.2f}.")

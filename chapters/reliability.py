@@ -11,66 +11,91 @@
 # %% [markdown]
 # # When things go wrong
 #
-# A long run may be killed, its disk may be full, its files may be damaged, and somebody may start it twice. Five promises
-# hold then:
+# A long run may be killed. Its disk may be full, its files may be damaged, and somebody may start it twice. The package makes
+# five promises for such days:
 #
-# * A file is whole or absent. Whatever is stored under its name was written to its end.
-# * Nothing is lost. The same command goes on from the parts that a run has stored, to the same bytes as without the
-#   disturbance.
-# * Nothing is silent. A result or a part that was damaged, edited, swapped or replaced is refused by name, or read with the
-#   same content.
-# * Nothing hangs. Ctrl-C, a batch system's signal and a closed terminal end a run within seconds.
-# * An answer is one sentence that names the file and what to do, and an exit code: 2 for what the user can mend, 130, 143 and
-#   129 for the three signals.
+# * **A file is whole or absent.** What has the name of a result was written to its end.
+# * **Nothing is lost.** A run stores its parts. The same command goes on from them, and ends with the same bytes as without
+#   the disturbance.
+# * **Nothing is silent.** A result or a part that somebody has changed, damaged or replaced is refused, with the name of the
+#   file; or it is read and has the same content.
+# * **Nothing hangs.** Ctrl-C, the signal of a batch system and a closed terminal each end a run within seconds.
+# * **An answer is one sentence.** It names the file and says what to do. The exit code tells a program the same: 2 is a
+#   fault that the user can mend; 130, 143 and 129 are the three signals.
 #
-# Each row below is a fault that `python -m tests.hostile.faults` brings about in real processes, many times and at random
-# moments. Each attempt is judged by its exit code, its words, its bytes and the files that are left. All random choices follow
-# from a seed, so an attempt can be repeated.
+# A promise is worth as much as the attempts to break it. So each fault of the table below was brought about in real
+# processes, many times and at random moments, by `python -m tests.hostile.faults`. Each attempt was judged by its exit code, its
+# words, its bytes and the files that were left. All random choices follow from a seed, so an attempt can be repeated.
 
 # %% tags=["remove-cell"]
 import csv
 
 from cosserat.thesis.book import page
 
-with (page.results() / "faults.csv").open(newline="", encoding="utf-8") as stream:
-    lines = list(csv.DictReader(stream))
-tried, kept = (sum(int(line[key]) for line in lines) for key in ("tried", "as promised"))
+
+def rows_of(name):
+    """The rows of a tracked table of the folder results."""
+    with (page.results() / name).open(newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+faults = rows_of("faults.csv")
+kinds = list(dict.fromkeys(line["kind"] for line in faults))
+
+
+def counts(lines):
+    """How many attempts there were, and how many ended as promised."""
+    return tuple(sum(int(line[key]) for line in lines) for key in ("tried", "as promised"))
+
 
 # %% tags=["remove-input"]
 page.text(
-    f"**When it was tried last:** {kept} of {tried} attempts at {len(lines)} faults ended as promised."
+    "**When it was tried last:** {1} of {0} attempts ended as promised, ".format(*counts(faults))
+    + f"at {len(faults)} faults of {len(kinds)} kinds."
 )
 
 # %% tags=["remove-input"]
 page.table(
     [
-        (line["kind"], line["fault"], line["promise"], line["tried"], line["as promised"])
-        for line in lines
+        (kind, str(len(own)), *map(str, counts(own)))
+        for kind in kinds
+        for own in [[line for line in faults if line["kind"] == kind]]
     ],
-    ("kind", "fault", "promise", "tried", "as promised"),
+    ("kind of fault", "faults", "attempts", "as promised"),
+)
+
+# %% tags=["remove-input"]
+page.folded(
+    f"All {len(faults)} faults, with what is promised for each",
+    page.table(
+        [
+            (line["kind"], line["fault"], line["promise"], line["tried"], line["as promised"])
+            for line in faults
+        ],
+        ("kind", "fault", "promise", "attempts", "as promised"),
+    ),
 )
 
 # %% [markdown]
 # ## Bad input
 #
-# The commands `python -m tests.hostile inputs`, `fuzz`, `damage` and `lines` try inputs that follow from the classes of
-# parameters, and inputs by chance. Each must end in an answer or in one sentence with the exit code 1 or 2, without a
-# traceback, a warning of another package or a file left behind, in ten seconds or with a line of progress. A part of
-# them is run by `make test`.
+# Most faults are typing errors. The commands `python -m tests.hostile inputs`, `fuzz`, `damage` and `lines` try what people
+# type and what they never would: inputs that follow from the lists of keys, and inputs by chance. Each must end in an
+# answer or in one sentence with the exit code 1 or 2. It must not end in a traceback, in a warning of another package or with
+# a file left behind. It must end within ten seconds, or show its progress. `make test` runs a part of them.
 
 # %% tags=["remove-input"]
-with (page.results() / "inputs.csv").open(newline="", encoding="utf-8") as stream:
-    counts = [tuple(line.values()) for line in csv.DictReader(stream)]
-page.table(counts, ("what", "seed", "tried", "as promised"))
+page.table(
+    [tuple(line.values()) for line in rows_of("inputs.csv")],
+    ("what", "seed", "attempts", "as promised"),
+)
 
 # %% [markdown]
 # ## What was found
 
 # %% tags=["remove-input"]
-failures = [(line["fault"], line["first failure"]) for line in lines if line["first failure"]]
-shown = (
-    page.table(failures, ("fault", "what was found first, or why it was not tried"))
-    if failures
-    else None
-)
-shown or page.text("No attempt ended otherwise.")
+failures = [(line["fault"], line["first failure"]) for line in faults if line["first failure"]]
+found = page.text("No attempt ended otherwise.")
+if failures:
+    found = page.table(failures, ("fault", "what was found first, or why it was not tried"))
+found

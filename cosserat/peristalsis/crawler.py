@@ -1,4 +1,4 @@
-"""The rod that crawls, sections 2.1-2.6: sections stay vertical circles or ellipses, and muscles load it by regions.
+"""The rod that crawls, sections 2.1-2.6: sections stay vertical, eq. (2.1.1), and muscles load it by regions.
 
 Stretches mu_1 (vertical), mu_2 (across) and mu_3 (along) of the material at z = xi / l_0 obey
 
@@ -189,23 +189,25 @@ class Loads(Parameters):
 
 @dataclass(frozen=True)
 class Groups:
-    """The dimensionless parameters of eqs. (2.3.4), (2.3.8) and (2.4.9).
+    """The dimensionless groups of eqs. (2.3.4), (2.3.8) and (2.4.9), under the letters of the thesis.
 
-    stiffness : g = k_S l_0^2 / k_G, or i = k_I l_0^2 / k_G if incompressible.  p : k_P / k_S.
-    force : d = D / k_S, or delta = D l_0^2 / k_G if incompressible.
+    g : k_S l_0^2 / k_G.  p : k_P / k_S.  d : D / k_S.  All three are zero of an incompressible body.
+    i : k_I l_0^2 / k_G.  delta : D l_0^2 / k_G.  Both are zero of a compressible body.
     c : p pi R^2 l_0^2 / k_G.  m : R rho_0 g l_0^2 / k_G.
     """
 
     incompressible: bool
-    stiffness: float  # g or i
-    p: float
-    force: float  # d or delta
-    c: float
-    m: float
     printed_contact: bool
     k: float  # k_S or k_I [N]
     area: float  # [m^2]
     square: float  # l_0^2 / k_G [1/N]
+    g: float = 0.0
+    p: float = 0.0
+    d: float = 0.0
+    i: float = 0.0
+    delta: float = 0.0
+    c: float = 0.0
+    m: float = 0.0
 
     @classmethod
     def of(cls, body: Crawler, loads: Loads) -> Groups:
@@ -213,23 +215,25 @@ class Groups:
         incompressible = isinstance(body.material, Incompressible)
         if incompressible:
             k, k_g = body.incompressible_stiffnesses
-            k_p = 0.0
         else:
             k, k_p, k_g = body.stiffnesses
         square = body.length**2 / k_g
-        own = cls(
-            incompressible,
-            stiffness=k * square,
-            p=k_p / k,
-            force=0.0,
-            c=0.0,
-            m=body.radius * body.line_density * loads.gravity * square,
-            printed_contact=loads.contact == "printed",
-            k=k,
-            area=body.area,
-            square=square,
-        )
-        return replace(own, force=own.force_of(loads.anchoring), c=own.c_of(loads.advancing))
+        c = loads.advancing * body.area * square
+        m = body.radius * body.line_density * loads.gravity * square
+        own = cls(incompressible, loads.contact == "printed", k, body.area, square, c=c, m=m)
+        if incompressible:
+            return replace(own, i=k * square, delta=loads.anchoring * square)
+        return replace(own, g=k * square, p=k_p / k, d=loads.anchoring / k)
+
+    @property
+    def stiffness(self) -> float:
+        """g or i."""
+        return self.i if self.incompressible else self.g
+
+    @property
+    def force(self) -> float:
+        """d or delta."""
+        return self.delta if self.incompressible else self.d
 
     def force_of(self, newton: float) -> float:
         """d or delta of a force of the longitudinal muscles [N]."""

@@ -24,7 +24,7 @@ PLATEAU_TOLERANCE = 1e-12
 def compressible(
     mu: Array, n: Array, c: Array, g: Array, p: float, m: Array, printed_contact: bool
 ) -> tuple[Array, Array, Array]:
-    """Right-hand sides of eqs. (2.3.6) and (2.3.9) at K points.
+    """Right-hand sides of eqs. (2.3.6) and (2.3.9) at K points; the push of the ground is that of (2.2.17).
 
     mu : (K, 2).  n : (K,) contact force over k_S, -d or 0.  c : (K,) advancing load, or 0.  g, m : (K,).
     Returns f (K, 2), its derivative (K, 2, 2) and mu_3 (K,).
@@ -32,12 +32,10 @@ def compressible(
     f, df, mu_3 = np.empty((mu.shape[0], 2)), np.empty((mu.shape[0], 2, 2)), np.empty(mu.shape[0])
     for k in range(mu.shape[0]):
         mu_1, mu_2 = mu[k, 0], mu[k, 1]
-        mu_3[k] = (
-            1 + n[k] - p * (mu_1 + mu_2 - 2)
-        )  # n of (2.3.2), for (2.3.5) and (2.3.10); erratum E2.1
+        mu_3[k] = 1 + n[k] - p * (mu_1 + mu_2 - 2)  # (2.3.5), (2.3.10); erratum E2.1
         contact = m[k] / mu_3[k] if printed_contact else m[k]
         d_contact = m[k] * p / mu_3[k] ** 2 if printed_contact else 0.0
-        # k^alpha of (2.3.2) over k_S with mu_3 substituted, to keep digits as nu tends to 1/2
+        # k^alpha of (2.3.2) over k_S, mu_3 inserted: keeps digits as nu tends to 1/2
         k_1 = (1 - p) * ((1 + p) * (mu_1 - 1) + p * (mu_2 - 1)) + p * n[k]
         k_2 = (1 - p) * ((1 + p) * (mu_2 - 1) + p * (mu_1 - 1)) + p * n[k]
         f[k, 0] = contact + g[k] * k_1 + c[k]
@@ -53,7 +51,7 @@ def compressible(
 def incompressible(
     mu: Array, multiplier: Array, exponent: Array, c: Array, i: Array, m: Array, printed_contact: bool
 ) -> tuple[Array, Array, Array]:
-    """Right-hand sides of eqs. (2.4.10) and (2.4.13) at K points.
+    """Right-hand sides of eqs. (2.4.10) and (2.4.13) at K points, from the forces (2.4.4).
 
     mu : (K, 2).  multiplier : (K,) lambda_c, which goes as (mu_1 mu_2)^-exponent.  c : (K,) advancing load, or 0.
     i, m : (K,).
@@ -79,7 +77,7 @@ def incompressible(
 
 @njit(cache=True, nogil=True)
 def multiplier_of(mu: Array, force: Array, exponent: Array) -> Array:
-    """lambda_c (K,), which goes as (mu_1 mu_2)^-exponent and is `force` where mu_1 mu_2 = 1."""
+    """lambda_c (K,), eq. (2.4.7): it goes as (mu_1 mu_2)^-exponent and is `force` where mu_1 mu_2 = 1."""
     multiplier = np.empty(mu.shape[0])
     for k in range(mu.shape[0]):
         volume = mu[k, 0] * mu[k, 1]

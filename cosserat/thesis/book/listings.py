@@ -20,13 +20,26 @@ def source(thing: Any) -> Markdown:
     return _code(found, inspect.getsource(getattr(found, "py_func", found)))
 
 
-def excerpt(thing: Any, first: str, last: str) -> Markdown:
-    """The lines of a function from the one with `first` up to, but without, the one with `last`."""
+def excerpt(thing: Any, first: str, last: str = "") -> Markdown:
+    """The lines of a function from the one with `first` up to, but without, the one with `last`, or to its end.
+
+    Raises
+    ------
+    InputError : the function has no such line.
+    """
     found = _found(thing)
     lines = inspect.getsource(getattr(found, "py_func", found)).splitlines()
-    start = next(number for number, line in enumerate(lines) if first in line)
-    stop = next(number for number, line in enumerate(lines) if last in line and number > start)
+    start = _line(found, lines, first, 0)
+    stop = _line(found, lines, last, start + 1) if last else len(lines)
     return _code(found, "\n".join(lines[start:stop]))
+
+
+def _line(thing: Any, lines: list[str], text: str, begin: int) -> int:
+    """The number of the first line with a text, not before the line `begin`."""
+    for number in range(begin, len(lines)):
+        if text in lines[number]:
+            return number
+    raise InputError(f"{thing.__qualname__} has no line with '{text}'")
 
 
 def _found(thing: Any) -> Any:

@@ -13,7 +13,7 @@ from IPython.display import HTML, Markdown
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.players import player
-from cosserat.thesis.book.tables import mathematics, table
+from cosserat.thesis.book.tables import folded, mathematics, table
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
 from cosserat.thesis.figures.catalogue import entry
@@ -27,6 +27,7 @@ __all__ = [
     "errata",
     "excerpt",
     "figure",
+    "folded",
     "keys",
     "left_out",
     "misprint",

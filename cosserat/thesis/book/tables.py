@@ -21,6 +21,12 @@ def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
     )
 
 
+def folded(summary: str, body: HTML) -> HTML:
+    """An output that opens from one line."""
+    line = mathematics(escape(summary))
+    return HTML(f'<details class="verdict"><summary>{line}</summary>{body.data}</details>')
+
+
 def mathematics(html: str) -> str:
     """Text between dollars as mathematics of the book: MathJax ignores dollars in outputs."""
     return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import importlib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -37,8 +38,9 @@ def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figu
     found = entry(name)
     module = importlib.import_module(f"cosserat.thesis.figures.{found.module}")
     published = (_published(found.rows, table),) if found.rows else ()
+    tabulated = [_rows(table.parent / name) for name in found.tables]
     with settings():
-        figure: Figure = getattr(module, name)(data, *published)
+        figure: Figure = getattr(module, name)(data, *published, *tabulated)
     return figure
 
 
@@ -71,6 +73,14 @@ def _published(rows: tuple[str, ...], table: Path) -> dict[str, float]:
     if missing:
         raise InputError(f"{table} has no printed number {', '.join(missing)}; restore it")
     return {name: known[name] for name in rows}
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    """The rows of a tracked table."""
+    if not path.is_file():
+        raise InputError(f"there is no {path}; restore it with 'git checkout {path}'")
+    with path.open(newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
 
 
 def draw_all(names: Sequence[str], folder: Path, output: Path) -> Iterator[Path]:

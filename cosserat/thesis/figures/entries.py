@@ -15,6 +15,7 @@ class Entry:
     cases : the cases that it needs.
     rows : rows of the results table whose published numbers it shows beside the cases.
     studies : published studies that it needs.
+    tables : tracked tables beside the results table, such as "peers.csv", whose rows it shows.
     round_off : whether it draws round-off, which is another one on each kind of processor.
     """
 
@@ -25,6 +26,7 @@ class Entry:
     rows: tuple[str, ...] = ()
     round_off: bool = False
     studies: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
 
 
 FIGURES: dict[str, Entry] = {
@@ -77,6 +79,13 @@ FIGURES: dict[str, Entry] = {
         "is a triangle below zero; more and more muscles side by side make a trapezoid nearly a "
         "rectangle.",
         "chapter2",
+    ),
+    "fig_five_regions": Entry(
+        "Five regions of muscles",
+        "A worm with two thin parts between three fat ones; along it each stretch is flat within a "
+        "part and changes steeply where two parts meet, over less than the radius of the body.",
+        "postures",
+        cases=("worm", "worm_at_rest"),
     ),
     "fig_2_7": Entry(
         "Fig. 2.7: a cycle of push and pull",
@@ -290,6 +299,13 @@ FIGURES: dict[str, Entry] = {
         "histogram beside it is broad with its median near its middle.",
         "studies",
         studies=("column_strength",),
+    ),
+    "fig_peers": Entry(
+        "Error against time",
+        "In three panels with logarithmic axes the points of two packages lie together or side by "
+        "side at the left, those of the third far to the right with an equal or larger error.",
+        "peers",
+        tables=("peers.csv",),
     ),
 }
 """Figures by the name of the function that draws them."""
