@@ -1,4 +1,4 @@
-"""The whole book as one PDF: its pages in their order, with a list of contents, printed by the browser of the system."""
+"""The whole book as one PDF: its pages in their order and a list of contents, printed by the system's browser."""
 
 from __future__ import annotations
 
