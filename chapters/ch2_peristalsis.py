@@ -427,7 +427,8 @@ page.figure(
 )
 
 # %% [markdown]
-# The folded cell checks that all regions of one kind have the same plateau, and that the product of the stretches is one.
+# The folded cell checks that all regions of one kind have the same plateau, that the product of the stretches is one, and that
+# the second differences of a finer state are the right-hand sides of (2.4.13).
 
 # %% tags=["hide-cell"]
 middles = five.mu_3.sel(section=[25, 75, 125, 175, 225]).to_numpy()
@@ -435,6 +436,20 @@ assert np.ptp(middles[[0, 2, 4]]) < 1e-6
 assert np.ptp(middles[[1, 3]]) < 1e-6
 assert np.allclose(five.mu_1 * five.mu_2 * five.mu_3, 1, rtol=1e-14)
 print(f"mu_3 is {middles[0]:.2f} in anchoring and {middles[1]:.2f} in advancing regions.")
+
+fine = cosserat.run(worm.vary("fine", sections=20001, mesh={"elements": 12}))
+mu_1, mu_2, thin = (fine[name].to_numpy() for name in ("mu_1", "mu_2", "advancing"))
+crawler = worm.problem.crawler
+k_i, k_g = crawler.incompressible_stiffnesses
+square = crawler.length**2 / k_g
+m = crawler.radius * crawler.line_density * muscles.gravity * square
+c = muscles.advancing * np.pi * crawler.radius**2 * square
+i, multiplier = k_i * square, -muscles.anchoring * square / (mu_1 * mu_2)
+inside = thin[2:] == thin[:-2]
+for own, other, weight in ((mu_1, mu_2, m), (mu_2, mu_1, 0)):
+    right = c * thin + weight + multiplier / own + i * (2 * own + other - 3)
+    second = (own[2:] - 2 * own[1:-1] + own[:-2]) * (own.size - 1) ** 2
+    assert np.abs(second - right[1:-1])[inside].max() < 1e-4 * i
 
 # %% [markdown]
 # ## The pressure inside

@@ -215,6 +215,51 @@
 # .. autoclass:: cosserat.peristalsis.measured.Measured
 # ```
 #
+# ## The continuous rod
+#
+# The directed rod of Chapter 1, one section at a time, and the bodies of its twelve deformations.
+#
+# ```{eval-rst}
+# .. autoclass:: cosserat.rods.directed_rod.Section
+#    :members:
+#
+# .. autoclass:: cosserat.rods.directed_rod.Offset
+#
+# .. autofunction:: cosserat.rods.directed_rod.lame
+#
+# .. autofunction:: cosserat.rods.directed_rod.measures
+#
+# .. autofunction:: cosserat.rods.directed_rod.stretches
+#
+# .. autofunction:: cosserat.rods.directed_rod.integrated_stiffnesses
+#
+# .. autofunction:: cosserat.rods.directed_rod.adjusted_stiffnesses
+#
+# .. autofunction:: cosserat.rods.directed_rod.strain_energy
+#
+# .. autofunction:: cosserat.rods.directed_rod.energy_gradient
+#
+# .. autofunction:: cosserat.rods.directed_rod.offset_energy
+#
+# .. autofunction:: cosserat.rods.directed_rod.forces
+#
+# .. autofunction:: cosserat.rods.directed_rod.internal_forces
+#
+# .. autofunction:: cosserat.rods.directed_rod.couple
+#
+# .. autofunction:: cosserat.rods.directed_rod.unbalanced_couple
+#
+# .. autoclass:: cosserat.rods.directed_rod.Inertia
+#    :members:
+#
+# .. autofunction:: cosserat.rods.constrained_rod.constrained_forces
+#
+# .. autofunction:: cosserat.rods.constrained_rod.uniform_state
+#
+# .. autoclass:: cosserat.figures.deformations.Deformation
+#    :members:
+# ```
+#
 # ## Solvers
 #
 # They are independent of rods: a body and its loads give their energy, gradient and Hessian, and one object, the system,

@@ -7,10 +7,13 @@ import sys
 import pytest
 from conftest import ROOT
 
+from cosserat.errors import InputError
+from cosserat.thesis.book import page
 from cosserat.thesis.table.errata import read_errata
 
 CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
 NOT_YET = {
+    "beams_to_rods",
     "ch1_directed_rod",
     "ch3_calibration",
     "ch3_motion",
@@ -90,3 +93,20 @@ def test_every_entry_of_chapter_2_is_a_note_beside_its_text():
     shown = [noted(chapter.read_text()) for chapter in CHAPTERS if chapter.stem.startswith("ch2")]
     assert known
     assert set().union(*shown) == known
+
+
+def test_an_excerpt_ends_before_a_line_or_with_the_function_and_names_a_line_that_is_missing():
+    function = "cosserat.peristalsis.doublets.contact_force"
+    whole, part = page.excerpt(function, "tents ="), page.excerpt(function, "tents =", "return")
+    assert "return force" in whole.data
+    assert "tents =" in part.data
+    assert "return force" not in part.data
+    assert "offset =" not in whole.data
+    with pytest.raises(InputError, match="contact_force has no line with 'nothing'"):
+        page.excerpt(function, "tents =", "nothing")
+
+
+def test_a_folded_output_opens_from_its_summary():
+    shown = page.folded("a < b in $\\mu_1$", page.table([[1]], ("one",))).data
+    assert shown.startswith('<details class="verdict"><summary>a &lt; b in <span class="math')
+    assert shown.index("</summary>") < shown.index("<table") < shown.index("</details>")

@@ -8,6 +8,7 @@ import pytest
 from conftest import ROOT
 
 from cosserat.errors import CosseratError, InputError
+from cosserat.thesis.figures.catalogue import draw
 from cosserat.thesis.peers import compare
 
 
@@ -117,3 +118,15 @@ def test_the_stored_table_is_complete():
         assert float(row["least"]) <= float(row["seconds"]) <= float(row["most"])
         assert row["date"] >= "2026"
         assert all(row[key] for key in row)
+
+
+def test_the_picture_has_every_measurement_and_names_a_table_that_is_missing(tmp_path):
+    with (ROOT / "results" / "peers.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    figure = draw("fig_peers", {}, ROOT / "results" / "tolerances.csv")
+    drawn = [
+        tuple(point) for ax in figure.axes for line in ax.get_lines() for point in line.get_xydata()
+    ]
+    assert sorted(drawn) == sorted((float(row["seconds"]), float(row["error"])) for row in rows)
+    with pytest.raises(InputError, match=r"there is no .*peers.csv; restore it with 'git checkout"):
+        draw("fig_peers", {}, tmp_path / "tolerances.csv")

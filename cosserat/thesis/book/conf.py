@@ -38,6 +38,8 @@ python_maximum_signature_line_length = 60
 nb_execution_mode = "off"
 nb_merge_streams = True
 nb_render_markdown_format = "myst"
+nb_code_prompt_show = "Show the code and its result"
+nb_code_prompt_hide = "Hide the code and its result"
 myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
 
 html_theme = "sphinx_book_theme"

@@ -14,12 +14,14 @@ from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.players import player
 from cosserat.thesis.book.tables import folded, mathematics, table
+from cosserat.thesis.book.tutorial import Folder
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
 from cosserat.thesis.figures.catalogue import entry
 from cosserat.thesis.table.left_out import LeftOutList, read_left_out
 
 __all__ = [
+    "Folder",
     "amount",
     "anchor",
     "common_keys",

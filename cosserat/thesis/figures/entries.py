@@ -45,6 +45,24 @@ FIGURES: dict[str, Entry] = {
         "chapter1",
         cases=("soft_robot",),
     ),
+    "fig_slice": Entry(
+        "A slice of a rod and its loads",
+        "Three squares with arrows: one oblique force on each face and one at the middle; arrows up "
+        "and down at faces, middle and surface; and arrows that pull above and push below.",
+        "beams",
+    ),
+    "fig_strains": Entry(
+        "Six strains of one section",
+        "Six small blocks over their dotted shapes at rest: one is longer, one is sheared in its end "
+        "face, one is higher, one wider, and two slope up or aside with upright ends.",
+        "beams",
+    ),
+    "fig_gradients": Entry(
+        "Six changes from one section to the next",
+        "Six small blocks over their dotted shapes at rest: one is an arch, one curves aside, one "
+        "grows in height and one in width along itself, and two are twisted or skewed more and more.",
+        "beams",
+    ),
     "fig_worm_parts": Entry(
         "A crawling worm and its parts",
         "Two side views of a worm with names at its parts: the anchoring part is fat, the advancing "

@@ -15,13 +15,13 @@ from cosserat.figures.style import INK, PAPER, canvas
 from cosserat.problems.crawl import Crawl
 from cosserat.thesis.earthworm import SEGMENT_50
 
-_TALL = 6.0  # magnification of heights
-_LANE = 2.3  # from one worm to the next, in the height of a worm at rest
-_LEFT, _RIGHT = 3.5, 42.0  # of the drawn ground [cm]
+_TALL = 7.0  # magnification of heights
+_LANE = 2.85  # from one worm to the next, in the height of a worm at rest
+_LEFT, _RIGHT = 4.5, 42.5  # of the drawn ground [cm]
 _SHORTEST_NAMED = 4.0  # part of the body with a name inside it [cm]
 _SCENES = (
-    (0.7, "(a) protrusion: the rear end holds, and the thin front part reaches forward"),
-    (1.5, "(b) stance: the front end holds, and the rear part is pulled after it"),
+    (0.7, "(a) protrusion: the rear end holds,\nand the thin front part reaches forward"),
+    (1.5, "(b) stance: the front end holds,\nand the rear part is pulled after it"),
 )
 
 
@@ -30,13 +30,13 @@ def fig_worm_parts(data: Mapping[str, xr.Dataset]) -> Figure:
     run = data["worm"]
     problem = problem_of(run, Crawl)
     height = 2e2 * _TALL * problem.crawler.radius
-    figure, (ax,) = canvas(7.2, 4.3)
+    figure, (ax,) = canvas(5.0, 4.3)
     for number, (phase, title) in enumerate(_SCENES):
         state = run.isel(time=crawlers.nearest(run, problem.gait.time(phase)))
         base = -_LANE * height * number
         crawlers.draw_crawler(ax, state, problem.crawler.radius, base=base, mark=SEGMENT_50, tall=_TALL)
         ax.axhline(base, color=INK, linewidth=0.6, zorder=0)
-        ax.annotate(title, (_LEFT, base + 1.62 * height), va="bottom")
+        ax.annotate(title, (_LEFT, base + 1.75 * height), va="bottom")
         _name_fronts(ax, state, problem, base, height)
         _name_regions(ax, state, base + 0.45 * height)
         _name_anchor(ax, state, base)
@@ -46,7 +46,7 @@ def fig_worm_parts(data: Mapping[str, xr.Dataset]) -> Figure:
         xlabel=f"along the ground [cm], heights × {_TALL:g}",
         yticks=[],
         xlim=(_LEFT, _RIGHT),
-        ylim=(-_LANE * height - 0.45 * height, 2.1 * height),
+        ylim=(-_LANE * height - 0.5 * height, 2.4 * height),
     )
     ax.set_aspect("equal")
     ax.grid(visible=False)
@@ -71,12 +71,12 @@ def _name_regions(ax: Axes, state: xr.Dataset, middle: float) -> None:
     """The load of every part of the body, inside it."""
     along = 1e2 * state.along.to_numpy()
     advances = state.advancing.to_numpy() > 0.5
-    box = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5}
+    box = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.0}
     for name, flags in (("anchoring", ~advances), ("advancing", advances)):
         for part in crawlers.runs(flags):
             ends = along[part][[0, -1]]
             if np.ptp(ends) > _SHORTEST_NAMED:
-                ax.annotate(name, (ends.mean(), middle), ha="center", va="center", bbox=box)
+                ax.annotate(name, (ends.mean(), middle), ha="center", va="center", fontsize=9, bbox=box)
 
 
 def _name_anchor(ax: Axes, state: xr.Dataset, base: float) -> None:
