@@ -3,6 +3,7 @@
 import os
 import shutil
 import sys
+from pathlib import Path
 
 from snakemake.utils import min_version
 
@@ -12,6 +13,7 @@ from cosserat.studies import elsewhere
 from cosserat.studies.door import find_study, published_studies
 from cosserat.thesis.book.edition import edition
 from cosserat.thesis.figures.catalogue import FIGURES
+from cosserat.thesis.table.citations import sources
 
 min_version("9.0")
 
@@ -25,8 +27,9 @@ CASES = published()
 BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
 STUDIES = published_studies()
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
-# Tracked tables of chapters.
-MEASURED = {"ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv", "results/inputs.csv"]}
+# Tracked files of chapters.
+CITING = [file.as_posix() for file in sources(Path())]  # of pages that show tests, and places of equations
+MEASURED = {"errata": CITING, "equations": CITING, "ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv", "results/inputs.csv"]}
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/exact/beams.py", "cosserat/exact/elastica.py"]
 READOUTS = [
@@ -39,7 +42,7 @@ def package(*names):
     """Files of these folders of the package: Snakemake does not see edits of what a command imports."""
     folders = [os.path.join("cosserat", name) for name in names]
     files = [os.path.join(folder, file) for folder in folders for file in os.listdir(folder)]
-    return sorted(file for file in files if file.endswith((".py", ".css", ".js")))
+    return sorted(file for file in files if file.endswith((".py", ".css", ".js", ".toml")))
 
 
 def batches():

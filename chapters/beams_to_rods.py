@@ -43,7 +43,26 @@
 # lies along $\mathbf{E}_3$. Its points on the axis are told apart by their distance $\xi$ from one end, and its sections
 # have coordinates $X^1, X^2$ along $\mathbf{E}_1$ and $\mathbf{E}_2$. Draw two arrows of unit length into each section:
 # $\mathbf{D}_1 = \mathbf{E}_1$ and $\mathbf{D}_2 = \mathbf{E}_2$. These are the *reference directors*.
-#
+
+# %% tags=["remove-cell"]
+import itertools
+
+import numpy as np
+
+import cosserat
+from cosserat.figures.deformations import DEFORMATIONS
+from cosserat.rods import directed_rod
+from cosserat.thesis.book import page
+
+# %% tags=["remove-input"]
+page.figure(
+    "fig_directors",
+    "A bar at rest, and the same bar when it is bent, twisted and thinned. The lines on its surface move with the material. In "
+    "its neck the directors $\\mathbf{d}_1$ and $\\mathbf{d}_2$ are short and $\\mathbf{d}_3$ is long. Each of the three has "
+    "a scale of its own.",
+)
+
+# %% [markdown]
 # Now load the rod. The point $\xi$ of the axis moves to $\mathbf{r}(\xi)$. The two arrows move with the material: they
 # become $\mathbf{d}_1(\xi)$ and $\mathbf{d}_2(\xi)$, the *directors*. They may be longer or shorter than before, and the angle
 # between them may change. The theory assumes that the whole section deforms as its two arrows do. Then the place of
@@ -61,16 +80,6 @@
 # So a section has nine numbers: three of $\mathbf{r}$, three of $\mathbf{d}_1$ and three of $\mathbf{d}_2$. If the section is
 # rigid, both directors keep their unit length and their right angle. These are three conditions, and six numbers are left:
 # Timoshenko's.
-
-# %% tags=["remove-cell"]
-import itertools
-
-import numpy as np
-
-import cosserat
-from cosserat.figures.deformations import DEFORMATIONS
-from cosserat.rods import directed_rod
-from cosserat.thesis.book import page
 
 # %% [markdown]
 # ## Strains are what a rotation does not change
@@ -103,8 +112,8 @@ assert abs(gamma_rotated).max() < 1e-15
 assert abs(gamma_wider[1, 1] - (1.05**2 - 1)) < 1e-15
 
 # %% [markdown]
-# A fibre of stretch $\mu$ has $\gamma = \mu^2 - 1$, which is about $2(\mu - 1)$. So $\gamma_{11}, \gamma_{22}, \gamma_{33}$ are
-# about *twice* the strain of an engineer. The factors $\tfrac14$ in the stiffnesses of Chapter 1 come from this.
+# A fibre that grows by the share $\varepsilon$ of its length has $\gamma = (1 + \varepsilon)^2 - 1$, which is about $2 \varepsilon$. So
+# $\gamma_{11}, \gamma_{22}, \gamma_{33}$ are about *twice* the strain of an engineer. The factors $\tfrac14$ in the stiffnesses of Chapter 1 come from this.
 #
 # ## What acts on a slice
 #
@@ -257,7 +266,7 @@ assert all(abs(ratio - 4) < 0.01 for ratio in ratios)
 # (E I_2 \theta')' + k \mu A (w' - \theta) = 0 .
 # $$
 #
-# A cantilever with the force $F$ at its free end has the solution
+# A cantilever of length $L$ with the force $F$ at its free end has the solution
 #
 # $$
 # w = \frac{F}{E I_2} \left( \frac{L \xi^2}{2} - \frac{\xi^3}{6} \right) + \frac{F \xi}{k \mu A} , \qquad
@@ -338,6 +347,16 @@ page.figure(
     "fig_gradients",
     "The strains $\\kappa_{\\alpha i}$. Bending and twist are those of a beam. Taper and a growing shear belong to sections that "
     "deform, and a directed rod exists for them.",
+)
+
+# %% [markdown]
+# Move the slider, and every body deforms at once. At a negative amplitude each strain has the other sign.
+
+# %% tags=["remove-input"]
+page.explore(
+    "explore_deformations",
+    "Behind each strain stands the stiffness that pays for it. The same body pays for two strains of opposite sign in the same "
+    "way, because the energy (1.2.97) is quadratic.",
 )
 
 # %% [markdown]

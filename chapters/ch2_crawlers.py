@@ -437,6 +437,14 @@ inchworm = cosserat.run(cosserat.case("worm").vary("inchworm", gait=gait))
 head = inchworm.along.isel(section=-1)
 print(f"The stride is {1e3 * float(head[-1] - head[0]) / 3:.0f} mm.")
 
+# %% tags=["remove-input"]
+page.player(
+    cosserat.animate(inchworm),
+    "Three strides of the inchworm, in real time. In each second only one end of the body moves.",
+    name="play_inchworm",
+    title="The inchworm crawls",
+)
+
 # %% [markdown]
 # ## Exercises
 #

@@ -312,6 +312,17 @@ assert np.allclose(mu_3, 1 - loads.anchoring / k_s * (1 - thin) - p * (mu_1 + mu
 page.misprint("E2.25")
 
 # %% [markdown]
+# Move the front through the robot. The layer goes with it and keeps its shape until it comes near an end. The two plateaus keep
+# their stretches, so the body becomes longer by the same amount for each step of the front.
+
+# %% tags=["remove-input"]
+page.explore(
+    "explore_front",
+    "The anchoring load acts behind the front, the advancing load ahead of it. Each position of the slider is an equilibrium "
+    "that is stored with the book.",
+)
+
+# %% [markdown]
 # ## The worm: a material that keeps its volume
 #
 # A worm is filled with fluid, and thin walls divide it into many chambers. So each slice keeps its volume:
@@ -450,6 +461,16 @@ for own, other, weight in ((mu_1, mu_2, m), (mu_2, mu_1, 0)):
     right = c * thin + weight + multiplier / own + i * (2 * own + other - 3)
     second = (own[2:] - 2 * own[1:-1] + own[:-2]) * (own.size - 1) ** 2
     assert np.abs(second - right[1:-1])[inside].max() < 1e-4 * i
+
+# %% [markdown]
+# Two regions are enough to see what each muscle does. Tension acts in the rear half, pressure in the front half:
+
+# %% tags=["remove-input"]
+page.explore(
+    "explore_muscles",
+    "Heights are drawn three times as large. Look at the right: where the tension is small, a pressure makes the body longer "
+    "than where it is large, because the contact force of the tension acts in the front half as well.",
+)
 
 # %% [markdown]
 # ## The pressure inside
@@ -609,7 +630,7 @@ page.text(
 #
 # The stretches give the shape. Each section stands on the ground, so its centre is at the height of its stretched radius. Let
 # $x$ be the height of the centreline above its height at rest. Two sections are as far apart along the ground as the
-# centreline between them reaches there; $\xi_A$ is a section whose position is known:
+# centreline between them reaches there; $\xi_A$ is the anchored section, whose position is known:
 #
 # $$
 # x(\xi) = R \, (\mu_1(\xi) - 1) , \tag{2.5.7}

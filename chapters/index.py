@@ -100,12 +100,16 @@ page.text(f"The results table today: {verdict[0]} Of all rows: {verdict[-1]}.")
 # :caption: Reference
 # :maxdepth: 1
 #
+# notation
 # conventions
 # case_keys
+# command_line
 # python_api
 # results_table
 # errata
+# equations
 # left_out
 # reliability
 # ch5_peers
+# references
 # ```

@@ -27,6 +27,4 @@ page.text(
 )
 
 # %% tags=["remove-input"]
-page.table(
-    [(item.what, item.where, item.why) for item in listed.left_out], ("what", "in the thesis", "why")
-)
+page.left_out_table()

@@ -42,6 +42,8 @@
 #
 # .. autofunction:: cosserat.to_dataframe
 #
+# .. autofunction:: cosserat.data.dataset.statistics_of
+#
 # .. autofunction:: cosserat.plot
 #
 # .. autofunction:: cosserat.animate
@@ -156,6 +158,8 @@
 #
 # .. autoclass:: cosserat.rods.variation.Station
 #    :members:
+#
+# .. autofunction:: cosserat.rods.variation.lump
 #
 # .. autoclass:: cosserat.rods.kinematics.Kinematics
 #    :members:
@@ -320,4 +324,43 @@
 #
 # .. autoclass:: cosserat.solvers.modes.Modes
 #    :members:
+# ```
+#
+# ## Closed forms
+#
+# Exact and classical answers to compare with: beams in small displacements, and the elastica.
+#
+# ```{eval-rst}
+# .. autoclass:: cosserat.exact.beams.Beam
+#    :members:
+#
+# .. autofunction:: cosserat.studies.calibration.beam_of
+#
+# .. autofunction:: cosserat.exact.beams.hanging_bar_displacement
+#
+# .. autofunction:: cosserat.exact.beams.clamped_free_displacement
+#
+# .. autofunction:: cosserat.exact.beams.clamped_free_director
+#
+# .. autofunction:: cosserat.exact.beams.clamped_clamped_displacement
+#
+# .. autofunction:: cosserat.exact.beams.clamped_clamped_director
+#
+# .. autofunction:: cosserat.exact.beams.first_beam_mode
+#
+# .. autofunction:: cosserat.exact.beams.first_frequency
+#
+# .. autofunction:: cosserat.exact.beams.necking_decay
+#
+# .. autofunction:: cosserat.exact.beams.necking_strain
+#
+# .. autofunction:: cosserat.exact.beams.clamped_free_tip_of_published_rod
+#
+# .. autofunction:: cosserat.exact.elastica.shearable_tip
+#
+# .. autofunction:: cosserat.exact.elastica.column_tip
+#
+# .. autofunction:: cosserat.exact.elastica.column_load
+#
+# .. autofunction:: cosserat.exact.elastica.timoshenko_frequencies
 # ```

@@ -11,17 +11,26 @@
 # %% [markdown]
 # # The results table
 #
-# The table has one row for each number or curve that the thesis publishes, and some others. *Printed text* is that of the
-# page, never corrected; if the page claims that two curves agree at some coefficients, it is those coefficients.
-# The kind of a row is the source of *expected*. For *printed*, it is that number in SI units. For *analytic*, it is a closed
-# form: that of the page if it claims agreement with it, another exact one for our own rows (they begin with C). For *in
-# words*, it is the statement. For *literature*, it is a measurement in a source of the page that the page does not print. An
-# *arithmetic* number follows from other numbers of the page: nothing is solved for it, and its standing is only
-# *recomputed*. Closed forms use the inputs as the page prints them, not those of the solved case.
+# The table has one row for each number or curve that the thesis publishes, and some others. A row claims that the number
+# *measured* in our stored results lies within its tolerance of the *expected* one. If the thesis is wrong, or has a reading
+# that does not agree, the row claims that the number lies outside, at the value that the row gives. The book is not built
+# while a claim fails. *Error / tolerance* is below 1 within the tolerance; *loose* marks a tolerance that is over a thousand
+# times as wide as the error.
 #
-# *Measured* comes from the stored datasets. A row claims that the measured number lies within its tolerance. If the page is
-# wrong or has a reading that does not agree, the row claims that the number lies outside, at the value that the row gives.
-# Rows of one number in several readings name the first of them.
+# *Printed text* is that of the thesis, never corrected. If the thesis claims that two curves agree at some coefficients, it is
+# those coefficients. The kind of a row is the source of *expected*:
+#
+# * *printed*: the printed number, in SI units;
+# * *analytic*: a closed form, that of the thesis if it claims agreement with it, another exact one for our own rows, which
+#   begin with C;
+# * *in words*: a statement of the thesis;
+# * *literature*: a measurement in a source of the thesis that the thesis does not print;
+# * *arithmetic*: a number that follows from other numbers of the thesis. Nothing is solved for it, and its standing is only
+#   *recomputed*.
+#
+# Closed forms use the inputs as the thesis prints them, not those of the solved case. The reason for each tolerance unfolds
+# in its row. Rows of one number in several readings name the first of them there. A word in the field shows only the rows
+# that have it, and a heading sorts them.
 
 # %% tags=["remove-input"]
 from cosserat.thesis.book import page
@@ -30,44 +39,10 @@ from cosserat.thesis.table.power import changes
 from cosserat.thesis.table.tolerances import read_report
 
 report = read_report(page.results() / "report.csv")
-attempted = [row for row in report if row["standing"] != "not attempted"]
 page.text("\n\n".join(summary(report).splitlines()))
 
 # %% tags=["remove-input"]
-lines = [
-    [
-        row["id"],
-        f"{row['quantity']} ({row['where']})",
-        row["published"],
-        page.amount(row["expected"], row["units"]),
-        page.amount(row["measured"], row["units"]),
-        row["verdict"],
-        " ".join((f"{row['kind']}:", row["standing"], row["erratum"])),
-    ]
-    for row in attempted
-]
-page.table(
-    lines, ("row", "quantity", "printed text", "expected", "measured", "verdict", "kind: standing")
-)
-
-# %% [markdown]
-# ## The reasons for the tolerances
-
-# %% tags=["remove-input"]
-page.table(
-    [
-        [
-            row["id"],
-            f"{row['tolerance']} {row['tolerance_kind']}",
-            f"{row['found']} ± {row['found_tolerance']}" if row["found"] else "",
-            row["reading_of"],
-            row["error_over_tolerance"],
-            row["why"],
-        ]
-        for row in attempted
-    ],
-    ("row", "tolerance", "found outside at", "reading of", "error / tolerance", "why"),
-)
+page.results_table()
 
 # %% [markdown]
 # ## The sensitivity of the claims

@@ -96,14 +96,17 @@ def clamped_clamped_director(beam: Beam, g: float, xi: Array) -> Array:
 
 
 def first_root() -> float:
-    """beta_1 L, the first root of cosh cos + 1 = 0, eq. (3.5.13)."""
+    """beta_1 L, the first root of cosh cos + 1 = 0, eq. (3.5.13); over pi, (3.5.14)."""
     from scipy.optimize import brentq
 
     return float(brentq(lambda x: np.cosh(x) * np.cos(x) + 1, 1.8, 1.9, xtol=1e-15))
 
 
 def first_beam_mode(length: float, xi: Array) -> tuple[Array, Array]:
-    """First mode of a clamped-free beam, eqs. (3.5.12), (3.5.16), tip displacement one, and its slope [1/m]."""
+    """First mode of a clamped-free beam and its slope [1/m]; the displacement of the tip is one.
+
+    A product (3.5.11) that solves (3.5.10): eqs. (3.5.12), (3.5.16).
+    """
     b = first_root()
     ratio = (np.cos(b) + np.cosh(b)) / (
         np.sin(b) + np.sinh(b)

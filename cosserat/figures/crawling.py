@@ -45,7 +45,11 @@ def animate(
     """
     shown = chosen(data.sizes["time"], frames)
     state, time = data.isel(time=shown), data.time.to_numpy()[shown]
-    panels = (_side(state, tall, mark), stretches_panel(state), _paths(state, time))
+    panels = (
+        _side(state, tall, mark),
+        stretches_panel(state, state.xi_section.to_numpy()),
+        _paths(state, time),
+    )
     seconds = min(float(time[-1] - time[0]), _LONGEST)
     return Stage(
         str(data.attrs.get("title", "")),
@@ -58,15 +62,38 @@ def animate(
 
 
 def _side(state: xr.Dataset, tall: float, mark: float | None) -> Panel:
-    """The body on the ground."""
+    """The body on the ground at each instant of a crawl."""
     sections = chosen(state.sizes["section"], _SECTIONS)
     radius = np.broadcast_to(resting_radius(state), state.sizes["section"])[sections]
     along = 1e2 * state.along.to_numpy()[:, sections]
     top = 2e2 * radius * state.mu_1.to_numpy()[:, sections]
-    thin = state.advancing.to_numpy()[:, sections] > 0.5
-    reach = np.array([along.min(), along.max()])
-    parts: list[Line | Mark] = [
-        Line(reach, np.zeros(2), look="ink", width=1.0),
+    more: list[Line | Mark] = []
+    if mark is not None:
+        k = round(mark * (sections.size - 1))
+        near = slice(k, k + 2)
+        more = [Line(along[:, near], top[:, near], "ink", "ink", 0.0, width=0.9, label="marked segment")]
+    foot = Mark(
+        1e2 * state.anchor_along.to_numpy(), np.zeros(along.shape[0]), "triangle", "anchor", "anchor"
+    )
+    return side_panel(
+        along, top, state.advancing.to_numpy()[:, sections] > 0.5, (*more, foot), tall=tall
+    )
+
+
+def side_panel(
+    along: Array,
+    top: Array,
+    thin: NDArray[np.bool_],
+    more: tuple[Line | Mark, ...] = (),
+    *,
+    tall: float = 1.0,
+) -> Panel:
+    """A body on the ground from the side.
+
+    along, top : of its sections in each state [cm], shape (states, n).  thin : whether the advancing load acts there.
+    """
+    parts = (
+        Line(np.array([along.min(), along.max()]), np.zeros(2), look="ink", width=1.0),
         Line(along, top, look="ink", fill="body", base=0.0, width=0.9, label="anchoring load"),
         Line(
             along,
@@ -77,20 +104,10 @@ def _side(state: xr.Dataset, tall: float, mark: float | None) -> Panel:
             width=0.9,
             label="advancing load",
         ),
-    ]
-    if mark is not None:
-        k = round(mark * (sections.size - 1))
-        near = slice(k, k + 2)
-        parts.append(
-            Line(along[:, near], top[:, near], "ink", "ink", 0.0, width=0.9, label="marked segment")
-        )
-    parts.append(
-        Mark(
-            1e2 * state.anchor_along.to_numpy(), np.zeros(along.shape[0]), "triangle", "anchor", "anchor"
-        )
+        *more,
     )
     height = "height [cm]" if tall == 1 else f"height, drawn \N{MULTIPLICATION SIGN} {tall:g} [cm]"
-    return Panel(tuple(parts), "along the ground [cm]", height, true=True, tall=tall, wide=True)
+    return Panel(parts, "along the ground [cm]", height, true=True, tall=tall, wide=True)
 
 
 def _extended(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -100,10 +117,10 @@ def _extended(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return more
 
 
-def stretches_panel(state: xr.Dataset) -> Panel:
-    """The stretches along the body in each state."""
+def stretches_panel(state: xr.Dataset, arc_length: Array) -> Panel:
+    """The stretches along the body in each state; arc_length : of its resting sections [m], shape (n,)."""
     places = chosen(state.sizes["section"], _PLACES)
-    at = 1e2 * state.xi_section.to_numpy()[places]
+    at = 1e2 * arc_length[places]
     parts = tuple(
         Line(at, state[name].to_numpy()[..., places], look, dash=dash, label=label)
         for name, (look, label, dash) in _STRETCHES.items()

@@ -138,6 +138,12 @@ DEFORMATIONS: dict[str, Deformation] = {
 """Six gamma and six combinations of kappa: together every homogeneous deformation of a section, eq. (1.2.19)."""
 
 
+def on_paper(points: Array) -> Array:
+    """Points or vectors (..., 3) as the reader sees them, shape (..., 2)."""
+    seen: Array = points @ _OBLIQUE
+    return seen
+
+
 def draw_body(
     ax: Axes,
     r: Array,
@@ -152,7 +158,7 @@ def draw_body(
     r : (n, 3) and d : (n, 3, 3) its centreline and directors.  half : half its height along d_1 and half its width
     along d_2.  look : colour of its faces, or "none" for the edges alone.
     """
-    middle = np.asarray(place) - (r.mean(axis=0) @ _OBLIQUE)
+    middle = np.asarray(place) - (on_paper(r.mean(axis=0)))
     ring = _ring(half)
     points = r[:, None] + np.einsum("pa,nai->npi", ring, d[:, :2])
     if look == "none":
@@ -162,7 +168,7 @@ def draw_body(
             corners[0, [0, 1, 2, 3, 0]],
             corners[-1, [0, 1, 2, 3, 0]],
         ):
-            ax.plot(*(line @ _OBLIQUE + middle).T, color=EXACT, linewidth=0.6, linestyle=":")
+            ax.plot(*(on_paper(line) + middle).T, color=EXACT, linewidth=0.6, linestyle=":")
         return
     around = np.roll(points, -1, axis=1)
     quads = np.stack([points[:-1], around[:-1], around[1:], points[1:]], axis=2).reshape(-1, 4, 3)
@@ -175,7 +181,7 @@ def draw_body(
     shade = 0.62 + 0.38 * np.clip(normal @ _LIGHT / np.linalg.norm(_LIGHT), 0, 1)
     colour = np.array([int(look[k : k + 2], 16) / 255 for k in (1, 3, 5)])
     drawn = PolyCollection(
-        list((faces @ _OBLIQUE + middle)[order]),
+        list((on_paper(faces) + middle)[order]),
         facecolors=np.clip(shade[:, None] * colour * 1.08, 0, 1)[order],
         edgecolors=COMPUTED,
         linewidths=0.25,

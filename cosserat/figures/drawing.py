@@ -17,13 +17,15 @@ from cosserat.text import brief
 
 Array = NDArray[np.float64]
 
-WIDE, NARROW = 720, 350
-_LEFT, _RIGHT, _TOP, _BOTTOM = (
+WIDE, NARROW, BARE = 720, 350, 172
+_ROOM = (
     62,
     14,
     34,
     52,
-)  # room for labels, also for the larger ones of a phone [px]
+)  # left, right, top and bottom of the axes, also for the large labels of a phone [px]
+_LEFT, _RIGHT, _TOP, _BOTTOM = _ROOM
+_BARE_ROOM = (3, 3, 40, 6)  # of a bare panel [px]
 _HEIGHT = 150  # of the axes of a graph [px]
 _LOWEST, _HIGHEST = 46, 330  # height of the axes of a panel that is true to scale [px]
 _FADED = 0.4  # opacity of the first state of a poster
@@ -48,13 +50,14 @@ class Frame:
     @classmethod
     def of(cls, panel: Panel) -> Frame:
         """The frame of a panel, whose axes hold all of its parts."""
-        width = WIDE if panel.wide else NARROW
-        inner = width - _LEFT - _RIGHT
+        width = WIDE if panel.wide else BARE if panel.bare else NARROW
+        left, right, top, bottom = _BARE_ROOM if panel.bare else _ROOM
+        inner = width - left - right
         margin = 0.06 if panel.true else 0.05
         x = panel.xlim or _limits([part.x for part in panel.parts], 0.03)
         y = panel.ylim or _limits([*(part.y for part in panel.parts), _bases(panel)], margin)
         if not panel.true:
-            return cls(panel, width, _TOP + _HEIGHT + _BOTTOM, x, y)
+            return cls(panel, width, top + _HEIGHT + bottom, x, y)
         tall = inner * panel.tall * (y[1] - y[0]) / (x[1] - x[0])
         height = min(max(tall, _LOWEST), _HIGHEST)
         if tall > height:
@@ -65,14 +68,15 @@ class Frame:
                 if _bases(panel).size
                 else _stretched(y, height / tall)
             )
-        return cls(panel, width, round(_TOP + height + _BOTTOM), x, y)
+        return cls(panel, width, round(top + height + bottom), x, y)
 
     @property
     def map(self) -> tuple[float, float, float, float]:
         """Origin and scale along, origin and scale up."""
-        along = (self.width - _LEFT - _RIGHT) / (self.xlim[1] - self.xlim[0])
-        up = -(self.height - _TOP - _BOTTOM) / (self.ylim[1] - self.ylim[0])
-        return _LEFT - along * self.xlim[0], along, self.height - _BOTTOM - up * self.ylim[0], up
+        left, right, top, bottom = _BARE_ROOM if self.panel.bare else _ROOM
+        along = (self.width - left - right) / (self.xlim[1] - self.xlim[0])
+        up = -(self.height - top - bottom) / (self.ylim[1] - self.ylim[0])
+        return left - along * self.xlim[0], along, self.height - bottom - up * self.ylim[0], up
 
     def pixels(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Pixels of points."""
@@ -117,11 +121,16 @@ def ticks(low: float, high: float, most: float) -> list[tuple[float, str]]:
 
 
 def axes(frame: Frame) -> str:
-    """Both axes with numbers and units, and the title of the panel."""
+    """Both axes with numbers and units, and the title of the panel; of a bare panel both captions alone."""
+    if frame.panel.bare:
+        words = (frame.panel.title, frame.panel.ylabel)
+        return "".join(
+            f'<text x="3" y="{14 + 16 * k}">{escape(text)}</text>' for k, text in enumerate(words)
+        )
     x0, along, y0, up = frame.map
     right, bottom = frame.width - _RIGHT, frame.height - _BOTTOM
     parts = [f'<path class="grid" d="M{_LEFT} {_TOP}V{bottom}H{right}"/>']
-    for value, text in ticks(*frame.xlim, (right - _LEFT) / 75):
+    for value, text in ticks(*frame.xlim, (right - _LEFT) / 55):
         place = x0 + along * value
         parts.append(f'<path class="grid" d="M{place:.1f} {bottom}v5"/>')
         parts.append(f'<text x="{place:.1f}" y="{bottom + 22}" text-anchor="middle">{text}</text>')

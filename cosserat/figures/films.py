@@ -35,7 +35,7 @@ def film(stage: Stage) -> FuncAnimation:
     def draw(state: int) -> list[object]:
         for show in shows:
             show(state)
-        heading.set_text(plain(f"{stage.title}\n{stage.slider.spoken(state)}"))
+        heading.set_text(plain(f"{stage.title}\n{stage.spoken(state)}"))
         return []
 
     frames = stage.states - 1 if stage.loop else stage.states  # the last state of a cycle is its first

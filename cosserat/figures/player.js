@@ -49,19 +49,26 @@
     const said = JSON.parse(figure.querySelector("script[type='application/json']").textContent);
     const fields = said.fields.map(unpack), last = said.pace.length - 1;
     const nodes = figure.querySelectorAll("[data-part]");
-    const controls = figure.querySelector(".controls"), slider = controls.querySelector("input");
-    const button = controls.querySelector("button"), clock = controls.querySelector("output");
+    const controls = figure.querySelector(".controls"), button = controls.querySelector("button");
+    const sliders = [...controls.querySelectorAll("input")], clocks = controls.querySelectorAll("output");
+    const slider = sliders[0];  /* the one that plays */
     let playing = false, begun = 0;
 
-    function draw(state) {
+    function draw() {  /* the state at which the sliders stand; those of the last one follow each other */
+      const state = sliders.reduce((whole, one) => whole * (+one.max + 1) + +one.value, 0);
       said.parts.forEach((part, k) => {
         const xs = fields[part.x], ys = fields[part.y];
         if (part.mark) place(nodes[k], part, xs, ys, state);
         else nodes[k].setAttribute("d", outline(part, xs, ys, state));
       });
-      slider.value = state;
-      clock.textContent = said.clock[state];
-      slider.setAttribute("aria-valuetext", said.clock[state]);
+      sliders.forEach((one, k) => {
+        clocks[k].textContent = said.clock[k][+one.value];
+        one.setAttribute("aria-valuetext", said.clock[k][+one.value]);
+      });
+    }
+    function show(place) {
+      slider.value = place;
+      draw();
     }
     function name() {
       button.textContent = still.matches ? "Next" : playing ? "Pause" : "Play";
@@ -74,16 +81,16 @@
       if (!playing) return;
       let share = (now - begun) / 1000 / said.seconds;
       if (share >= 1 && said.loop) { begun = now; share = 0; }
-      if (share >= 1) { draw(last); stop(); return; }
+      if (share >= 1) { show(last); stop(); return; }
       let state = said.pace.findIndex((reached) => reached > share) - 1;
-      draw(state < 0 ? 0 : state);
+      show(state < 0 ? 0 : state);
       requestAnimationFrame(tick);
     }
     function toggle() {
       const state = +slider.value;
       if (still.matches) {  /* who wants no motion goes from state to state */
         stop();
-        draw(state === last ? 0 : Math.min(last, state + Math.max(1, Math.round(last / JUMP))));
+        show(state === last ? 0 : Math.min(last, state + Math.max(1, Math.round(last / JUMP))));
         return;
       }
       if (playing) { stop(); return; }
@@ -93,12 +100,15 @@
       requestAnimationFrame(tick);
     }
     button.addEventListener("click", toggle);
-    slider.addEventListener("input", () => { stop(); draw(+slider.value); });
-    slider.addEventListener("keydown", (event) => {
-      if (event.key === " ") { event.preventDefault(); toggle(); }
-    });
+    for (const one of sliders) {
+      one.addEventListener("input", () => { stop(); draw(); });
+      one.addEventListener("keydown", (event) => {
+        if (event.key === " ") { event.preventDefault(); toggle(); }
+      });
+    }
     still.addEventListener("change", stop);
-    draw(+slider.getAttribute("value"));
+    for (const one of sliders) one.value = one.getAttribute("value");  /* not what a reload remembers */
+    draw();
     name();
     controls.hidden = false;
     figure.dataset.player = "ready";

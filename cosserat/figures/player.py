@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from cosserat.figures import drawing
 from cosserat.figures.drawing import Frame
-from cosserat.figures.stage import LOOKS, Line, Mark, Stage
+from cosserat.figures.stage import LOOKS, Line, Mark, Slider, Stage
 from cosserat.text import printable
 
 Array = NDArray[np.float64]
@@ -100,7 +100,10 @@ def states(stage: Stage) -> dict[str, Any]:
         "seconds": stage.seconds,
         "loop": stage.loop,
         "pace": [float(f"{share:.4f}") for share in pace],
-        "clock": [printable(stage.slider.spoken(state)) for state in range(stage.states)],
+        "clock": [
+            [printable(slider.spoken(place)) for place in range(slider.values.size)]
+            for slider in stage.sliders
+        ],
         "fields": fields.stored,
         "parts": parts,
     }
@@ -128,19 +131,26 @@ def figure(stage: Stage, name: str, caption: str = "") -> str:
     """
     panels = "".join(_panel(stage, number) for number in range(len(stage.panels)))
     legend = "".join(f"<li>{_swatch(part)}{html.escape(part.label)}</li>" for part in stage.labels)
-    drawn = "; ".join(printable(stage.slider.spoken(state)) for state in stage.drawn)
+    drawn = "; ".join(printable(stage.spoken(state)) for state in stage.drawn)
+    sliders = zip(stage.sliders, stage.places(stage.drawn[-1]), strict=True)
+    inputs = "".join(_input(slider, place) for slider, place in sliders)
     packed = json.dumps(states(stage), separators=(",", ":"), ensure_ascii=False).replace("<", r"\u003c")
-    label = html.escape(stage.slider.label)
     return (
         f'<figure class="player" id="{html.escape(name)}" data-player>'
         f'<div class="panels">{panels}</div>'
         + (f'<ul class="legend">{legend}</ul>' if legend else "")
         + f'<p class="drawn">Drawn: {html.escape(drawn)}.</p>'
-        '<div class="controls" hidden><button type="button">Play</button>'
-        f'<input type="range" min="0" max="{stage.states - 1}" step="1" value="{stage.drawn[-1]}" '
-        f'aria-label="{label}"><output></output></div>'
+        f'<div class="controls" hidden><button type="button">Play</button>{inputs}</div>'
         f'<script type="application/json">{packed}</script>'
         f"<figcaption>{caption}</figcaption></figure>"
+    )
+
+
+def _input(slider: Slider, place: int) -> str:
+    """A slider with its value beside it."""
+    return (
+        f'<span><input type="range" min="0" max="{slider.values.size - 1}" step="1" value="{place}" '
+        f'aria-label="{html.escape(slider.label)}"><output></output></span>'
     )
 
 
@@ -149,7 +159,7 @@ def _panel(stage: Stage, number: int) -> str:
     frame = Frame.of(stage.panels[number])
     still = "".join(drawing.shape(part, frame, 0) for part in frame.panel.parts if not part.moves)
     alive = "".join(_empty(part) for part in frame.panel.parts if part.moves)
-    kind = "wide" if frame.panel.wide else "half"
+    kind = "wide" if frame.panel.wide else "bare" if frame.panel.bare else "half"
     spoken = (
         f'role="img" aria-label="{html.escape(printable(stage.alt))}"'
         if number == 0

@@ -81,6 +81,7 @@ class Panel:
     xlabel, ylabel : what is measured, each with its unit in brackets.
     true : whether one unit is as long up as along; `tall` is the magnification of heights then.
     wide : whether it takes a row of its own.  xlim, ylim : ends of the axes; from the parts if they are left out.
+    bare : whether it is a small drawing without axes, of which four stand in a row; both labels are then captions.
     """
 
     parts: tuple[Line | Mark, ...]
@@ -92,11 +93,12 @@ class Panel:
     title: str = ""
     xlim: tuple[float, float] | None = None
     ylim: tuple[float, float] | None = None
+    bare: bool = False
 
     def __post_init__(self) -> None:
         """Refuse an axis without a unit."""
         for label in (self.xlabel, self.ylabel):
-            if not label.endswith("]"):
+            if not label.endswith("]") and not self.bare:
                 raise ValueError(f"the axis '{label}' of a panel names no unit; end it as in 'time [s]'")
 
 
@@ -126,6 +128,9 @@ class Slider:
 class Stage:
     """All that a player needs.
 
+    slider : over the states.  second : another one if there are two; the states are then all pairs of their values, and
+        those of the second slider follow each other.
+
     title : in a few words.  alt : what is seen, for those who do not see it.
     seconds : how long it plays, at a pace that follows the values of the slider.  loop : whether it begins again.
     poster : states that are drawn where nothing plays, such as on paper.
@@ -138,6 +143,7 @@ class Stage:
     seconds: float = 5.0
     loop: bool = False
     poster: tuple[int, ...] = (-1,)
+    second: Slider | None = None
 
     def __post_init__(self) -> None:
         """Refuse parts whose number of states is not that of the slider."""
@@ -160,7 +166,21 @@ class Stage:
     @property
     def states(self) -> int:
         """Number of states."""
-        return self.slider.values.size
+        return self.slider.values.size * (self.second.values.size if self.second else 1)
+
+    @property
+    def sliders(self) -> tuple[Slider, ...]:
+        """One slider, or two."""
+        return (self.slider, self.second) if self.second else (self.slider,)
+
+    def places(self, state: int) -> tuple[int, ...]:
+        """Where the sliders stand in a state."""
+        return divmod(state, self.second.values.size) if self.second else (state,)
+
+    def spoken(self, state: int) -> str:
+        """The values of the sliders in a state."""
+        stands = zip(self.sliders, self.places(state), strict=True)
+        return ", ".join(slider.spoken(place) for slider, place in stands)
 
     @property
     def drawn(self) -> tuple[int, ...]:

@@ -176,7 +176,7 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
 
 
 def vertex_tangents(x: Array) -> Array:
-    """Unit tangents at the vertices, shape (N, 2), eqs. (3.3.7)-(3.3.9)."""
+    """Unit tangents at the vertices, shape (N, 2), eqs. (3.3.7), (3.3.8), (3.3.9)."""
     chord = np.empty_like(x)
     chord[..., 1:-1, :] = x[..., 2:, :] - x[..., :-2, :]
     chord[..., 0, :] = x[..., 1, :] - x[..., 0, :]

@@ -1,4 +1,4 @@
-"""Sections that vary along the rod, and their averages over the parts of the discrete rod, eqs. (3.4.8)-(3.4.10)."""
+"""Sections that vary along the rod, and their averages over the parts of the discrete rod, eqs. (3.4.8), (3.4.9)."""
 
 from __future__ import annotations
 

@@ -17,6 +17,7 @@ from cosserat import errors
 from cosserat.data.provenance import computing_sources
 from cosserat.solvers import kernels
 from cosserat.thesis.figures.catalogue import FIGURES
+from cosserat.thesis.figures.explored import EXPLORED
 from cosserat.thesis.figures.played import PLAYED
 from cosserat.thesis.table.errata import read_errata
 
@@ -293,7 +294,7 @@ def test_figures_drawn_are_the_figures_shown():
         for file in CHAPTERS
         for name in re.findall(r'page\.(?:figure|player|explore)\(\s*"(\w+)"', file.read_text())
     }
-    assert shown == {*FIGURES, *PLAYED}
+    assert shown == {*FIGURES, *PLAYED, *EXPLORED}
 
 
 def test_every_row_that_is_attempted_is_shown_in_a_chapter():

@@ -13,6 +13,7 @@ from cosserat.figures import player
 from cosserat.figures.drawing import Frame, ticks
 from cosserat.figures.stage import LOOKS, Line, Mark, Panel, Slider, Stage
 from cosserat.publications import kinds
+from cosserat.thesis.figures.explored import EXPLORED
 from cosserat.thesis.figures.played import PLAYED
 
 
@@ -22,8 +23,9 @@ def moving_parts(stage):
 
 
 def staged(solved, name):
-    played = PLAYED[name]
-    return played.stage({case: solved[case] for case in played.cases})
+    if name in EXPLORED:
+        return EXPLORED[name].stage({study: solved[study] for study in EXPLORED[name].studies})
+    return PLAYED[name].stage({case: solved[case] for case in PLAYED[name].cases})
 
 
 def assert_travels(stage):
@@ -43,8 +45,8 @@ def assert_travels(stage):
     return said
 
 
-@pytest.mark.parametrize("name", PLAYED)
-def test_what_the_book_plays_travels_within_a_sixteenth_of_a_pixel(solved, name):
+@pytest.mark.parametrize("name", [*PLAYED, *EXPLORED])
+def test_what_the_book_plays_and_explores_travels_within_a_sixteenth_of_a_pixel(solved, name):
     assert_travels(staged(solved, name))
 
 

@@ -1,58 +1,23 @@
 """Every numbered item of the thesis is used, or is on the list of omissions with a reason."""
 
 import re
-import subprocess
 
 import pytest
 from conftest import ROOT
 
 from cosserat.errors import InputError
 from cosserat.thesis.figures.catalogue import FIGURES
+from cosserat.thesis.table.citations import cited, places, sources
 from cosserat.thesis.table.left_out import KINDS, LeftOut, read_left_out
 
 LISTED = read_left_out(ROOT / "results/left_out.toml")
-OWN = ("left_out.py", "test_left_out.py", "test_links.py")  # they cite what is not used
-
-NUMBER = r"([123]\.\d\.\d{1,3})"
-FORMS = {
-    "cosserat": r'"' + NUMBER + r'"',  # of a parameter or a variable
-    "chapters": r"\\tag\{" + NUMBER + r"\}",
-    "results": r"(?<=,)" + NUMBER + r"(?=[,\n])",  # of a row
-}
-"""How a folder cites an equation, besides (1.2.3)."""
-RANGE = r"\((?P<section>[123]\.\d)\.(?P<first>\d{1,3})\)(?:_?\d)?(?:-|\s+to\s+)\((?P=section)\.(?P<last>\d{1,3})\)"
 TABLE = r'"T(?:able )?(\d\.\d+)\b'
 """How a chapter shows a table of the thesis: as rows "T2.1", or with "Table 3.1 ..." over a column."""
 
 
-def cited(text, folder="tests"):
-    """Equations of a text of this folder: (1.2.3), eqs. (1.2.3)-(1.2.7) with all between, and its own form."""
-    ranges = {
-        f"{match['section']}.{number}"
-        for match in re.finditer(RANGE, text)
-        for number in range(int(match["first"]), int(match["last"]) + 1)
-    }
-    own = re.findall(FORMS[folder], text) if folder in FORMS else []
-    return ranges | {*re.findall(r"\(" + NUMBER + r"\)", text), *own}
-
-
-def sources():
-    """Package with its cases, chapters, tests, errata and tolerances."""
-    places = ["cosserat", "chapters", "tests", "results/errata.toml", "results/tolerances.csv"]
-    done = subprocess.run(
-        ["git", "ls-files", "-co", "--exclude-standard", *places],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    files = [ROOT / line for line in done.stdout.splitlines() if not line.endswith(OWN)]
-    return [file for file in files if file.is_file() and file.suffix in (".py", ".toml", ".csv")]
-
-
 def used():
     """What is used, by kind."""
-    texts = {file: file.read_text(encoding="utf-8") for file in sources()}
+    texts = {file: file.read_text(encoding="utf-8") for file in sources(ROOT)}
     drawn = (re.match(r"Fig\. (\d\.\d+):", entry.title) for entry in FIGURES.values())
     return {
         "equations": set().union(
@@ -118,7 +83,7 @@ def test_reasons_point_to_what_is_used(all_used):
 
 def test_figures_cited_are_figures_of_the_thesis():
     there = LISTED.numbered.names("figures")
-    text = "".join(file.read_text(encoding="utf-8") for file in sources())
+    text = "".join(file.read_text(encoding="utf-8") for file in sources(ROOT))
     assert set(re.findall(r"Figs?\. (\d\.\d+)", text)) <= set(there)
 
 
@@ -153,3 +118,10 @@ def test_an_unreadable_list_is_refused(tmp_path):
     (tmp_path / "list.toml").write_text("[[left_out]]\nwhat = 'x'\n")
     with pytest.raises(InputError, match="numbered"):
         read_left_out(tmp_path / "list.toml")
+
+
+def test_places_name_the_function_that_cites_an_equation():
+    found = places(ROOT)
+    assert ("cosserat/rods/directed_rod.py", "lame") in {(p.path, p.name) for p in found["1.2.96"]}
+    assert {p.path for p in found["1.2.93"]} >= {"chapters/ch1_directed_rod.py"}
+    assert "9.9.9" not in found

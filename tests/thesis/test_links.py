@@ -36,7 +36,7 @@ def linked(linker, html, page="ch3_rod.html"):
     assert re.sub(r"</?a\b[^>]*>", "", made) == re.sub(r"</?a\b[^>]*>", "", html)  # nothing else changes
     return [
         (text, address)
-        for address, text in re.findall(r'<a class="ref \w+" href="([^"]+)".*?>(.*?)</a>', made)
+        for address, text in re.findall(r'<a class="ref to-\w+" href="([^"]+)".*?>(.*?)</a>', made)
     ]
 
 

@@ -36,6 +36,15 @@ UNPRINTED_CASES = {
     "roll_up": "our own rod",
     "column_path": "our own rod",
     "arch_path": "our own rod",
+    "cone": "a rod of our choice, like a published one",
+    "two_materials": "as the one before",
+    "two_materials_consistent": "our own rod",
+    "low_centreline": "a centreline of our choice",
+    "low_centreline_consistent": "our own rod",
+    "couple": "a load of our choice",
+    "turned_support": "our own rod",
+    "hook": "a reference of our choice",
+    "hook_printed": "as the one before",
 }
 """Cases of Chapter 3 that do not claim to be the thesis's, and what they are."""
 

@@ -71,7 +71,7 @@ class Hemingway(Energy):
         return potential(self.stiffness(rod, geometry), geometry.q if displacements else None)
 
     def mass(self, rod: Rod, geometry: Geometry) -> Array:
-        """Eq. (3.3.43): rho0 L times 1, Y02 and Y22, shape (4 N, 3)."""
+        """Eq. (3.3.43) from (3.3.30), (3.3.31): rho0 L times 1, Y02 and Y22, shape (4 N, 3)."""
         m = rod.part_masses(geometry)
         return self.kinematics.mass_band(np.array([[m, rod.Y02 * m], [rod.Y02 * m, rod.Y22 * m]]))[:, :3]
 

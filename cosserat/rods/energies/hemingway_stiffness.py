@@ -1,4 +1,7 @@
-"""Stiffnesses of the published energy, eq. (3.4.13): linear elasticity times calibration coefficients."""
+"""Stiffnesses of the published energy, eq. (3.4.13): linear elasticity times calibration coefficients.
+
+The first of them, 1/2, follows from small strains, eq. (3.4.14); the others are fitted.
+"""
 
 from __future__ import annotations
 
@@ -73,7 +76,7 @@ def stiffnesses(
     end_sections : "halved" halves the areas of the boundary vertices, eq. (3.4.10), on top of their half length.
     poisson_coupling : "printed" takes 2 sum k7 (lambda - 1)(mu - 1) L in eq. (3.4.11) as it stands; "halved" drops
         the 2, which is what the published c7 = 1.66 fits (erratum E3.2).
-    intrinsic_curvature : "subtracted" measures bending from the reference, as in section 3.2; "printed" from the
+    intrinsic_curvature : "subtracted" measures bending from the reference, as (3.2.3) does; "printed" from the
         straight rod, as eq. (3.4.11) is printed: a curved reference is then not at rest (E3.24).
     """
     end_factor = np.ones(vertex.area.size)

@@ -45,8 +45,14 @@ myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
 html_theme = "sphinx_book_theme"
 html_title = "Cosserat curves"
 html_static_path = ["_static"]
-html_css_files = ["player.css", "book.css"]
-html_js_files = [("book.js", {"defer": "defer"}), "player.js", "equations.js", "equation_preview.js"]
+html_css_files = ["player.css", "book.css", "links.css"]
+html_js_files = [
+    ("book.js", {"defer": "defer"}),
+    "player.js",
+    "equations.js",
+    "equation_preview.js",
+    "filter.js",
+]
 html_copy_source = False
 html_show_sourcelink = False
 html_use_index = False

@@ -140,7 +140,7 @@ class Linker:
             return shown
         self.made[kind] = self.made.get(kind, 0) + 1
         title = f' title="{escape(target.about)}"' if target.about else ""
-        return f'<a class="ref {kind}" href="{escape(target.address(page))}"{title}>{shown}</a>'
+        return f'<a class="ref to-{kind}" href="{escape(target.address(page))}"{title}>{shown}</a>'
 
 
 _STRICT = frozenset(("eq", "fig", "table", "erratum", "chapter", "file"))

@@ -52,6 +52,7 @@ _FILES = {
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Connect the functions of this module; Sphinx calls this."""
+    app.set_html_assets_policy("always")  # outputs have mathematics too, and links show equations
     app.add_config_value("links_are_complete", True, "html")
     app.connect("html-collect-pages", _module_pages)
     app.connect("build-finished", _link_pages)
@@ -97,7 +98,7 @@ def _with_definition(linker: Linker, page: str, listed: re.Match[str]) -> str:
     target = linker.targets.get(f"name {module}.{listed['name'].split('.')[0]}")
     if target is None:
         return listed[0]
-    link = f'<a class="ref name" href="{target.address(page)}">{listed["name"]}</a>'
+    link = f'<a class="ref to-name" href="{target.address(page)}">{listed["name"]}</a>'
     return f"{listed['before']}{link}{listed['between']}"
 
 

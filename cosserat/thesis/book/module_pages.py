@@ -41,7 +41,7 @@ def body(path: str, text: str) -> str:
         for node in ast.parse(text).body
         if isinstance(node, ast.FunctionDef | ast.ClassDef)
     }
-    lines = _coloured(text).split("\n")
+    lines = coloured(text).split("\n")
     marked = [
         f'<span id="{starts[number]}"></span>{line}' if number in starts else line
         for number, line in enumerate(lines, 1)
@@ -53,7 +53,7 @@ def body(path: str, text: str) -> str:
     )
 
 
-def _coloured(text: str) -> str:
+def coloured(text: str) -> str:
     """Python with comments, docstrings and keywords in spans."""
     from pygments.lexers.python import PythonLexer
 

@@ -10,37 +10,57 @@ from html import escape
 
 from IPython.display import HTML, Markdown
 
+from cosserat.thesis.book.command_line import commands
+from cosserat.thesis.book.equation_list import counts, equations, left_out, left_out_table
+from cosserat.thesis.book.judgements import errata_list, results_table, total_of
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
-from cosserat.thesis.book.players import player
-from cosserat.thesis.book.tables import folded, mathematics, table
+from cosserat.thesis.book.notation import notation, other_symbols, several_meanings
+from cosserat.thesis.book.players import explore, player
+from cosserat.thesis.book.references import how_to_cite, references
+from cosserat.thesis.book.stored_variables import variables
+from cosserat.thesis.book.tables import folded, mathematics, table, tens
 from cosserat.thesis.book.tutorial import Folder
 from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
 from cosserat.thesis.book.workflow import data, results, study
 from cosserat.thesis.figures.catalogue import entry
-from cosserat.thesis.table.left_out import LeftOutList, read_left_out
 
 __all__ = [
     "Folder",
     "amount",
     "anchor",
+    "commands",
     "common_keys",
+    "counts",
     "data",
+    "equations",
     "errata",
+    "errata_list",
     "excerpt",
+    "explore",
     "figure",
     "folded",
+    "how_to_cite",
     "keys",
     "left_out",
+    "left_out_table",
     "misprint",
+    "notation",
+    "other_symbols",
     "player",
+    "references",
     "results",
+    "results_table",
     "row",
     "rows",
+    "several_meanings",
     "source",
     "study",
     "table",
+    "tens",
     "text",
+    "total_of",
+    "variables",
     "written",
 ]
 
@@ -52,11 +72,6 @@ def figure(name: str, caption: str) -> HTML:
     text = f"<b>{escape(found.title)}.</b> {mathematics(caption)}"
     image = f'<img alt="{escape(found.alt)}" src="data:image/svg+xml;base64,{picture}">'
     return HTML(f'<figure class="plot" id="{name}">{image}<figcaption>{text}</figcaption></figure>')
-
-
-def left_out() -> LeftOutList:
-    """Parts of the thesis that are left out, with the reasons."""
-    return read_left_out(results() / "left_out.toml")
 
 
 def text(sentence: str) -> Markdown:

@@ -1,4 +1,4 @@
-"""Plain tables, and mathematics in the outputs of cells."""
+"""Plain tables, and mathematics, code and symbols in the outputs of cells."""
 
 from __future__ import annotations
 
@@ -8,16 +8,30 @@ from html import escape
 
 from IPython.display import HTML
 
+_GREEK = "Delta|Pi|gamma|eta|kappa|lambda|mu|nu|phi|psi|rho|sigma|tau|theta|xi"
+_SYMBOL = re.compile(
+    rf"(?<![\\\w$])(?P<greek>{_GREEK})(?P<index>_\w+)?(?!\w)"
+    r"|(?<![\w\\./])(?P<letter>[A-Za-z])_(?P<under>\w{1,2})(?![\w(])"
+    r"|(?<!\w)(?P<part>K?)c(?P<number>[1-7])(?!\w)"
+    r"|(?<![\w.])(?P<base>\d+|[A-Za-z])\^(?P<power>-?[\d.]*\d|\w)(?!\w)"
+)
+"""Symbols as plain text has them: "mu_1", "t_p", "Kc3", "10^0.4"."""
+
 
 def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
-    """A plain table; text between dollars is mathematics."""
+    """A plain table; text between dollars is mathematics.
+
+    columns : if the first one begins with "Table 3.1", links of that name lead to this table.
+    """
     head = "".join(f'<th scope="col">{mathematics(escape(name))}</th>' for name in columns)
     body = "".join(
         "<tr>" + "".join(f"<td>{mathematics(escape(str(value)))}</td>" for value in line) + "</tr>"
         for line in lines
     )
+    name = re.match(r"Table (\d\.\d)", columns[0])
+    anchor = f' id="table-{name[1]}"' if name else ""
     return HTML(
-        f'<table class="rows" tabindex="0"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+        f'<table class="rows"{anchor} tabindex="0"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
     )
 
 
@@ -30,3 +44,34 @@ def folded(summary: str, body: HTML) -> HTML:
 def mathematics(html: str) -> str:
     """Text between dollars as mathematics of the book: MathJax ignores dollars in outputs."""
     return re.sub(r"\$([^$]+)\$", r'<span class="math notranslate nohighlight">\\(\1\\)</span>', html)
+
+
+def tens(number: float, digits: int = 1) -> str:
+    """A number with so many digits and a power of ten, as mathematics."""
+    digit, power = f"{number:.{digits - 1}e}".split("e")
+    return f"${digit} \\cdot 10^{{{int(power)}}}$"
+
+
+def prose(text: str) -> str:
+    """A sentence of a table as HTML: mathematics between dollars, code between backquotes, *emphasis*."""
+    parts = re.split(r"(\$[^$]+\$|`[^`]+`)", escape(text, quote=False))
+    parts[::2] = [re.sub(r"\*(\w[^*]*)\*", r"<em>\1</em>", part) for part in parts[::2]]
+    html = "".join(re.sub(r"^`(.*)`$", r"<code>\1</code>", part) for part in parts)
+    return mathematics(html)
+
+
+def typeset(text: str) -> str:
+    """A plain text as HTML, with symbols such as mu_1, t_p, Kc3 and 10^3 as mathematics."""
+    return mathematics(_SYMBOL.sub(_as_mathematics, escape(text, quote=False)))
+
+
+def _as_mathematics(symbol: re.Match[str]) -> str:
+    index = (symbol["index"] or symbol["under"] or "").lstrip("_")
+    if symbol["greek"]:
+        return f"$\\{symbol['greek']}{f'_{{{index}}}' if index else ''}$"
+    if symbol["letter"]:
+        return f"${symbol['letter']}_{{{index}}}$"
+    if symbol["number"]:
+        before = "{}_K " if symbol["part"] else ""
+        return f"${before}c_{symbol['number']}$"
+    return f"${symbol['base']}^{{{symbol['power']}}}$"

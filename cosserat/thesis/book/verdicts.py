@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
-from html import escape
 
 from IPython.display import HTML
 
 from cosserat.errors import InputError, OutOfToleranceError
-from cosserat.thesis.book.tables import mathematics, table
+from cosserat.thesis.book.tables import prose, typeset
 from cosserat.thesis.book.workflow import results
 from cosserat.thesis.table.errata import Erratum, read_errata
 from cosserat.thesis.table.tolerances import read_report
@@ -18,6 +18,8 @@ Row = Mapping[str, str]
 
 def rows(*prefixes: str) -> HTML:
     """The rows of the report whose ids begin with the prefixes, folded; a failed row stops the chapter.
+
+    A first prefix such as "T2.1" makes them the place to which links of Table 2.1 lead.
 
     Raises
     ------
@@ -32,27 +34,34 @@ def rows(*prefixes: str) -> HTML:
         raise OutOfToleranceError(
             f"rows {', '.join(failed)} of the results table fail; see results/report.csv"
         )
-    lines = [
-        [
-            row["verdict"],
-            row["quantity"],
-            row["published"],
-            amount(row["expected"], row["units"]),
-            amount(row["measured"], row["units"]),
-            f"{float(row['error_over_tolerance']):.2f}",
-            row["id"],
-        ]
-        for row in found
-    ]
     columns = ("verdict", "quantity", "printed text", "expected", "measured", "error / tolerance", "row")
-    body = table(lines, columns).data
-    return HTML(f'<details class="verdict"><summary>{verdict(found)}</summary>{body}</details>')
+    head = "".join(f'<th scope="col">{name}</th>' for name in columns)
+    body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in _cells(row))}</tr>" for row in found)
+    shown = (
+        f'<table class="rows" tabindex="0"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    )
+    name = re.fullmatch(r"T(\d\.\d)", prefixes[0])
+    anchor = f' id="table-{name[1]}"' if name else ""
+    return HTML(f'<details class="verdict"{anchor}><summary>{verdict(found)}</summary>{shown}</details>')
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    """The cells of a row of the report as HTML."""
+    return (
+        row["verdict"],
+        typeset(row["quantity"]),
+        typeset(row["published"]),
+        amount(row["expected"], row["units"]),
+        amount(row["measured"], row["units"]),
+        f"{float(row['error_over_tolerance']):.2f}",
+        row["id"],
+    )
 
 
 def verdict(found: Sequence[Row]) -> str:
     """One line for several rows: how many claims hold, and how near the worst is to its tolerance."""
     count = f"{len(found)} rows" if len(found) > 1 else "1 row"
-    within = [float(row["error_over_tolerance"]) for row in found if row["verdict"] == "within"]
+    within = [float(row["error_over_tolerance"]) for row in found if row["verdict"].startswith("within")]
     outside = len(found) - len(within)
     parts = [f"{len(within)} within tolerance, the worst at {max(within):.2f} of it"] if within else []
     parts += [f"{outside} outside, as claimed"] if outside else []
@@ -96,9 +105,9 @@ def misprint(*names: str) -> HTML:
         raise InputError(f"the errata table has no entry {', '.join(missing)}")
     notes = [
         f'<details class="misprint"><summary>{_STANDINGS[known[name].standing]} {name}</summary>'
-        f"<p>{escape(known[name].where)}. Printed: {mathematics(escape(known[name].printed))}. "
-        f"Here: {mathematics(escape(known[name].corrected))}.</p>"
-        f"<p>{mathematics(escape(known[name].why))}</p></details>"
+        f"<p>{prose(known[name].where)}. Printed: {prose(known[name].printed)}. "
+        f"Here: {prose(known[name].corrected)}.</p>"
+        f"<p>{prose(known[name].why)}</p><p>With its test: {name}.</p></details>"
         for name in names
     ]
     return HTML(f'<aside class="misprints">{"".join(notes)}</aside>')

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.deformations import DEFORMATIONS, Deformation, draw_body
-from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas
+from cosserat.figures.deformations import DEFORMATIONS, Deformation, draw_body, on_paper
+from cosserat.figures.style import BODY, COMPUTED, INK, PAPER, VARIANT, canvas
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
@@ -31,6 +31,57 @@ _AMOUNTS = {  # of the drawn strains
     "growing shear of the section": 0.36,
 }
 WIDTH = 5.0  # of a picture [in]
+
+
+def fig_directors(data: Data) -> Figure:
+    """A bar at rest with its reference directors, and the same bar bent, twisted and thinned with its directors."""
+    del data
+    figure, (ax,) = canvas(WIDTH, 4.3)
+    xi = np.linspace(0, 8, 49)
+    straight = np.broadcast_to(np.eye(3), (xi.size, 3, 3))
+    deformed = _bent_twisted_and_thin(xi)
+    for r, d, height, lowest, letters, at, title in (
+        (xi[:, None] * np.eye(3)[2], straight, 2.9, 1.9, "DE", (16,), "at rest: reference directors"),
+        (*deformed, -0.9, -2.7, "dd", (7, 28, 42), "under load: directors, which follow the material"),
+    ):
+        middle = np.array([4.0, height])
+        draw_body(ax, r, d, _SECTION, (middle[0], middle[1]))
+        offset = middle - on_paper(r.mean(axis=0))
+        ax.plot(*(on_paper(r) + offset).T, color=INK, linewidth=1.0, linestyle="--")
+        for k in at:
+            foot = on_paper(r[k]) + offset
+            for number, long in ((1, 1.4), (2, 1.9), (3, 1.0)):
+                along = on_paper(long * d[k, number - 1])
+                _arrow(ax, (foot[0], foot[1]), (along[0], along[1]), VARIANT)
+                letter = letters[1 if number == 3 and letters == "DE" else 0]
+                beyond = foot + along * (1 + 0.24 / np.hypot(*along))
+                box = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
+                text = rf"$\mathbf{{{letter}}}_{number}$"
+                ax.annotate(text, tuple(beyond), ha="center", va="center", color=VARIANT, bbox=box)
+        ax.annotate(title, (4.0, lowest), ha="center", va="top", color=INK)
+    ax.set(xlim=(-0.8, 9.2), ylim=(-3.3, 4.7), xticks=[], yticks=[])
+    ax.set(xlabel=r"along $\mathbf{E}_3$ [heights of the section]")
+    ax.set_aspect("equal")
+    ax.spines[["left", "bottom"]].set_visible(False)
+    return figure
+
+
+_SECTION = (0.5, 0.4)  # half height and half width of the bar with directors
+
+
+def _bent_twisted_and_thin(xi: Array) -> tuple[Array, Array]:
+    """r, shape (n, 3), and d_i, shape (n, 3, 3): a bar that curves up, twists, and has a neck."""
+    slope, twist = 0.5 * np.sin(np.pi * (xi / 8 - 0.5)), -0.09 * (xi - 3)
+    neck = np.exp(-(((xi - 4.7) / 0.9) ** 2))
+    e_3 = np.stack([np.sin(slope), 0 * xi, np.cos(slope)], axis=1)
+    up = np.stack([np.cos(slope), 0 * xi, -np.sin(slope)], axis=1)
+    away = np.broadcast_to(np.eye(3)[1], up.shape)
+    cos, sin = np.cos(twist)[:, None], np.sin(twist)[:, None]
+    thin = (1 - 0.45 * neck)[:, None]
+    d = np.stack([thin * (cos * up + sin * away), thin * (cos * away - sin * up), e_3], axis=1)
+    d[:, 2] *= (1 + 0.4 * neck)[:, None]
+    steps = np.diff(xi)[:, None] * (d[1:, 2] + d[:-1, 2]) / 2
+    return np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)]), d
 
 
 def fig_strains(data: Data) -> Figure:
@@ -61,7 +112,7 @@ def _gallery(shown: list[Deformation]) -> Figure:
         text = f"${found.measure}$,  ${found.pays}$"
         ax.annotate(text, (above[0], above[1] - 0.06), ha="center", va="top", color=VARIANT)
         below = (place[0], place[1] - 1.12)
-        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top", fontsize=9)
+        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top")
     ax.set(
         xlim=(-0.5 * _SPACING[0], (_COLUMNS - 0.5) * _SPACING[0]),
         ylim=(-_SPACING[1] * (rows - 1) - 1.7, 2.0),

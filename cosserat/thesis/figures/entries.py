@@ -45,6 +45,12 @@ FIGURES: dict[str, Entry] = {
         "chapter1",
         cases=("soft_robot",),
     ),
+    "fig_directors": Entry(
+        "Directors of a bar",
+        "A straight block with three arrows at right angles, and below it the same block curved, with a "
+        "thin and long part in its middle; there the arrows across it are short and the one along it is long.",
+        "beams",
+    ),
     "fig_slice": Entry(
         "A slice of a rod and its loads",
         "Three squares with arrows: one oblique force on each face and one at the middle; arrows up "
@@ -238,6 +244,40 @@ FIGURES: dict[str, Entry] = {
         "chapter3",
         cases=("necking", "necking_printed", "necking_consistent"),
     ),
+    "fig_varied_sections": Entry(
+        "A tapered beam, and a bar of two materials",
+        "A beam that becomes thin towards its free end hangs less low than the dashed uniform one; the "
+        "displacement of a bar bends sharply at its joint, and one row of markers misses the curve below "
+        "it.",
+        "varied",
+        cases=("cone", "clamped_free", "two_materials", "two_materials_consistent"),
+    ),
+    "fig_low_centreline": Entry(
+        "One body, two centrelines",
+        "Two rows of markers sag differently for the same beam, while a solid and a dotted line lie on "
+        "one another.",
+        "varied",
+        cases=(
+            "clamped_free",
+            "low_centreline",
+            "clamped_free_consistent",
+            "low_centreline_consistent",
+        ),
+    ),
+    "fig_couple_and_support": Entry(
+        "A couple, and a support that moves",
+        "A clamped beam curls up in an even bend, its sections square to its axis; another beam bends "
+        "down to a clamp that stands lower than the first and is tilted.",
+        "varied",
+        cases=("couple", "turned_support"),
+    ),
+    "fig_hook": Entry(
+        "A rod that is curved at rest",
+        "A filled curved rod lies on its dotted reference; an outlined straight one leaves it from the "
+        "same clamp.",
+        "varied",
+        cases=("hook", "hook_printed"),
+    ),
     "fig_calibration": Entry(
         "Calibration and the number of vertices",
         "At the published coefficients the answers of the two beams rise with the number of "
@@ -252,6 +292,12 @@ FIGURES: dict[str, Entry] = {
         "energies pulse twice a swing, and that of the stiff beam carries a fast small ripple.",
         "motion",
         cases=("vibration_c4_2", "vibration_c4_20", "vibration_consistent"),
+    ),
+    "fig_edge_strains": Entry(
+        "The strains of an edge",
+        "A slanting edge with a director at each end and a vector half-way between their directions; two "
+        "dashed legs split the edge along the normal of that vector and along the vector itself.",
+        "edge_strains",
     ),
     "fig_convergence": Entry(
         "Errors of the consistent rod",

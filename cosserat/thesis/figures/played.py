@@ -37,8 +37,9 @@ def worm(data: Data) -> Stage:
     """Two strides of the worm."""
     run = data["worm"].isel(time=slice(0, 2 * instants_per_stride(data["worm"]) + 1))
     alt = (
-        "The earthworm from the side. Its front half grows thin and reaches forward while its rear stays at the "
-        "anchor; then the front holds and the rear is pulled after it. It moves forward in each of two strides."
+        "The earthworm from the side. Its front half grows thin and reaches forward while its rear stays"
+        " at the anchor; then the front holds and the rear is pulled after it. It moves forward in each "
+        "of two strides."
     )
     return replace(
         crawling.animate(run, _STATES, tall=_TALL, mark=SEGMENT_50, alt=alt),
@@ -50,8 +51,8 @@ def robot(data: Data) -> Stage:
     """Two cycles of the robot, four times as fast."""
     run = data["soft_robot"]
     alt = (
-        "The soft robot from the side. A thin part grows from its front while the rear is anchored; then the front"
-        " is the anchor, the thin part leaves through the rear, and the rear moves up."
+        "The soft robot from the side. A thin part grows from its front while the rear is anchored; then"
+        " the front is the anchor, the thin part leaves through the rear, and the rear moves up."
     )
     stage = crawling.animate(run, _STATES, alt=alt)
     return replace(stage, title="The soft robot crawls", seconds=float(run.time[-1]) / 4)
@@ -63,9 +64,9 @@ def vibration(data: Data) -> Stage:
     period = 2 * np.pi / beams.first_frequency(beam_of(problem_of(run, RodProblem)))
     part = run.sel(time=slice(0, 0.963 * period))
     alt = (
-        "A clamped beam swings down and up again once, displacements magnified. Meanwhile its strain energy goes "
-        "to nearly zero and back twice, and the kinetic energy has its largest values where the strain energy is "
-        "smallest."
+        "A clamped beam swings down and up again once, displacements magnified. Meanwhile its strain "
+        "energy goes to nearly zero and back twice, and the kinetic energy has its largest values where "
+        "the strain energy is smallest."
     )
     stage = animations.motion(part, part.sizes["time"])
     return replace(stage, title="One period of the vibrating beam", alt=alt, seconds=6.0)
@@ -80,9 +81,9 @@ def relaxation(data: Data) -> Stage:
         time = part.time.to_numpy()
         panels.append(animations.magnified_panel(part, name.replace("_", " ")))
     alt = (
-        "Four rods side by side, displacements magnified: a hanging bar grows longer, a clamped beam sinks at its "
-        "free end, a beam clamped at both ends sags in the middle, a pulled bar grows longer and thinner. Each "
-        "overshoots little or not."
+        "Four rods side by side, displacements magnified: a hanging bar grows longer, a clamped beam "
+        "sinks at its free end, a beam clamped at both ends sags in the middle, a pulled bar grows "
+        "longer and thinner. Each overshoots little or not."
     )
     return Stage(
         "The four rods settle", alt, tuple(panels), Slider("time", time, "s", 3), 5.0, poster=(0, -1)
@@ -92,8 +93,8 @@ def relaxation(data: Data) -> Stage:
 def tumbling(data: Data) -> Stage:
     """The thrown rod."""
     alt = (
-        "A rod without supports flies upwards, turns, bends to and fro and changes its length. Its kinetic and "
-        "strain energy oppose each other."
+        "A rod without supports flies upwards, turns, bends to and fro and changes its length. Its "
+        "kinetic and strain energy oppose each other."
     )
     run = data["tumbling"]
     stage = animations.motion(run, run.sizes["time"])
@@ -115,8 +116,9 @@ def tumbling(data: Data) -> Stage:
 def column(data: Data) -> Stage:
     """The buckling column along its path."""
     alt = (
-        "A column under a thrust. It stays nearly straight until the load comes near the critical one, then it "
-        "bends aside far while the load hardly grows; the dot on the load curve turns from steep to flat."
+        "A column under a thrust. It stays nearly straight until the load comes near the critical one, "
+        "then it bends aside far while the load hardly grows; the dot on the load curve turns from steep"
+        " to flat."
     )
     return replace(
         animations.path(data["column_path"]), title="A column buckles", alt=alt, poster=(0, 8, -1)
@@ -126,9 +128,9 @@ def column(data: Data) -> Stage:
 def arch(data: Data) -> Stage:
     """The arch that snaps through along its path."""
     alt = (
-        "An arch on two hinges under a load at its middle. The load grows to a first limit, falls below zero while"
-        " the arch turns over, and grows again when the arch hangs on the other side; between both limits it is "
-        "unstable."
+        "An arch on two hinges under a load at its middle. The load grows to a first limit, falls below "
+        "zero while the arch turns over, and grows again when the arch hangs on the other side; between "
+        "both limits it is unstable."
     )
     return replace(
         animations.path(data["arch_path"]), title="An arch snaps through", alt=alt, poster=(0, 18, -1)

@@ -1,4 +1,4 @@
-"""The errata table: places where the page is wrong, silent or doubtful, with the replacement and its test."""
+"""The errata table: places where the thesis is wrong, silent or doubtful, with the replacement and its test."""
 
 from __future__ import annotations
 

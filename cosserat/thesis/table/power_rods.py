@@ -222,7 +222,7 @@ CHANGES: tuple[Change, ...] = (
         _times(1.2),
         ("vibration",),
         {
-            "vibration": "the page prints no amplitude and no energy, and small vibrations have one period"
+            "vibration": "the thesis prints no amplitude and no energy, and small vibrations have one period"
         },
     ),
     *[

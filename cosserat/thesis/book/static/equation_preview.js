@@ -31,7 +31,7 @@
   }
 
   document.addEventListener("DOMContentLoaded", function () {
-    document.querySelectorAll("a.ref.eq").forEach(function (link) {
+    document.querySelectorAll("a.ref.to-eq").forEach(function (link) {
       link.addEventListener("mouseenter", function () { show(link); });
       link.addEventListener("focus", function () { show(link); });
       link.addEventListener("mouseleave", hide);
