@@ -222,6 +222,21 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
             "python -m cosserat figure {params.figures} --cases results/cases --output results/figures > {log} 2>&1"
 
 
+rule webassembly:
+    input:
+        package("solvers", "rods", "rods/energies", "problems", "export/webassembly"),
+    output:
+        "results/pull.wasm",
+    log:
+        "results/logs/webassembly.log",
+    benchmark:
+        "results/benchmarks/webassembly.tsv"
+    resources:
+        **asks(megabytes=700, minutes=5),
+    shell:
+        "python -m cosserat webassembly --output {output} > {log} 2>&1"
+
+
 rule chapter:
     input:
         package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
@@ -234,6 +249,7 @@ rule chapter:
         expand("results/figures/{figure}.svg", figure=FIGURES),
         expand("results/studies/{study}.nc", study=STUDIES),
         measured=lambda wildcards: [name for name in MEASURED.get(wildcards.chapter, []) if os.path.exists(name)],
+        module=lambda wildcards: ["results/pull.wasm"] if wildcards.chapter == "pull" else [],
         source="chapters/{chapter}.py",
     output:
         "results/notebooks/{chapter}.ipynb",

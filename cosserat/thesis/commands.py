@@ -73,6 +73,19 @@ def add_commands(add: AddCommand) -> None:
         "-o", "--output", type=Path, default=RESULTS / "peers.csv", help="table to write (%(default)s)"
     )
 
+    sub = add(
+        "webassembly",
+        _webassembly,
+        "compile the rod that a reader of the book pulls into a module for browsers",
+    )
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        default=RESULTS / "pull.wasm",
+        help="module to write (%(default)s)",
+    )
+
     sub = add("chapter", _chapter, "execute a chapter into a notebook")
     sub.add_argument("chapter", type=Path, help="the chapter's .py file")
     sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
@@ -227,6 +240,19 @@ def _peers(options: argparse.Namespace) -> None:
             f"{line.problem:32} {line.package:11} {1e3 * line.seconds:10.2f} ms  error {line.error:.1e}"
         )
     print(f"wrote {options.output}")
+
+
+def _webassembly(options: argparse.Namespace) -> None:
+    import hashlib
+
+    from cosserat.data.files import check_destination, whole_or_absent
+    from cosserat.export.webassembly.build import pulled_rod
+
+    check_destination(options.output, ".wasm")
+    module = pulled_rod()
+    with whole_or_absent(options.output) as temporary:
+        temporary.write_bytes(module)
+    print(f"wrote {options.output}: {len(module)} bytes, sha256 {hashlib.sha256(module).hexdigest()}")
 
 
 def _chapter(options: argparse.Namespace) -> None:
