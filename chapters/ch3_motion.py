@@ -143,7 +143,7 @@ page.excerpt("cosserat.solvers.energy_momentum._sigma", "work, along = 0.0")
 # W^{(4)} = \beta^4 W . \tag{3.5.12}
 # $$
 #
-# A clamp at one end and neither moment nor force at the other leave certain $\beta$ only,
+# A clamp at one end and neither moment nor force at the other leave certain wavenumbers $\beta$ only,
 #
 # $$
 # \cosh(\beta_n L) \cos(\beta_n L) + 1 = 0 , \tag{3.5.13}

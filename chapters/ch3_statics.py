@@ -600,13 +600,6 @@ page.text(
 page.misprint("E3.12", "E3.13", "E3.14")
 
 # %% tags=["remove-input"]
-page.explore(
-    "explore_poisson",
-    "The energy as printed contracts the bar twice as much as it should, and more and more as $\\nu$ grows. "
-    "The corrected and the consistent energy keep to $-\\nu n / EA$ far from the ends.",
-)
-
-# %% tags=["remove-input"]
 page.figure(
     "fig_3_12",
     "The section strain along the necked bar: flat inside, zero at the held ends. The published rod is compared with the "
@@ -644,6 +637,13 @@ once, twice = theory.values()
 page.text(
     f"At mid-span this theory gives {once:.3f} of (3.5.8), and {twice:.3f} of it with the term as printed. The computed bars have "
     f"the same. The printed energy is indefinite where $c_7 \\nu / (1 - \\nu) > 1$, beyond $\\nu = {1 / (1 + c7):.3f}$."
+)
+
+# %% tags=["remove-input"]
+page.explore(
+    "explore_poisson",
+    "Move Poisson's ratio. With the term as printed the bar contracts about twice as much as it should, and more and more as "
+    "$\\nu$ grows. With half the term, and with the consistent rod, it keeps to $-\\nu n / EA$ far from the ends.",
 )
 
 # %% [markdown]

@@ -197,6 +197,14 @@ def test_folders_of_the_user_are_kept(notebooks, tmp_path, monkeypatch):
     assert contents(tmp_path) == before
 
 
+def test_each_page_of_a_built_book_can_be_had_as_notebook_and_script(built):
+    for name in ("index", "other"):
+        page = (built / f"{name}.html").read_text()
+        assert f'<a href="_downloads/{name}.ipynb" download>' in page
+        assert (built / "_downloads" / f"{name}.py").is_file()
+    assert "_downloads/other.py" in (built / ".cosserat-book").read_text()
+
+
 def test_a_failed_build_keeps_the_old_book(notebooks, book, tmp_path):
     bad = tmp_path / "index.ipynb"
     cell = nbformat.v4.new_markdown_cell("# Index\n\n[nowhere](none.md)")
