@@ -112,8 +112,8 @@ assert abs(gamma_rotated).max() < 1e-15
 assert abs(gamma_wider[1, 1] - (1.05**2 - 1)) < 1e-15
 
 # %% [markdown]
-# A fibre of stretch $\mu$ has $\gamma = \mu^2 - 1$, which is about $2(\mu - 1)$. So $\gamma_{11}, \gamma_{22}, \gamma_{33}$ are
-# about *twice* the strain of an engineer. The factors $\tfrac14$ in the stiffnesses of Chapter 1 come from this.
+# A fibre that grows by the share $\varepsilon$ of its length has $\gamma = (1 + \varepsilon)^2 - 1$, which is about $2 \varepsilon$. So
+# $\gamma_{11}, \gamma_{22}, \gamma_{33}$ are about *twice* the strain of an engineer. The factors $\tfrac14$ in the stiffnesses of Chapter 1 come from this.
 #
 # ## What acts on a slice
 #
@@ -266,7 +266,7 @@ assert all(abs(ratio - 4) < 0.01 for ratio in ratios)
 # (E I_2 \theta')' + k \mu A (w' - \theta) = 0 .
 # $$
 #
-# A cantilever with the force $F$ at its free end has the solution
+# A cantilever of length $L$ with the force $F$ at its free end has the solution
 #
 # $$
 # w = \frac{F}{E I_2} \left( \frac{L \xi^2}{2} - \frac{\xi^3}{6} \right) + \frac{F \xi}{k \mu A} , \qquad

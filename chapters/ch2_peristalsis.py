@@ -630,7 +630,7 @@ page.text(
 #
 # The stretches give the shape. Each section stands on the ground, so its centre is at the height of its stretched radius. Let
 # $x$ be the height of the centreline above its height at rest. Two sections are as far apart along the ground as the
-# centreline between them reaches there; $\xi_A$ is a section whose position is known:
+# centreline between them reaches there; $\xi_A$ is the anchored section, whose position is known:
 #
 # $$
 # x(\xi) = R \, (\mu_1(\xi) - 1) , \tag{2.5.7}

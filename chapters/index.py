@@ -85,6 +85,7 @@ page.text(f"The results table today: {verdict[0]} Of all rows: {verdict[-1]}.")
 # ch3_calibration
 # ch3_rods
 # ch4_consistent
+# pull
 # ```
 #
 # ```{toctree}
@@ -100,6 +101,7 @@ page.text(f"The results table today: {verdict[0]} Of all rows: {verdict[-1]}.")
 # :caption: Reference
 # :maxdepth: 1
 #
+# notation
 # conventions
 # case_keys
 # command_line

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, WIDTH, Picture
 
 Array = NDArray[np.float64]
 _LEAN = 0.3  # of the section that is drawn, from E2 backwards [rad]
@@ -21,7 +21,8 @@ SECTION = np.array([-np.sin(_LEAN), np.cos(_LEAN)])
 
 def picture() -> Figure:
     """Axes and surfaces of a rod, positive forces at a cut, and the stresses that beams make of them."""
-    figure, (frame, cut, stress) = canvas(7.2, 2.9, 1, 3)
+    figure = Picture(figsize=(WIDTH, 7.8), layout="constrained")
+    frame, cut, stress = figure.subplots(3, 1, height_ratios=[1.15, 1.0, 0.9])
     _draw_frame(frame)
     _draw_cut(cut)
     _draw_stress(stress)
@@ -95,12 +96,10 @@ def _draw_stress(ax: Axes) -> None:
     ax.axvline(0.0, color=INK, linewidth=0.9)
     ax.plot([mean, mean], y, color=EXACT, linestyle="--", linewidth=0.9)
     label(ax, (mean + 0.06, 0.33), "$N/A$", EXACT)
-    label(
-        ax, (mean + bending, -0.52), r"$\frac{N}{A} + \frac{M h}{2 I}$", COMPUTED, ha="right", va="top"
-    )
-    label(ax, (-0.06, 0.53), r"$\frac{N}{A} - \frac{M h}{2 I}$", COMPUTED, ha="right", va="bottom")
+    label(ax, (mean + bending, -0.52), r"$N/A + M h / 2 I$", COMPUTED, ha="right", va="top")
+    label(ax, (-0.06, 0.53), r"$N/A - M h / 2 I$", COMPUTED, ha="right", va="bottom")
     ax.set(title="(c) stress as beams have it", xlim=(-0.8, 1.8), ylim=(-0.86, 0.86))
-    ax.set(xlabel=r"axial stress [$M h / 2 I$]", ylabel="height above the area centre [$h$]")
+    ax.set(xlabel=r"axial stress [$M h / 2 I$]", ylabel="height above centre [$h$]")
 
 
 def arrow(ax: Axes, foot: Array, along: Array, colour: str, style: str = "-|>") -> None:
@@ -119,4 +118,4 @@ def turn(ax: Axes, centre: Array, radius: float, start: float, stop: float) -> N
 
 def label(ax: Axes, place: Any, text: str, colour: str, **how: Any) -> None:
     """A text at a place."""
-    ax.annotate(text, tuple(np.asarray(place, dtype=float)), color=colour, fontsize=8, **how)
+    ax.annotate(text, tuple(np.asarray(place, dtype=float)), color=colour, **how)

@@ -12,14 +12,14 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.style import BODY, COMPUTED, INK, VARIANT, canvas, title_of
+from cosserat.figures.style import BODY, COMPUTED, FOURTH, INK, VARIANT, canvas, title_of
 from cosserat.problems.crawl import Crawl, CrawlerProblem
 
 Array = NDArray[np.float64]
 
 THINNED = "#f3d3a8"  # where advancing loads act
 RELAXED = "#eeeeee"  # where no load acts, if that is told apart
-GAMMA, ETA, ANCHOR = "#3a7d44", "#0b5fa5", "#c1121f"  # green, blue and red, as in Fig. 2.7
+GAMMA, ETA, ANCHOR = FOURTH, COMPUTED, "#c1121f"  # purple, blue and red
 FRONTS = {"gamma": GAMMA, "eta": ETA}
 STRETCHES = {"mu_1": COMPUTED, "mu_2": GAMMA, "mu_3": VARIANT}
 WIDTHS = {"mu_1": 2.4, "mu_2": 1.0, "mu_3": 1.4}  # mu_2 lies on mu_1 apart from the weight
@@ -33,11 +33,12 @@ def draw_crawler(
     base: float = 0.0,
     mark: float | None = None,
     tall: float = 1.0,
+    lines: int = 50,
 ) -> None:
     """The lateral surface of one instant from the side, the ground at `base`, in cm.
 
     radius : of the resting sections [m].  mark : fraction of the length at which a section is marked in black.
-    tall : magnification of heights.
+    tall : magnification of heights.  lines : drawn sections.
     """
     along = state.along.to_numpy() * 1e2
     # the sections touch the ground, (2.2.16)
@@ -51,7 +52,7 @@ def draw_crawler(
             ax.fill_between(along[run], base, top[run], color=RELAXED, linewidth=0)
     outline = (np.r_[along, along[::-1]], np.r_[top, np.full_like(top, base)])
     ax.fill(*outline, facecolor="none", edgecolor=INK, linewidth=0.8)
-    for k in range(0, along.size, max(1, along.size // 50)):
+    for k in range(0, along.size, max(1, along.size // lines)):
         ax.plot([along[k]] * 2, [base, top[k]], color=INK, linewidth=0.25)
     if mark is not None:
         k = round(mark * (along.size - 1))
@@ -69,20 +70,22 @@ def draw_snapshots(
     *,
     mark: float | None = None,
     tall: float = 1.0,
+    above: bool = False,
+    lines: int = 50,
 ) -> None:
-    """Instants of a crawl below each other, each in its lane with its label at the left, in cm."""
-    radius, lane = resting_radius(data), lane_height(data, tall)
+    """Instants of a crawl below each other, each in its lane with its label at the left or above, in cm."""
+    radius, lane = resting_radius(data), lane_height(data, tall, above=above)
     for number, (index, label) in enumerate(zip(indices, labels, strict=True)):
         base = -lane * number
-        draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark, tall=tall)
+        draw_crawler(ax, data.isel(time=index), radius, base=base, mark=mark, tall=tall, lines=lines)
         ax.axhline(base, color=INK, linewidth=0.6)
         ax.annotate(
             label,
-            (0, base),
+            (0, base + (0.755 * lane if above else 0)),
             xycoords=("axes fraction", "data"),
-            xytext=(-4, 4),
+            xytext=(0, 0) if above else (-4, 4),
             textcoords="offset points",
-            ha="right",
+            ha="left" if above else "right",
         )
     left, right = (1e2 * float(end) for end in (data.along[indices].min(), data.along[indices].max()))
     ax.set(xlabel="along the ground [cm]", yticks=[], xlim=(left - 0.5, right + 0.5))
@@ -122,9 +125,9 @@ def fronts_on_the_body(problem: Crawl, time: float) -> list[tuple[float, str]]:
     return [front for front in gait.fronts(phase) if near < front[0] < 1 - near]
 
 
-def lane_height(data: xr.Dataset, tall: float = 1.0) -> float:
-    """Height of a crawler in a row of snapshots, in cm."""
-    return 2e2 * tall * float(np.max(resting_radius(data))) * 1.4
+def lane_height(data: xr.Dataset, tall: float = 1.0, *, above: bool = False) -> float:
+    """Height of a crawler in a row of snapshots, in cm, with room for labels above if they are there."""
+    return 2e2 * tall * float(np.max(resting_radius(data))) * (1.7 if above else 1.4)
 
 
 def resting_radius(data: xr.Dataset) -> float | Array:

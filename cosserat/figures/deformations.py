@@ -189,11 +189,6 @@ def draw_body(
     ax.add_collection(drawn, autolim=True)
 
 
-def on_paper(points: Array) -> Array:
-    """Points (..., 3) as they are seen obliquely, (..., 2); the reader sees the faces towards E_1, -E_2 and E_3."""
-    return np.asarray(points @ _OBLIQUE)
-
-
 def _ring(half: tuple[float, float], steps: int = 3) -> Array:
     """Points (X^1, X^2) round a rectangle, `steps` to a side, from a corner, shape (4 steps, 2)."""
     corners = np.array([[1, -1], [1, 1], [-1, 1], [-1, -1]], float) * half

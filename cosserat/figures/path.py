@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas, plain, title_of
+from cosserat.figures.style import COMPUTED, EARLIER, EXACT, INK, VARIANT, canvas, plain, title_of
 
 Array = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ def draw_shapes(ax: Axes, run: xr.Dataset) -> None:
         ax.plot(*x.T, color=COMPUTED, marker=".")
         return
     for shape in x[1:-1:3]:
-        ax.plot(*shape.T, color=BODY)
+        ax.plot(*shape.T, color=EARLIER)
     ax.plot(*x[-1].T, color=COMPUTED, marker=".", markersize=3)
 
 

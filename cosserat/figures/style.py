@@ -22,27 +22,27 @@ from cosserat.text import printable
 
 Array = NDArray[np.float64]
 
-CONSISTENT = "#3a7d44"
-INK, PAPER, EXACT, COMPUTED, VARIANT, BODY = (
-    "#222222",
-    "#ffffff",
-    "#7a7a7a",
-    "#0b5fa5",
-    "#c4501b",
-    "#c9dced",
-)
+INK, PAPER, BODY = "#222222", "#ffffff", "#c9dced"
+EXACT, COMPUTED, VARIANT, FOURTH = "#6b6b6b", "#0b5fa5", "#c4501b", "#a0479b"
+CONSISTENT, EARLIER = INK, "#5f93c4"
+CURVES = (INK, EXACT, COMPUTED, VARIANT, FOURTH)
+"""Black, grey, blue, vermilion and purple: told apart also by a deuteranope, and dark enough for text."""
+
+WIDTH = 5.0
+"""Width of a picture of the book [in]: its texts are read on a phone, whose column is two thirds of it."""
 
 PICTURES = {".svg": "Date", ".pdf": "CreationDate", ".png": ""}
 """Endings of pictures, and the name of the date that each format would carry."""
 
 _DPI = 150  # of a PNG
+_MARGIN = 0.04  # round a picture [in]
 _SETTINGS: Any = {
-    "font.size": 9,
+    "font.size": 10,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.edgecolor": INK,
     "axes.labelcolor": INK,
-    "axes.titlesize": 9,
+    "axes.titlesize": 10,
     "axes.titlelocation": "left",
     "axes.grid": True,
     "axes.axisbelow": True,
@@ -104,8 +104,20 @@ def write(figure: Figure, path: Path) -> None:
     with settings(), whole_or_absent(path) as temporary:
         date = PICTURES[path.suffix]
         figure.savefig(
-            temporary, format=path.suffix[1:], dpi=_DPI, metadata={date: None} if date else {}
+            temporary,
+            format=path.suffix[1:],
+            dpi=_DPI,
+            metadata={date: None} if date else {},
+            bbox_inches="tight",
+            pad_inches=_MARGIN,
         )
+
+
+def beside(
+    ax: Axes, place: tuple[float, float], text: str, aside: tuple[float, float], **look: Any
+) -> None:
+    """A text offset by `aside`, in points, from a place of the data: the name of a curve at the curve."""
+    ax.annotate(text, place, aside, textcoords="offset points", **{"va": "center", **look})
 
 
 def exact_curve(ax: Axes, xi: Array, values: Array, label: str, *, dashed: bool = False) -> None:
@@ -120,6 +132,7 @@ def computed_points(ax: Axes, xi: Array, values: Array, label: str, *, variant: 
         xi,
         values,
         linestyle="none",
+        color=colour,
         marker="s" if variant else "o",
         markerfacecolor="none" if variant else colour,
         markeredgecolor=colour,
@@ -129,14 +142,17 @@ def computed_points(ax: Axes, xi: Array, values: Array, label: str, *, variant: 
 
 
 def plain_points(ax: Axes, xi: Array, values: Array) -> None:
-    """Values of the consistent rod, one small diamond per vertex."""
+    """Values of the consistent rod, one hollow diamond per vertex, in which a point of another rod is seen."""
     ax.plot(
         xi,
         values,
         linestyle="none",
-        marker="D",
-        markersize=3,
         color=CONSISTENT,
+        marker="D",
+        markersize=6,
+        markerfacecolor="none",
+        markeredgecolor=CONSISTENT,
+        markeredgewidth=0.9,
         label="consistent rod",
         zorder=4,
     )

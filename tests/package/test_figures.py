@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from colours import contrast, distance
 from conftest import ROOT
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.path import Path as Stroke
@@ -50,6 +51,7 @@ def needed(solved, name):
 
 
 DRAWN = {}
+PHONE = 332  # pixels of a figure on a phone of 390
 
 
 def curves(ax):
@@ -63,9 +65,11 @@ def test_beam_figures_plot_the_computed_and_the_analytic_curve_in_millimetres(so
     np.testing.assert_allclose(shown["end areas full"][:, 1], computed * 1e3)
     np.testing.assert_allclose(shown["eq. (3.5.3)"][-1], [5.0, exact[-1] * 1e3])
     directors, exact_directors = readouts.clamped_free_directors(solved["clamped_free"])
-    shown = curves(figure.axes[1])
+    shown = curves(figure.axes[2])
     np.testing.assert_allclose(shown["end areas full"][:, 1], directors * 1e3)
     np.testing.assert_allclose(shown["eq. (3.5.4)"][-1, 1], exact_directors[-1] * 1e3)
+    differences = curves(figure.axes[1])["end areas full"][:, 1]
+    np.testing.assert_allclose(differences, (computed - exact) * 1e3, atol=1e-12)
 
 
 def test_every_axis_of_a_graph_has_a_unit(solved):
@@ -208,6 +212,25 @@ def test_texts_of_a_figure_are_visible_and_do_not_overlap(solved, name):
                 assert not any(box.contains(*point) for point in points), line.get_label()
 
 
+@pytest.mark.parametrize("name", FIGURES)
+def test_curves_of_one_pair_of_axes_differ_for_a_deuteranope_and_are_seen_on_white(solved, name):
+    for ax in drawing(solved, name).axes:
+        colours = {line.get_color() for line in ax.lines if line.get_xydata().size}
+        assert all(contrast(colour) >= 3 for colour in colours)
+        for one, other in itertools.combinations(sorted(colours), 2):
+            assert distance(one, other) >= 20, (one, other)
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_texts_of_a_figure_are_read_on_a_phone(solved, name):
+    figure = drawing(solved, name)
+    shrunk = min(1.0, PHONE / (96 * figure.get_size_inches()[0]))
+    for text in figure.findobj(Text):
+        if text.get_text().strip():
+            assert text.get_fontsize() * 96 / 72 * shrunk >= 9, text
+            assert contrast(text.get_color()) >= 4.5, text
+
+
 def annotations(ax):
     return [text.get_text() for text in ax.texts if text.get_text()]
 
@@ -227,7 +250,7 @@ def test_the_stride_shows_the_corrected_and_the_printed_worm_at_the_six_times(so
         state = printed.isel(time=int(np.abs(printed.time.to_numpy() - time).argmin()))
         np.testing.assert_allclose(outline[1:-1, 0], 1e2 * state.along)
         height = outline[1:-1, 1] - outline[0, 1]
-        np.testing.assert_allclose(height, 3 * 2 * 0.38 * state.mu_1)
+        np.testing.assert_allclose(height, 4 * 2 * 0.38 * state.mu_1)
         assert outline[0, 1] <= base
         base = outline[0, 1] - 0.1
     feet = np.vstack(of_colour(ax, crawlers.ANCHOR))
@@ -349,7 +372,8 @@ def test_the_worms_gamma_is_drawn_in_all_three_readings(
 
 def test_the_rod_like_body_shows_both_lengths_a_section_and_an_eccentric_centreline(solved):
     ax = drawing(solved, "fig_3_2").axes[0]
-    assert {text.split("=")[0].strip("$ ") for text in annotations(ax)} == {"L", "D"}
+    named = [re.fullmatch(r"(\w+) \$(\w)\$ = [\d.]+ m", text).groups() for text in annotations(ax)]
+    assert set(named) == {("length", "L"), ("thickness", "D")}
     assert [bool(patch.get_hatch()) for patch in ax.patches].count(True) == 1
     (span,) = (
         np.array([text.xy, text.get_position()])
@@ -425,10 +449,11 @@ def test_the_angles_of_a_vertex_are_readable_and_have_the_right_sense(solved):
         assert any(f"= {stored:.2f}$ rad" in text for text in annotations(ax))
 
 
-def test_equilibria_have_a_legend_and_directors_of_unit_length(solved):
+def test_equilibria_have_a_legend_and_sections_that_neck_in_colour(solved):
     figure = drawing(solved, "fig_3_8")
     named = {text.get_text() for text in figure.legends[0].get_texts()}
-    assert {"consistent rod", "directors of unit length", "centreline", "reference"} <= named
+    assert {"consistent rod, centreline", "sections", "reference"} <= named
+    sections = {}
     for ax, name, magnified in zip(
         figure.axes,
         ("hanging_bar", "clamped_free", "clamped_clamped", "necking"),
@@ -436,16 +461,20 @@ def test_equilibria_have_a_legend_and_directors_of_unit_length(solved):
         strict=True,
     ):
         run = solved[name]
-        (field,) = (c for c in ax.collections if isinstance(c, Quiver))
-        assert len(field.U) == 20
-        assert np.hypot(field.U[0], field.V[0]) == pytest.approx(1)  # held
-        np.testing.assert_allclose(field.XY, run.x_ref + magnified * run.u)
+        (line,) = (line.get_xydata() for line in ax.lines if line.get_label() == "_sections")
+        ends = sections[name] = line.reshape(20, 3, 2)[:, :2]
+        np.testing.assert_allclose(ends.mean(axis=1), run.x_ref + magnified * run.u)
+        colours = {patch.get_facecolor()[:3] for patch in ax.patches if len(patch.get_xy()) == 5}
+        assert (len(colours) > 1) == (name == "necking"), (
+            "sections that keep their height have one colour"
+        )
+    heights = np.ptp(sections["necking"][:, :, 1], axis=1)
+    assert heights[0] == pytest.approx(0.5)  # held
+    assert 0.15 < heights[10] < 0.4  # what necks is seen to neck
     top = figure.axes[3]
-    (field,) = (c for c in top.collections if isinstance(c, Quiver))
-    assert 0.3 < field.V[10] < 0.8  # what necks is seen to neck
     (end,) = (line.get_xdata()[0] for line in top.lines if "elongation" in str(line.get_label()))
     assert end == pytest.approx(5 + 80_000 * 1e3 * 5 / (1e9 * 0.25))
-    (points,) = (line.get_xdata() for line in top.lines if line.get_label() == "consistent rod")
+    (points,) = (line.get_xdata() for line in top.lines if "consistent rod" in str(line.get_label()))
     assert points[-1] == pytest.approx(end, rel=2e-3)
     feet = [text.get_position()[0] for text in top.texts if text.arrow_patch is not None]
     assert max(feet) >= points.max()  # the force begins where the farther rod ends

@@ -131,7 +131,7 @@ def test_an_edited_formula_reruns_what_depends_on_it(checkout, edited, name):
 
 
 def test_edited_plotting_reruns_no_simulation(checkout, edited):
-    edited("cosserat/figures/style.py", '"font.size": 9', '"font.size": 10')
+    edited("cosserat/figures/style.py", '"font.size": 10', '"font.size": 11')
     assert planned(checkout) == ({"figure"}, {f"figures/{name}.svg" for name in DRAWN})
 
 

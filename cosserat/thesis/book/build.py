@@ -15,6 +15,7 @@ from pathlib import Path
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
 from cosserat.figures import player
+from cosserat.thesis.book.downloads import add_downloads
 from cosserat.thesis.book.finish import finish
 
 _FILE_LIST = ".cosserat-book"
@@ -91,6 +92,7 @@ def render(notebooks: list[Path], output: Path, *, partial: bool = False) -> Pat
         _gather(notebooks, pages)
         _sphinx(pages, built, Path(scratch) / "doctrees", partial)
         finish(built)
+        add_downloads(notebooks, built)
         (built / _FILE_LIST).write_text("\n".join([_FILE_LIST, *_files(built)]), encoding="utf-8")
         _check_destination(output, set(_files(built)))
         if output.exists():

@@ -15,7 +15,9 @@ from cosserat.thesis.book.equation_list import counts, equations, left_out, left
 from cosserat.thesis.book.judgements import errata_list, results_table, total_of
 from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
+from cosserat.thesis.book.notation import notation, other_symbols, several_meanings
 from cosserat.thesis.book.players import explore, player
+from cosserat.thesis.book.pulling import pull
 from cosserat.thesis.book.references import how_to_cite, references
 from cosserat.thesis.book.stored_variables import variables
 from cosserat.thesis.book.tables import folded, mathematics, table, tens
@@ -44,12 +46,16 @@ __all__ = [
     "left_out",
     "left_out_table",
     "misprint",
+    "notation",
+    "other_symbols",
     "player",
+    "pull",
     "references",
     "results",
     "results_table",
     "row",
     "rows",
+    "several_meanings",
     "source",
     "study",
     "table",

@@ -57,9 +57,7 @@ def fig_directors(data: Data) -> Figure:
                 beyond = foot + along * (1 + 0.24 / np.hypot(*along))
                 box = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
                 text = rf"$\mathbf{{{letter}}}_{number}$"
-                ax.annotate(
-                    text, tuple(beyond), ha="center", va="center", color=VARIANT, fontsize=9, bbox=box
-                )
+                ax.annotate(text, tuple(beyond), ha="center", va="center", color=VARIANT, bbox=box)
         ax.annotate(title, (4.0, lowest), ha="center", va="top", color=INK)
     ax.set(xlim=(-0.8, 9.2), ylim=(-3.3, 4.7), xticks=[], yticks=[])
     ax.set(xlabel=r"along $\mathbf{E}_3$ [heights of the section]")
@@ -114,7 +112,7 @@ def _gallery(shown: list[Deformation]) -> Figure:
         text = f"${found.measure}$,  ${found.pays}$"
         ax.annotate(text, (above[0], above[1] - 0.06), ha="center", va="top", color=VARIANT)
         below = (place[0], place[1] - 1.12)
-        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top", fontsize=9)
+        ax.annotate(found.beam or "not in a beam", below, ha="center", va="top")
     ax.set(
         xlim=(-0.5 * _SPACING[0], (_COLUMNS - 0.5) * _SPACING[0]),
         ylim=(-_SPACING[1] * (rows - 1) - 1.7, 2.0),

@@ -10,10 +10,8 @@ from matplotlib.figure import Figure
 
 from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import COMPUTED, EXACT, FOURTH, INK, VARIANT, WIDTH, canvas
 from cosserat.studies.calibration import CalibrationProcedure, beam_of
-
-_GREEN = "#3a7d44"
 
 
 def limit(data: xr.Dataset) -> float:
@@ -29,20 +27,20 @@ def limit(data: xr.Dataset) -> float:
 
 
 def fig_calibration(data: Mapping[str, xr.Dataset]) -> Figure:
-    """Left, answers at the published coefficients; right, coefficients that fit."""
-    figure, (left, right) = canvas(7.2, 3.4, 1, 2)
+    """Above, answers at the published coefficients; below, coefficients that fit."""
+    figure, (top, bottom) = canvas(WIDTH, 6.0, 2, 1)
     run = data["calibration"]
     n = run.vertices
     curves = [
         ("hanging_bar", "hanging bar", INK, "^"),
         ("clamped_free", "clamped-free", COMPUTED, "o"),
         ("clamped_clamped", "clamped-clamped", VARIANT, "s"),
-        ("necking", "necking", _GREEN, "D"),
+        ("necking", "necking", FOURTH, "D"),
     ]
     for name, label, colour, marker in curves:
-        left.semilogx(n, run[f"{name}_published"], color=colour, marker=marker, label=label)
-    left.axhline(limit(run), color=EXACT, linestyle="--", label="limit, clamped-free")
-    left.set(
+        top.semilogx(n, run[f"{name}_published"], color=colour, marker=marker, label=label)
+    top.axhline(limit(run), color=EXACT, linestyle="--", label="limit, clamped-free")
+    top.set(
         xlabel="vertices $N$ [1]",
         ylabel="computed / analytic [1]",
         title="(a) at the published coefficients",
@@ -52,16 +50,19 @@ def fig_calibration(data: Mapping[str, xr.Dataset]) -> Figure:
     for values, label, colour, marker in (
         (beam.sel(beam_coefficient="c3"), "$c_3$", COMPUTED, "o"),
         (product, r"$\sqrt{c_4 c_5}$", VARIANT, "s"),
-        (section.sel(section_coefficient="c6"), "$c_6$", _GREEN, "D"),
+        (section.sel(section_coefficient="c6"), "$c_6$", FOURTH, "D"),
         (section.sel(section_coefficient="c7"), "$c_7$", INK, "^"),
     ):
-        right.loglog(n, values, color=colour, marker=marker, label=label)
-    right.set(
+        bottom.loglog(n, values, color=colour, marker=marker, label=label)
+    bottom.set(
         xlabel="vertices $N$ [1]", ylabel="fitted coefficient [1]", title="(b) coefficients that fit"
     )
-    right.set_yticks([0.3, 0.5, 1, 2, 5], ["0.3", "0.5", "1", "2", "5"])
-    for ax in (left, right):
+    bottom.set_yticks([0.3, 0.5, 1, 2, 5], ["0.3", "0.5", "1", "2", "5"])
+    for ax in (top, bottom):
         ax.set_xticks(n.to_numpy(), [f"{value:.0f}" for value in n.to_numpy()])
         ax.minorticks_off()
-        ax.legend(fontsize=8)
+    top.legend(loc="lower right")
+    top.set_ylim(bottom=0.84)
+    bottom.legend(loc="upper left", ncols=2)
+    bottom.set_ylim(0.27, 12)
     return figure

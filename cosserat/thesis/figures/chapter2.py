@@ -10,11 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import NullFormatter
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures import crawlers
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import COMPUTED, EXACT, FOURTH, INK, VARIANT, WIDTH, beside, canvas
 from cosserat.peristalsis import doublets
 from cosserat.problems.crawl import Crawl
 from cosserat.thesis.earthworm import LONGITUDINAL, SEGMENT_50
@@ -28,7 +29,8 @@ from cosserat.thesis.table.crawl_readouts import (
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
-_HEIGHT_MAGNIFICATION = 3.0  # magnification of heights in Fig. 2.1
+_HEIGHT_MAGNIFICATION = 4.0  # magnification of heights in Fig. 2.1
+_STANCE = "#efefef"  # ground of the time in which a worm pulls its rear part forward
 
 
 def fig_2_1(data: Data) -> Figure:
@@ -39,15 +41,14 @@ def fig_2_1(data: Data) -> Figure:
     gait = problem_of(run, Crawl).gait
     indices = [crawlers.nearest(run, gait.time(p)) for p in phases]
     labels = [
-        f"$t_{k} = {name}$" + (f"\n= {gait.time(p):.2f} s" if p else " s")
+        f"$t_{k} = {name}$" + (f" = {gait.time(p):.2f} s" if p else " s")
         for k, (p, name) in enumerate(zip(phases, names, strict=True), start=1)
     ]
-    figure, (ax,) = canvas(7.2, 5.4)
-    crawlers.draw_snapshots(ax, run, indices, labels, mark=SEGMENT_50, tall=_HEIGHT_MAGNIFICATION)
-    lane, height = (
-        crawlers.lane_height(run, _HEIGHT_MAGNIFICATION),
-        2e2 * _HEIGHT_MAGNIFICATION * problem_of(run, Crawl).crawler.radius,
-    )
+    figure, (ax,) = canvas(WIDTH, 6.1)
+    tall = _HEIGHT_MAGNIFICATION
+    crawlers.draw_snapshots(ax, run, indices, labels, mark=SEGMENT_50, tall=tall, above=True)
+    lane = crawlers.lane_height(run, tall, above=True)
+    height = 2e2 * tall * problem_of(run, Crawl).crawler.radius
     for number, p in enumerate(phases):
         state = printed.isel(time=crawlers.nearest(printed, gait.time(p)))
         along, top = 1e2 * state.along.to_numpy(), height * state.mu_1.to_numpy() - lane * number
@@ -59,146 +60,178 @@ def fig_2_1(data: Data) -> Figure:
             linewidth=1.2,
         )
     reach = 1e2 * np.array([run.along[indices], printed.along[indices]])
-    ax.set(xlim=(reach.min() - 0.5, reach.max() + 0.5), title=f"heights × {_HEIGHT_MAGNIFICATION:g}")
+    ax.set(
+        xlim=(reach.min() - 0.5, reach.max() + 0.5), xlabel=f"along the ground [cm], heights × {tall:g}"
+    )
     looks = [
         *crawlers.legend_of_bodies(),
         Patch(facecolor="black", label="segment 50"),
-        Line2D([], [], color=INK, linestyle=":", label="by (2.2.20), (2.4.18) as printed"),
+        Line2D([], [], color=INK, linestyle=":", label="as printed"),
     ]
-    figure.legend(handles=looks, loc="outside lower center", ncols=5, fontsize=8)
+    figure.legend(handles=looks, loc="outside lower center", ncols=3)
     return figure
 
 
 def fig_2_2(data: Data, published: Mapping[str, float]) -> Figure:
     """Stretches and pressure of segment 50 over the strides, corrected and as printed, and Quillin's measurements."""
-    figure, (top, bottom) = canvas(7.2, 5.4, 2, 1)
+    figure, (top, bottom) = canvas(WIDTH, 5.8, 2, 1)
     for name, style in (("worm", "-"), ("worm_printed", ":")):
         run = segment(data[name])
         for variable, colour in crawlers.STRETCHES.items():
             top.plot(run.time, run[variable], style, color=colour, linewidth=crawlers.WIDTHS[variable])
         bottom.plot(run.time, run.p_coelom / 1e3, style, color=INK)
-    for variable in ("mu_1", "mu_3"):
+    problem = problem_of(data["worm"], Crawl)
+    free = problem.gait.duration + problem.gait.time(0.4)  # time where a label is beside no curve
+    for variable, side in (("mu_1", -1), ("mu_3", 1)):
         ratio = published[f"2.8.6-{variable.replace('_', '')}-ratio"]
         level = ratio * float(at_phase(data["worm"], LONGITUDINAL)[variable])
-        _measured(top, level, rf"{ratio:g} $\{variable}|_{{long}}$")
+        _measured(top, level, rf"{ratio:g} $\{variable}|_{{long}}$", free, side)
     for load in ("longitudinal", "circular"):
         level = published[f"2.8-p-{load}-measured"] / 1e3
-        _measured(bottom, level, f"{level:g} kPa")
+        _measured(bottom, level, f"{level:g} kPa", free, 1)
+    for ax in (top, bottom):
+        _stances(ax, problem)
+        ax.set_xlabel("time [s]")
     looks = [
         *(
             Line2D([], [], color=c, linewidth=crawlers.WIDTHS[v], label=rf"$\{v}$")
             for v, c in crawlers.STRETCHES.items()
         ),
         Line2D([], [], color=INK, label="corrected"),
-        Line2D([], [], color=INK, linestyle=":", label="(2.2.20), (2.4.18) as printed"),
-        Line2D([], [], color=EXACT, linestyle="--", label="measured by Quillin"),
+        Line2D([], [], color=INK, linestyle=":", label="as printed"),
+        Line2D([], [], color=EXACT, linestyle="--", label="measured"),
+        Patch(facecolor=_STANCE, label="stance"),
     ]
-    top.set(xlabel="time [s]", ylabel="stretch [1]", title="(a) stretches of segment 50")
-    bottom.set(
-        xlabel="time [s]", ylabel=r"$p_{coelom}$ [kPa]", title="(b) coelomic pressure of segment 50"
-    )
-    figure.legend(handles=looks, loc="outside lower center", ncols=6, fontsize=8)
+    top.set(ylabel="stretch [1]", title="(a) stretches of segment 50", ylim=(0.74, 1.43))
+    bottom.set(ylabel=r"$p_{coelom}$ [kPa]", title="(b) coelomic pressure of segment 50")
+    bottom.set_ylim(top=0.92)
+    figure.legend(handles=looks, loc="outside lower center", ncols=4)
     return figure
 
 
-def _measured(ax: Axes, level: float, label: str) -> None:
-    """A measured level, its number at the right edge."""
-    ax.axhline(level, color=EXACT, linestyle="--", linewidth=1.0, zorder=1)
-    ax.annotate(
-        label,
-        (1, level),
-        xycoords=("axes fraction", "data"),
-        xytext=(3, 0),
-        textcoords="offset points",
-        va="center",
-        color=EXACT,
-        fontsize=8,
+def _stances(ax: Axes, problem: Crawl) -> None:
+    """The second part of every stride, shaded."""
+    gait, protrusion = problem.gait, problem.gait.time(1.0)
+    parts = [
+        (k * gait.duration + protrusion, gait.duration - protrusion) for k in range(problem.strides)
+    ]
+    ax.broken_barh(
+        parts, (0, 1), transform=ax.get_xaxis_transform(), color=_STANCE, linewidth=0, zorder=0
     )
+
+
+def _measured(ax: Axes, level: float, label: str, time: float, side: int) -> None:
+    """A measured level, its number above (1) or below (-1) it at a time [s]."""
+    ax.axhline(level, color=EXACT, linestyle="--", linewidth=1.0, zorder=1)
+    va = "bottom" if side > 0 else "top"
+    beside(ax, (time, level), label, (0, 2.5 * side), ha="center", va=va, color=EXACT)
 
 
 def fig_2_5(_: Data) -> Figure:
-    """One muscle of finite width, and rows of several."""
-    figure, (left, right) = canvas(7.2, 3.0, 1, 2)
-    xi, one = np.linspace(0, 1, 2001), np.array([0.5])
-    left.plot(
-        xi, doublets.load(xi, one, 0.3, 1.0) / 10, color=COMPUTED, label=r"load, in $10\,P$ per length"
-    )
-    left.plot(xi, doublets.contact_force(xi, one, 0.3, 1.0), color=VARIANT, label="$n / P$")
-    left.annotate(r"$\lambda$", (0.5, 0.79), ha="center")
-    left.annotate("", (0.35, 0.74), (0.65, 0.74), arrowprops={"arrowstyle": "<->", "color": INK})
-    left.set(
-        xlabel=r"$\xi$ [length]",
-        ylabel="load and force [$P$]",
-        title="(a) one muscle in a window $\\lambda$",
-        ylim=(-1.5, 1.0),
-    )
-    left.legend(loc="lower left", fontsize=8)
-    for count, colour in ((2, "#b8cfe4"), (6, "#6fa1cc"), (40, COMPUTED)):
+    """The load of one muscle of finite width, its force, and the force of rows of several."""
+    figure, axes = canvas(WIDTH, 6.2, 3, 1)
+    xi, one, window = np.linspace(0, 1, 2001), np.array([0.5]), 0.3
+    axes[0].plot(xi, doublets.load(xi, one, window, 1.0), color=COMPUTED)
+    ends = 0.5 - window / 2, 0.5 + window / 2
+    arrow = {"arrowstyle": "<->", "color": INK, "shrinkA": 0, "shrinkB": 0}
+    axes[0].annotate("", (ends[0], 8.2), (ends[1], 8.2), arrowprops=arrow)
+    beside(axes[0], (ends[1], 8.2), r"window $\lambda$", (5, 0))
+    axes[1].plot(xi, doublets.contact_force(xi, one, window, 1.0), color=COMPUTED)
+    for count, colour, line in ((2, FOURTH, ":"), (6, VARIANT, "-."), (40, COMPUTED, "-")):
         centres, width = doublets.row(0.25, 0.75, count)
-        right.plot(
-            xi, doublets.contact_force(xi, centres, width, 1.0), color=colour, label=f"{count} muscles"
-        )
-    right.plot([0.25, 0.25, 0.75, 0.75], [0, -1, -1, 0], color=EXACT, linestyle="--", label="(2.2.7)")
-    right.set(
-        xlabel=r"$\xi$ [length]",
-        ylabel="$n / P$ [1]",
-        title=r"(b) muscles from 0.25 to 0.75",
-        ylim=(-1.5, 0.06),
-    )
-    right.legend(loc="lower center", ncols=2, fontsize=8)
+        force = doublets.contact_force(xi, centres, width, 1.0)
+        axes[2].plot(xi, force, line, color=colour, label=f"{count} muscles")
+    axes[2].plot([0.25, 0.25, 0.75, 0.75], [0, -1, -1, 0], color=EXACT, linestyle="--", label="(2.2.7)")
+    axes[0].set(ylabel="load [$P$ / length]", title="(a) load of one muscle", ylim=(-9.5, 9.5))
+    axes[1].set(ylabel="force $n / P$ [1]", title="(a) its force", ylim=(-1.15, 0.15))
+    axes[2].set(ylabel="force $n / P$ [1]", title="(b) muscles from 0.25 to 0.75", ylim=(-2.1, 0.15))
+    for ax in axes:
+        ax.set_xlabel(r"$\xi$ [length]")
+    axes[2].set_yticks([-1.0, -0.5, 0.0])
+    axes[2].legend(loc="lower center", ncols=2)
     return figure
 
 
 def fig_2_12(data: Data) -> Figure:
     """The anchored point of the worm, in both readings of the schedule."""
-    figure, (ax,) = canvas(7.2, 2.6)
-    for name, label, colour, size in (
-        ("worm", "rear from $t_p/2$", COMPUTED, 5),
-        ("worm_early", "rear from $t_p/3$", VARIANT, 2),
+    figure, axes = canvas(WIDTH, 4.4, 2, 1)
+    for ax, (name, title, colour, parts) in zip(
+        axes,
+        (
+            ("worm", "(a) the rear end holds from $t_p/2$", COMPUTED, 2),
+            ("worm_early", "(b) the rear end holds from $t_p/3$", VARIANT, 3),
+        ),
+        strict=True,
     ):
         run = data[name]
-        ax.plot(
-            run.time,
-            run.anchor / problem_of(run, Crawl).crawler.length,
-            "o",
-            markersize=size,
-            color=colour,
-            label=label,
-        )
-    ax.set(xlabel="time [s]", ylabel=r"$\xi_A / \ell_0$ [1]")
-    ax.legend(loc="center right")
+        crawl = problem_of(run, Crawl)
+        first = crawl.gait.time(1.0) / parts
+        ax.plot(run.time, run.anchor / crawl.crawler.length, "o", markersize=3, color=colour)
+        for stride in range(crawl.strides):
+            turn = stride * crawl.gait.duration + first
+            ax.axvline(turn, color=EXACT, linestyle=":", linewidth=1.2, zorder=1)
+        beside(ax, (first, 0.85), f"$t_p/{parts}$", (4, 0), color=EXACT)
+        ax.set(xlabel="time [s]", ylabel=r"$\xi_A / \ell_0$ [1]", title=title, ylim=(-0.06, 1.06))
     return figure
+
+
+_LAWS = (
+    ("worm_masses", "constant stress", COMPUTED, "o"),
+    ("worm_masses_constant_pressure", "strip tension, constant $p$", VARIANT, "s"),
+    ("worm_masses_strip", "strip tension", INK, "^"),
+)
+"""Runs of worms of every mass, with the law of their muscles, its colour and its marker."""
 
 
 def fig_masses(data: Data) -> Figure:
     """Stride, speed, frequency and stretches of worms of every mass, beside the slopes of the literature."""
-    figure, axes = canvas(7.2, 5.4, 2, 2)
-    runs = (
-        ("worm_masses", "constant stress", COMPUTED, "o"),
-        ("worm_masses_constant_pressure", "strip tension, constant $p$", VARIANT, "s"),
-        ("worm_masses_strip", "strip tension", "#3a7d44", "^"),
-    )
-    panels = (("stride", "stride [m]"), ("speed", "speed [m/s]"), ("frequency", "frequency [1/s]"))
-    for ax, (variable, label) in zip(axes, panels, strict=False):
-        for name, law, colour, marker in runs:
-            run = data[name]
-            steep = slope(run, variable)
-            ax.loglog(
-                run.body_mass * 1e3,
-                run[variable],
-                color=colour,
-                marker=marker,
-                label=f"{law}: {steep:.2f}",
-            )
-        grams = data["worm_masses"].body_mass.to_numpy() * 1e3
-        anchored = float(data["worm_masses"][variable][-1])
-        known = anchored * (grams / grams[-1]) ** SLOPES[variable]
-        ax.loglog(grams, known, color=EXACT, linestyle="--", label=f"literature: {SLOPES[variable]:g}")
-        ax.set(xlabel="body mass [g]", ylabel=label)
-        ax.legend(fontsize=7)
-    for name, _, colour, marker in runs:
-        run = data[name]
-        for variable in ("mu_3_least", "mu_3_most"):
-            axes[3].semilogx(run.body_mass * 1e3, run[variable], color=colour, marker=marker)
-    axes[3].set(xlabel="body mass [g]", ylabel=r"extreme $\mu_3$ of segment 50 [1]")
+    figure, axes = canvas(WIDTH, 9.8, 4, 1)
+    rising = dict.fromkeys(("worm_masses", "worm_masses_constant_pressure"), (-2, 13))
+    rising["worm_masses_strip"] = (-12, 9)
+    _of_mass(axes[0], data, "stride", "m", rising)
+    _of_mass(axes[1], data, "speed", "m/s", rising)
+    _of_mass(axes[2], data, "frequency", "1/s", {"worm_masses_constant_pressure": (12, 3)})
+    axes[2].set_yticks([0.2, 0.25, 0.3, 0.35], ["0.2", "0.25", "0.3", "0.35"])
+    _extremes(axes[3], data)
+    for ax, letter in zip(axes, "abcd", strict=True):
+        ax.set(xlabel="body mass [g]", title=f"({letter}) {ax.get_title(loc='left')}")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
+
+
+def _of_mass(
+    ax: Axes, data: Data, variable: str, unit: str, asides: Mapping[str, tuple[float, float]]
+) -> None:
+    """A number of worms over their mass, and slopes, each `asides` of the first point of its curve."""
+    for name, law, colour, marker in _LAWS:
+        run = data[name]
+        grams, values = run.body_mass.to_numpy() * 1e3, run[variable].to_numpy()
+        ax.loglog(grams, values, color=colour, marker=marker, label=law)
+        if name in asides:
+            beside(ax, (grams[0], values[0]), _signed(slope(run, variable)), asides[name], color=colour)
+    grams = data["worm_masses"].body_mass.to_numpy() * 1e3
+    anchored = float(data["worm_masses"][variable][-1])
+    known = anchored * (grams / grams[-1]) ** SLOPES[variable]
+    ax.loglog(grams, known, color=EXACT, linestyle="--", label="literature")
+    ax.set(
+        ylabel=f"{variable} [{unit}]",
+        title=f"{variable}: slopes, in the literature {_signed(SLOPES[variable])}",
+    )
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    ax.margins(y=0.12)
+
+
+def _signed(value: float) -> str:
+    return f"{value:.2f}".replace("-", "\N{MINUS SIGN}")
+
+
+def _extremes(ax: Axes, data: Data) -> None:
+    """The largest and the smallest stretch of segment 50 over the mass."""
+    for name, _, colour, marker in _LAWS:
+        run = data[name]
+        grams = run.body_mass.to_numpy() * 1e3
+        for variable, line, text in (("mu_3_most", "-", "longest"), ("mu_3_least", "--", "shortest")):
+            ax.semilogx(grams, run[variable], line, color=colour, marker=marker)
+            if name == "worm_masses":
+                beside(ax, (grams[0], float(run[variable][0])), text, (0, 10), color=colour)
+    ax.set(ylabel=r"$\mu_3$ [1]", title=r"extremes of $\mu_3$ in segment 50")

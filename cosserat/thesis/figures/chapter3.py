@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -14,6 +16,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
+from cosserat.figures.crawlers import THINNED
 from cosserat.figures.rod import draw_loads, draw_outline
 from cosserat.figures.style import (
     BODY,
@@ -21,6 +24,8 @@ from cosserat.figures.style import (
     CONSISTENT,
     EXACT,
     INK,
+    WIDTH,
+    Picture,
     canvas,
     computed_points,
     exact_curve,
@@ -35,42 +40,40 @@ Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
 _ALONG = r"arc length $\xi$ [m]"
+_E3, _E2 = r"along $\mathbf{E}_3$ [m]", r"along $\mathbf{E}_2$ [m]"
+_THIN = THINNED  # the thinnest section
+_SECTIONS = LinearSegmentedColormap.from_list("sections", [BODY, "#f4efe4", _THIN])
 _CURVE_POINTS = 401  # points of a closed form's curve
 
 
 def fig_3_8(data: Data) -> Figure:
-    """The four equilibria, magnified, with directors of unit length, and the centreline of the consistent rod."""
-    figure, axes = canvas(7.2, 4.5, 2, 2)
+    """The four equilibria, magnified, with their sections, and the centreline of the consistent rod."""
     panels = [
-        ("hanging_bar", "(a) hanging bar: × 5000", 5_000, 5_000),
-        ("clamped_free", "(b) clamped-free beam: × 20", 20, 20),
-        ("clamped_clamped", "(c) clamped-clamped beam: × 500", 500, 500),
-        ("necking", "(d) necking: × 80 000, sections × 400 000", 80_000, 400_000),
+        ("hanging_bar", "(a) hanging bar: × 5000", 5_000, 5_000, (-0.9, 1.5)),
+        ("clamped_free", "(b) clamped-free beam: × 20", 20, 20, (-1.2, 1.4)),
+        ("clamped_clamped", "(c) clamped-clamped beam: × 500", 500, 500, (-0.9, 1.4)),
+        ("necking", "(d) necking: × 80 000, sections × 400 000", 80_000, 400_000, (-0.9, 0.9)),
     ]
-    for ax, (name, title, magnified, sections) in zip(axes, panels, strict=True):
+    figure = Picture(figsize=(WIDTH, 8.5), layout="constrained")
+    axes = figure.subplots(4, 1, height_ratios=[np.ptp(panel[-1]) for panel in panels])
+    for ax, (name, title, magnified, sections, heights) in zip(axes, panels, strict=True):
         _equilibrium(ax, data[name], data[f"{name}_consistent"], magnified, sections)
-        ax.set_title(title)
         ax.set_aspect("equal")
-        ax.set(
-            xlim=(-1.1, 7.7),
-            ylim=(-1.3, 2.1),
-            xlabel=r"along $\mathbf{E}_3$ [m]",
-            ylabel=r"along $\mathbf{E}_2$ [m]",
-        )
+        ax.set(title=title, xlabel=_E3, ylabel=_E2, xlim=(-1.0, 7.7), ylim=heights)
     problem = problem_of(data["necking"], RodProblem)
     beam = beam_of(problem)
     end = beam.length * (1 + panels[-1][2] * tension_of(problem) / beam.axial_stiffness)
     axes[-1].plot([end, end], [-0.8, 0.8], color=EXACT, linestyle="-.", label=r"elongation $n\ell/EA$")
     looks = [
         Line2D([], [], color=EXACT, linestyle=":", label="reference"),
-        Patch(facecolor=BODY, edgecolor=COMPUTED, label="body"),
-        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label="centreline"),
-        Line2D([], [], color=COMPUTED, marker="^", label="directors of unit length"),
         Line2D([], [], color=INK, linewidth=3, label="section fixed"),
-        Line2D([], [], color=INK, linewidth=1.2, label="section fixed, free to stretch"),
+        Line2D([], [], color=COMPUTED, label="sections"),
+        Line2D([], [], color=INK, linewidth=1.2, label="fixed, free to stretch"),
+        Patch(facecolor=BODY, label=r"$\lambda = 1$"),
         *axes[-1].get_legend_handles_labels()[0],
+        Patch(facecolor=_THIN, label=r"least $\lambda$"),
     ]
-    figure.legend(handles=looks, loc="outside lower center", ncols=4, fontsize=8)
+    figure.legend(handles=looks, loc="outside lower center", ncols=2)
     return figure
 
 
@@ -81,45 +84,53 @@ def _equilibrium(
     problem = problem_of(run, RodProblem)
     X, D = run.x_ref.to_numpy(), run.d_ref.to_numpy()
     x, d = X + magnified * run.u.to_numpy(), D + sections * run.delta.to_numpy()
-    unit = d / np.linalg.norm(D, axis=1)[:, None]
     draw_outline(ax, X, D, problem, facecolor="none", edgecolor=EXACT, linestyle=":")
-    draw_outline(ax, x, d, problem, facecolor=BODY, edgecolor=COMPUTED)
-    ax.quiver(
-        *x.T, *unit.T, angles="xy", scale_units="xy", scale=1, color=COMPUTED, width=0.004, headwidth=4
-    )
-    ax.plot(*x.T, color=INK, linestyle="--", linewidth=0.9)
+    _colour_sections(ax, x, d, run.lam.to_numpy() - 1)
+    draw_outline(ax, x, d, problem, facecolor="none", edgecolor=COMPUTED)
+    ends = np.stack([x - d, x + d, np.full_like(x, np.nan)], axis=1).reshape(-1, 2)
+    ax.plot(*ends.T, color=COMPUTED, linewidth=0.9, label="_sections")
     draw_supports(ax, problem, x, D)
     place = (other.x_ref + magnified * other.u).to_numpy()
-    plain_points(ax, place[:, 0], place[:, 1])
-    ends = x.copy()
-    ends[-1] = max(x[-1], place[-1], key=lambda point: float(point[0]))
-    draw_loads(ax, problem, ends, unit)
+    ax.plot(
+        *place.T, color=CONSISTENT, linestyle="--", linewidth=1.4, label="consistent rod, centreline"
+    )
+    far = x.copy()
+    far[-1] = max(x[-1], place[-1], key=lambda point: float(point[0]))
+    draw_loads(ax, problem, far, d)
+
+
+def _colour_sections(ax: Axes, x: Array, d: Array, strain: Array) -> None:
+    """Fill each edge of the body by its mean section strain: orange where it is thinnest, blue where it is at rest."""
+    least = min(float(strain.min()), -1e-12)  # of a rod whose sections keep their height nothing is thin
+    for k, share in enumerate((strain[:-1] + strain[1:]) / 2 / least):
+        edge = [x[k] - d[k], x[k] + d[k], x[k + 1] + d[k + 1], x[k + 1] - d[k + 1]]
+        ax.fill(*np.transpose(edge), facecolor=_SECTIONS(max(0.0, share)), linewidth=0)
 
 
 def fig_3_9(data: Data) -> Figure:
-    """The hanging bar: displacement, and its difference from the formula."""
-    figure, (left, right) = canvas(7.2, 2.9, 1, 2)
-    bar = data["hanging_bar"]
+    """The hanging bar: displacement, and the differences of both rods from the formula."""
+    figure, (top, bottom) = canvas(WIDTH, 5.2, 2, 1)
+    bar, free = data["hanging_bar"], data["hanging_bar_consistent"]
     problem = problem_of(bar, RodProblem)
-    xi, fine = bar.xi.to_numpy(), _fine(bar)
-    exact = beams.hanging_bar_displacement(beam_of(problem), weight_of(problem), fine)
-    computed = bar.u.sel(axis="E3").to_numpy()
-    exact_curve(left, fine, exact * 1e3, "eq. (3.5.2)")
-    computed_points(left, xi, computed * 1e3, "discrete rod, $c_1 = 1/2$")
-    left.set(
-        xlabel=_ALONG,
-        ylabel=r"displacement $\mathbf{u} \cdot \mathbf{E}_3$ [mm]",
-        title="(a) displacement",
-    )
-    left.legend()
-    free = data["hanging_bar_consistent"]
-    plain_points(left, free.xi.to_numpy(), free.u.sel(axis="E3").to_numpy() * 1e3)
-    left.legend()
-    at_vertices = beams.hanging_bar_displacement(beam_of(problem), weight_of(problem), xi)
-    computed_points(right, xi, (computed - at_vertices) / exact[-1] * 1e6, "")
-    right.set(
-        xlabel=_ALONG, ylabel="difference [$10^{-6}$ of the tip]", title="(b) computed less analytic"
-    )
+    weight = weight_of(problem)
+
+    def exact(xi: Array) -> Array:
+        return beams.hanging_bar_displacement(beam_of(problem), weight, xi)
+
+    tip = float(exact(np.array([problem.rod.length]))[0])
+    exact_curve(top, _fine(bar), exact(_fine(bar)) * 1e3, "eq. (3.5.2)")
+    for run, draw in (
+        (bar, partial(computed_points, label="discrete rod, $c_1 = 1/2$")),
+        (free, plain_points),
+    ):
+        xi, computed = run.xi.to_numpy(), run.u.sel(axis="E3").to_numpy()
+        draw(top, xi, computed * 1e3)
+        draw(bottom, xi, (computed - exact(xi)) / tip * 1e6)
+    top.set(ylabel=r"$\mathbf{u} \cdot \mathbf{E}_3$ [mm]", title="(a) displacement")
+    bottom.set(ylabel="difference [$10^{-6}$ of tip]", title="(b) computed less analytic")
+    for ax in (top, bottom):
+        ax.set_xlabel(_ALONG)
+    top.legend()
     return figure
 
 
@@ -155,41 +166,43 @@ def _beam(
     director: beams.BeamCurve,
     equations: tuple[str, str],
 ) -> Figure:
-    figure, (left, right) = canvas(7.2, 3.1, 1, 2)
+    """Displacement and directors, each beside its formula, and below it the differences of all rods from that."""
+    figure, axes = canvas(WIDTH, 8.8, 4, 1)
     problem = problem_of(full, RodProblem)
-    fine, surface = _fine(full), problem.rod.height / 2
-    exact_curve(left, fine, displacement(beam_of(problem), weight_of(problem), fine) * 1e3, equations[0])
-    exact_curve(
-        right, fine, director(beam_of(problem), weight_of(problem), fine) * surface * 1e3, equations[1]
-    )
-    for run, label, variant in ((full, "end areas full", False), (halved, "end areas halved", True)):
-        xi = run.xi.to_numpy()
-        computed_points(left, xi, run.u.sel(axis="E2").to_numpy() * 1e3, label, variant=variant)
-        computed_points(right, xi, run.delta.sel(axis="E3").to_numpy() * 1e3, label, variant=variant)
-    for ax, values in (
-        (left, consistent.u.sel(axis="E2")),
-        (right, consistent.delta.sel(axis="E3")),
+    beam, weight, surface = beam_of(problem), weight_of(problem), problem.rod.height / 2
+    for ax, below, curve, scale, equation, (variable, axis) in (
+        (axes[0], axes[1], displacement, 1e3, equations[0], ("u", "E2")),
+        (axes[2], axes[3], director, surface * 1e3, equations[1], ("delta", "E3")),
     ):
-        plain_points(ax, consistent.xi.to_numpy(), values.to_numpy() * 1e3)
-    left.set(
-        xlabel=_ALONG,
-        ylabel=r"displacement $\mathbf{u} \cdot \mathbf{E}_2$ [mm]",
-        title="(a) centreline",
+        fine = _fine(full)
+        exact_curve(ax, fine, curve(beam, weight, fine) * scale, equation)
+        for run, draw in (
+            (full, partial(computed_points, label="end areas full")),
+            (halved, partial(computed_points, label="end areas halved", variant=True)),
+            (consistent, plain_points),
+        ):
+            xi, computed = run.xi.to_numpy(), run[variable].sel(axis=axis).to_numpy() * 1e3
+            draw(ax, xi, computed)
+            draw(below, xi, computed - curve(beam, weight, xi) * scale)
+    turn = r"$\boldsymbol{\delta} \cdot \mathbf{E}_3$ [mm]"
+    axes[0].set(
+        ylabel=r"$\mathbf{u} \cdot \mathbf{E}_2$ [mm]", title="(a) displacement of the centreline"
     )
-    right.set(
-        xlabel=_ALONG,
-        ylabel=r"$\boldsymbol{\delta} \cdot \mathbf{E}_3$ at the surface [mm]",
-        title="(b) directors",
-    )
-    left.legend(fontsize=8)
-    right.legend(fontsize=8)
+    axes[2].set(ylabel=turn, title="(b) directors, at the surface")
+    for ax, letter in ((axes[1], "a"), (axes[3], "b")):
+        ax.set(ylabel="difference [mm]", title=f"({letter}) difference: computed less analytic")
+    for ax in axes:
+        ax.set_xlabel(_ALONG)
+    handles, labels = axes[0].get_legend_handles_labels()
+    handles, labels = [*handles[1:], handles[0]], [*labels[1:], " and ".join(equations)]
+    figure.legend(handles, labels, loc="outside lower center", ncols=2)
     return figure
 
 
 def fig_3_12(data: Data) -> Figure:
     """Necking: strains and displacements of the directors, three decays, and the coupling as printed."""
-    figure = Figure(figsize=(7.2, 6.4), layout="constrained")
-    panels = figure.subplot_mosaic([["a", "b"], ["c", "c"]], height_ratios=[1.5, 1])
+    figure = Picture(figsize=(WIDTH, 8.6), layout="constrained")
+    panels = figure.subplot_mosaic([["a"], ["b"], ["c"]])
     necked, printed, free = data["necking"], data["necking_printed"], data["necking_consistent"]
     problem = problem_of(necked, RodProblem)
     beam, n, xi, fine = beam_of(problem), tension_of(problem), necked.xi.to_numpy(), _fine(necked)
@@ -219,14 +232,12 @@ def fig_3_12(data: Data) -> Figure:
         else:
             computed_points(ax, xi, (necked.lam.to_numpy() - 1) * 1e6, "discrete rod, half coupling")
             plain_points(ax, free.xi.to_numpy(), (free.lam.to_numpy() - 1) * 1e6)
-        ax.set(xlabel=_ALONG, ylabel=r"section strain $\lambda - 1$ [$10^{-6}$]", title=title)
+        ax.set(xlabel=_ALONG, ylabel=r"strain $\lambda - 1$ [$10^{-6}$]", title=title)
         _at_surface(ax, problem.rod.height / 2)
     panels["b"].set_xlim(-0.03, 1.1)
     handles, labels = panels["a"].get_legend_handles_labels()
     more = panels["c"].get_legend_handles_labels()
-    figure.legend(
-        [*handles, more[0][-1]], [*labels, more[1][-1]], loc="outside lower center", ncols=3, fontsize=8
-    )
+    figure.legend([*handles, more[0][-1]], [*labels, more[1][-1]], loc="outside lower center", ncols=1)
     return figure
 
 

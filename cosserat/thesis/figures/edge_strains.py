@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.figures.conventions import arrow, label
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, WIDTH, canvas
 
 Array = NDArray[np.float64]
 _AXIAL, _SLIDE = 1.25, -0.3  # a and g of the drawn edge [1]
@@ -21,7 +21,7 @@ _DIRECTOR = 0.62  # length of the directors [m]
 
 def fig_edge_strains(data: Mapping[str, xr.Dataset]) -> Figure:
     """An edge with its two directors, the vector half-way between them, and the strains a, g and T."""
-    figure, (ax,) = canvas(5.2, 3.0)
+    figure, (ax,) = canvas(WIDTH, 3.0)
     m = _unit(_HALFWAY)
     normal = np.array([m[1], -m[0]])
     first, knee = np.zeros(2), _AXIAL * normal

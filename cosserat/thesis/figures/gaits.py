@@ -13,14 +13,12 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures import crawlers
-from cosserat.figures.style import COMPUTED, EXACT, INK, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, WIDTH, Picture, beside, canvas
 from cosserat.problems.crawl import Crawl
 from cosserat.thesis.table.printed import number
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
-
-_PAUSE_COLOUR = "#ececec"
 
 
 def fig_2_7(data: Data) -> Figure:
@@ -28,19 +26,19 @@ def fig_2_7(data: Data) -> Figure:
     run = data["soft_robot"]
     gait = problem_of(run, Crawl).gait
     parts = (
-        ("(a) push: the rear holds", (1.0, 1.5, 2.0)),
-        ("(b) transition: the forward end holds", (2.2, 2.8)),
-        ("(c) pull: the forward end holds", (3.2, 3.6, 4.0)),
+        ("(a) push: the rear end holds", 0.5, (1.0, 1.5, 2.0)),
+        ("(b) transition: the front end holds", 0.53, (2.2, 2.8)),
+        ("(c) pull: the front end holds", 0.33, (3.2, 3.6, 4.0)),
     )
-    indices = [crawlers.nearest(run, gait.time(p)) for _, phases in parts for p in phases]
-    labels = [f"$t_{k}$ = {float(run.time[i]):.1f} s" for k, i in enumerate(indices, start=1)]
-    figure, (ax,) = canvas(7.2, 9.9)
+    indices = [crawlers.nearest(run, gait.time(p)) for *_, phases in parts for p in phases]
+    labels = [f"$t_{k}$ =\n{float(run.time[i]):.1f} s" for k, i in enumerate(indices, start=1)]
+    figure, (ax,) = canvas(WIDTH, 8.4)
     crawlers.draw_snapshots(ax, run, indices, labels)
     crawlers.draw_fronts(ax, run, indices)
     lane, first = crawlers.lane_height(run), 0
-    for title, phases in parts:
+    for title, middle, phases in parts:
         top = (0.78 - first) * lane
-        ax.annotate(title, (0.45, top), xycoords=("axes fraction", "data"), ha="center")
+        ax.annotate(title, (middle, top), xycoords=("axes fraction", "data"), ha="center")
         first += len(phases)
     ax.set_ylim(top=0.95 * lane)
     looks = [
@@ -48,7 +46,7 @@ def fig_2_7(data: Data) -> Figure:
         Line2D([], [], color=crawlers.ETA, linewidth=2.2, label=r"$\eta(t)$"),
         *crawlers.legend_of_bodies(),
     ]
-    figure.legend(handles=looks, loc="outside lower center", ncols=5)
+    figure.legend(handles=looks, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -60,25 +58,44 @@ def fig_2_8(data: Data) -> Figure:
     """Discrete values of the robot's fronts: over both cycles, and in detail where eta begins."""
     run = data["soft_robot"]
     problem = problem_of(run, Crawl)
-    figure = Figure(figsize=(7.2, 3.4), layout="constrained")
-    left, right = figure.subplots(1, 2, width_ratios=[1.5, 1])
-    draw_gait(left, problem, run.time.to_numpy())
-    _pauses(left, problem)
+    figure, (both, close) = canvas(WIDTH, 5.4, 2, 1)
+    _fill_regions(both, run)
+    draw_gait(both, problem, run.time.to_numpy())
+    _pauses(both, problem)
+    for kind, phase in (("gamma", 1.5), ("eta", 2.5)):
+        for stride in range(problem.strides):
+            _name_front(both, problem, kind, phase, stride)
     begins = problem.gait.time(problem.gait.eta[0][0][0])
     about = np.array([begins + T_STEP * k for k in range(-5, 16)])
-    draw_gait(right, problem, about, kinds=("eta",))
-    right.axhline(1, color=EXACT, linewidth=0.8)
-    right.set_yticks([0.985, 0.99, 0.995, 1.0])
-    left.set(
-        xlim=(0, float(run.time[-1]) + 0.5),
+    draw_gait(close, problem, about, kinds=("eta",))
+    close.axhline(1, color=EXACT, linewidth=0.8)
+    close.set_yticks([0.985, 0.99, 0.995, 1.0])
+    both.set(
+        xlim=(0, float(run.time[-1])),
         ylim=(-0.02, 1.02),
         title=f"(a) every {run.time[1]:g} s, both cycles",
     )
-    right.set(title=f"(b) $t_{{step}}$ = {T_STEP:g} s, where $\\eta$ begins")
-    for ax in (left, right):
+    close.set(title=f"(b) $t_{{step}}$ = {T_STEP:g} s, where $\\eta$ begins")
+    for ax in (both, close):
         ax.set(xlabel="time [s]", ylabel=r"$\gamma/\ell_0$, $\eta/\ell_0$ [1]")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.legend(handles=crawlers.legend_of_bodies()[:2], loc="outside lower center", ncols=2)
     return figure
+
+
+def _fill_regions(ax: Axes, run: xr.Dataset) -> None:
+    """The load of each part of the body over time, in the colours of the drawn bodies."""
+    places = np.linspace(0, 1, run.sizes["section"])
+    ax.contourf(run.time, places, run.advancing.to_numpy().T, [0.5, 1.5], colors=[crawlers.THINNED])
+    ax.set_facecolor(BODY)
+    ax.grid(visible=False)
+
+
+def _name_front(ax: Axes, problem: Crawl, kind: str, phase: float, stride: int) -> None:
+    """The letter of a front, to the right of its line at a phase of a stride."""
+    time = problem.gait.time(phase)
+    found = [place for place, name in crawlers.fronts_on_the_body(problem, time) if name == kind]
+    where = (stride * problem.gait.duration + time, found[0])
+    beside(ax, where, rf"$\{kind}$", (5, 4), color=crawlers.FRONTS[kind], va="bottom")
 
 
 def _pauses(ax: Axes, problem: Crawl) -> None:
@@ -86,9 +103,9 @@ def _pauses(ax: Axes, problem: Crawl) -> None:
     gait = problem.gait
     for stride in range(problem.strides):
         begin = stride * gait.duration
-        ax.axvspan(begin, begin + gait.phases[0], color=_PAUSE_COLOUR, linewidth=0)
         middle = (begin + gait.phases[0] / 2, 0.5)
         ax.annotate("$t_{pause}$", middle, ha="center", va="center", rotation=90)
+        ax.vlines(begin + gait.phases[0], 0, 1, color=EXACT, linestyle=":", linewidth=1.0, zorder=1)
 
 
 def draw_gait(
@@ -113,9 +130,9 @@ def draw_gait(
             *points.T,
             linestyle="none",
             marker="o" if kind == "gamma" else "s",
-            markersize=2.5,
+            markersize=3,
             color=colour,
-            label=rf"$\{kind}$",
+            markeredgewidth=0,
         )
 
 
@@ -123,8 +140,8 @@ def fig_2_9(data: Data) -> Figure:
     """The robot crawls: its ends and anchor, its stretches, and its body through both cycles of Fig. 2.8."""
     run = data["soft_robot"]
     gait = problem_of(run, Crawl).gait
-    figure = Figure(figsize=(7.2, 6.8), layout="constrained")
-    panels = figure.subplot_mosaic([["a", "b"], ["c", "d"]], height_ratios=[1, 1.5])
+    figure = Picture(figsize=(WIDTH, 7.6), layout="constrained")
+    panels = figure.subplot_mosaic([["a", "a"], ["b", "b"], ["c", "d"]], height_ratios=[1, 1, 1.4])
     _paths(panels["a"], run)
     _stretches_when_eta_appears(panels["b"], run)
     phases = (1.0, 1.5, 2.0, 2.5, 3.4, 4.0)
@@ -132,8 +149,8 @@ def fig_2_9(data: Data) -> Figure:
     for letter, stride, name in (("c", 0, "first"), ("d", 1, "second")):
         indices = [crawlers.nearest(run, stride * gait.duration + gait.time(p)) for p in phases]
         labels = [f"{float(run.time[k]):.1f} s" for k in indices]
-        crawlers.draw_snapshots(panels[letter], run, indices, labels)
-        panels[letter].set(xlim=reach, title=f"({letter}) {name} cycle")
+        crawlers.draw_snapshots(panels[letter], run, indices, labels, lines=18)
+        panels[letter].set(xlim=reach, title=f"({letter}) {name} cycle", xlabel="along the ground [cm]")
     figure.legend(handles=crawlers.legend_of_bodies(), loc="outside lower center", ncols=3)
     return figure
 
@@ -143,19 +160,18 @@ def _stretches_when_eta_appears(ax: Axes, run: xr.Dataset) -> None:
     appears = gait.time(gait.eta[0][0][0])
     state = run.isel(time=crawlers.nearest(run, appears))
     for variable, colour in crawlers.STRETCHES.items():
-        ax.plot(
-            run.xi_section * 1e2,
-            state[variable],
-            color=colour,
-            linewidth=crawlers.WIDTHS[variable],
-            label=rf"$\{variable}$",
-        )
+        values = state[variable].to_numpy()
+        width = crawlers.WIDTHS[variable]
+        ax.plot(run.xi_section * 1e2, values, color=colour, linewidth=width)
+        aside = (4, -7) if variable == "mu_1" else (4, 5)
+        end = (1e2 * float(run.xi_section[-1]), values[-1])
+        beside(ax, end, rf"$\{variable}$", aside, color=colour)
+    ax.margins(y=0.12)
     ax.set(
         xlabel=r"$\xi$ [cm]",
         ylabel="stretch [1]",
         title=f"(b) stretches when $\\eta$ appears, {appears:.1f} s",
     )
-    ax.legend(loc="center right")
 
 
 def fig_2_11(data: Data) -> Figure:
@@ -163,35 +179,53 @@ def fig_2_11(data: Data) -> Figure:
     run = data["worm"]
     problem = problem_of(run, Crawl)
     gait = problem.gait
-    figure, (ax,) = canvas(7.2, 3.4)
+    figure, (ax,) = canvas(WIDTH, 4.2)
+    _fill_regions(ax, run)
     draw_gait(ax, problem, run.time.to_numpy())
     turns, place = gait.gamma[0][1]
     for gone, line, reading in (
         (2, "--", "one speed from $t_p/2$ to $t_p + t_s$"),
-        (1, ":", "0 at $t_p$"),
+        (1, ":", "at the rear end at $t_p$"),
     ):
         for stride in range(problem.strides):
             times = stride * gait.duration + np.array([gait.time(turns), gait.time(gone)])
             label = None if stride else rf"$\gamma$ in another reading: {reading}"
-            ax.plot(times, [place, 0], line, color=crawlers.GAMMA, linewidth=1.0, label=label)
-    for phase, name in ((0.5, "$t_p/2$"), (1.0, "$t_p$"), (2.0, "$t_p + t_s$")):
-        ax.axvline(gait.time(phase), color=EXACT, linewidth=0.8, zorder=1)
-        ax.annotate(
-            name,
-            (gait.time(phase), 1),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 3),
-            textcoords="offset points",
-            ha="center",
-        )
+            ax.plot(times, [place, 0], line, color=crawlers.GAMMA, linewidth=1.2, label=label)
+    for kind, phase, stride in (
+        ("gamma", 0.25, 0),
+        ("eta", 1.5, 0),
+        ("gamma", 0.25, 1),
+        ("eta", 1.5, 1),
+    ):
+        _name_front(ax, problem, kind, phase, stride)
+    _name_phases(ax, problem)
     ax.set(
         xlabel="time [s]",
         ylabel=r"$\gamma/\ell_0$, $\eta/\ell_0$ [1]",
         xlim=(0, float(run.time[-1])),
         ylim=(-0.02, 1.02),
     )
-    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
+    handles = [*crawlers.legend_of_bodies()[:2], *ax.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside lower center", ncols=1)
     return figure
+
+
+def _name_phases(ax: Axes, problem: Crawl) -> None:
+    """The durations of protrusion and stance above each stride, and the middle of the first protrusion."""
+    gait = problem.gait
+    blended = ax.get_xaxis_transform()
+    arrow = {"arrowstyle": "<->", "color": INK, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7}
+    for stride in range(problem.strides):
+        times = stride * gait.duration + np.array([0.0, gait.time(1.0), gait.duration])
+        for begin, end, name in ((*times[:2], "$t_p$"), (*times[1:], "$t_s$")):
+            ax.annotate(
+                "", (begin, 1.03), (end, 1.03), xycoords=blended, textcoords=blended, arrowprops=arrow
+            )
+            ax.annotate(name, ((begin + end) / 2, 1.05), xycoords=blended, ha="center", va="bottom")
+            ax.axvline(end, color=EXACT, linewidth=0.8, zorder=1)
+    half = gait.time(0.5)
+    ax.axvline(half, color=EXACT, linestyle=":", linewidth=1.0, zorder=1)
+    beside(ax, (half, 0), "$t_p/2$", (4, 7), color=INK)
 
 
 def _paths(ax: Axes, run: xr.Dataset) -> None:
@@ -199,4 +233,5 @@ def _paths(ax: Axes, run: xr.Dataset) -> None:
         ax.plot(run.time, run.along.isel(section=section) * 1e2, color=colour, label=label)
     ax.plot(run.time, run.anchor_along * 1e2, ".", color=crawlers.ANCHOR, markersize=3, label="anchor")
     ax.set(xlabel="time [s]", ylabel="along the ground [cm]", title="(a) paths")
-    ax.legend(fontsize=8)
+    ax.legend(loc="upper left", ncols=3)
+    ax.set_ylim(top=1e2 * float(run.along.max()) * 1.35)

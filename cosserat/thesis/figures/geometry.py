@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, PAPER, VARIANT, canvas
+from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, PAPER, VARIANT, WIDTH, Picture, canvas
 from cosserat.rods.energies.hemingway_kernel import squared_tangent, stretching
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, strains, vertex_tangents
@@ -20,11 +20,6 @@ Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
 _ALONG, _UP = r"along $\mathbf{E}_3$ [m]", r"along $\mathbf{E}_2$ [m]"
-
-
-def _plane(ax: Axes, title: str) -> None:
-    ax.set_aspect("equal", adjustable="datalim")
-    ax.set(xlabel=_ALONG, ylabel=_UP, title=title)
 
 
 def _arrow(ax: Axes, foot: Array, vector: Array, colour: str, label: str = "", far: float = 11) -> None:
@@ -71,13 +66,18 @@ def _discrete(ax: Axes, x: Array, d: Array, name: str) -> None:
 
 def fig_3_1(data: Data) -> Figure:
     """A reference configuration and a current one, each vertex with its number."""
-    figure, (left, right) = canvas(7.2, 3.2, 1, 2)
+    low, middle, high = (-0.75, 0.75), (-0.95, 2.15), (-0.3, 5.35)
+    figure = Picture(figsize=(WIDTH, 5.35), layout="constrained")
+    axes = figure.subplots(2, 1, height_ratios=[np.ptp(low), np.ptp(middle)])
     rod = data["bent_rod"]
-    _discrete(left, rod.x_ref.to_numpy(), rod.d_ref.to_numpy(), "X")
-    _discrete(right, rod.x.to_numpy(), rod.d.to_numpy(), "x")
-    _plane(left, r"(a) reference: ${}_K\mathbf{X}$, ${}_K\mathbf{D}$")
-    _plane(right, r"(b) current: ${}_K\mathbf{x}$, ${}_K\mathbf{d}$")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    _discrete(axes[0], rod.x_ref.to_numpy(), rod.d_ref.to_numpy(), "X")
+    _discrete(axes[1], rod.x.to_numpy(), rod.d.to_numpy(), "x")
+    axes[0].set_title(r"(a) reference: ${}_K\mathbf{X}$, ${}_K\mathbf{D}$")
+    axes[1].set_title(r"(b) current: ${}_K\mathbf{x}$, ${}_K\mathbf{d}$")
+    for ax, heights in zip(axes, (low, middle), strict=True):
+        ax.set_aspect("equal")
+        ax.set(xlabel=_ALONG, ylabel=_UP, xlim=high, ylim=heights)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
 
@@ -86,7 +86,7 @@ def fig_3_2(data: Data) -> Figure:
 
     A tube with elliptical sections, seen obliquely, with the length and the height of the rod.
     """
-    figure, (ax,) = canvas(7.2, 2.7)
+    figure, (ax,) = canvas(WIDTH, 3.1)
     rod = problem_of(data["clamped_free"], RodProblem).rod
     count, cut = 81, 48
     geometry = Geometry.arc(np.linspace(0.0, rod.length, count), np.full(count, rod.height / 2), 0.12)
@@ -120,22 +120,23 @@ def fig_3_2(data: Data) -> Figure:
     thick = int(np.argmax(np.hypot(*up.T)))
     top, bottom = geometry.X[thick] + up[thick], geometry.X[thick] - up[thick]
     _span(ax, bottom, top, VARIANT)
-    _label(ax, top, np.array([0, 14]), f"$D$ = {rod.height:g} m", VARIANT)
+    _label(ax, top, np.array([-6, 14]), f"thickness $D$ = {rod.height:g} m", VARIANT)
     below = geometry.X + np.array([0.1, -0.6])
     ax.plot(*below.T, color=INK, linewidth=0.9)
     for k, step in ((0, 1), (-1, -2)):
         ax.annotate(
             "", tuple(below[k]), tuple(below[k + step]), arrowprops={"arrowstyle": "->", "shrinkB": 0}
         )
-    _label(ax, below[count // 2], np.array([14, -10]), f"$L$ = {rod.length:g} m")
-    _plane(ax, "")
-    ax.legend(loc="upper left")
+    _label(ax, below[count // 2], np.array([48, -14]), f"length $L$ = {rod.length:g} m")
+    ax.set_aspect("equal")
+    ax.set(xlabel=_ALONG, ylabel=_UP, xlim=(-0.3, 5.15), ylim=(-0.85, 1.75))
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
 
 def fig_3_3(data: Data) -> Figure:
     """Sections with oblique coordinates: directors that end on the surface, W and H by projection on their lines."""
-    figure, (left, right) = canvas(7.2, 3.8, 1, 2)
+    figure, (left, right) = canvas(4.0, 6.7, 2, 1)
     rod = problem_of(data["clamped_free"], RodProblem).rod.replace(centreline=0.2)
     W, H = rod.width, rod.height
     slanted = np.array([[np.cos(0.15), np.sin(0.15)], [np.cos(1.35), np.sin(1.35)]])
@@ -152,7 +153,8 @@ def fig_3_3(data: Data) -> Figure:
     right.set_title(f"(b) as in this rod: $Y^{{02}}$ = {rod.Y02:.3g}, $Y^{{22}}$ = {rod.Y22:.3g}")
     for ax in (left, right):
         ax.set_aspect("equal")
-        ax.set(xlim=(-0.68, 0.48), ylim=(-0.52, 0.52), xlabel=r"along $\mathbf{E}_1$ [m]", ylabel=_UP)
+        ax.grid(visible=False)
+        ax.set(xlim=(-0.7, 0.42), ylim=(-0.43, 0.47), xlabel=r"along $\mathbf{E}_1$ [m]", ylabel=_UP)
     return figure
 
 
@@ -193,7 +195,7 @@ def _section(ax: Axes, boundary: Array, along: Array) -> None:
 
 def fig_3_4(data: Data) -> Figure:
     """The discrete osculating circle of a negative turning angle: it touches both edges at half a Voronoi length."""
-    figure, (ax,) = canvas(6.4, 4.4)
+    figure, (ax,) = canvas(WIDTH, 4.7)
     rod = data["bent_rod"]
     x, K = rod.x.to_numpy(), 4
     phi = float(rod.phi[K])
@@ -219,16 +221,18 @@ def fig_3_4(data: Data) -> Figure:
         solid_capstyle="butt",
         label=rf"Voronoi length ${{}}_{K}\ell$ = {voronoi:.2f} m",
     )
-    for point, along in zip(touch, (t_before, t_after), strict=True):
+    for point in touch:
         ax.plot(*np.column_stack([centre, point]), color=EXACT, linestyle=":")
-        _label(ax, (point + x[K]) / 2, -14 * bisector + 4 * along, rf"${{}}_{K}\ell / 2$", COMPUTED)
+        _label(ax, (point + x[K]) / 2, 18 * bisector, rf"${{}}_{K}\ell / 2$", COMPUTED)
     ax.plot(*np.column_stack([x[K], x[K] + t_before]), color=INK, linestyle="--", linewidth=0.9)
     _angle(ax, x[K], t_before, phi, 0.75, rf"${{}}_{K}\varphi = {phi:.2f}$ rad", np.array([32, -22]))
-    _label(ax, centre, np.array([0, -12]), rf"${{}}_{K}r = {radius:.2f}$ m", VARIANT)
-    for k, aside in ((K - 1, (-8, 10)), (K, (12, 9)), (K + 1, (13, 5))):
+    ax.plot(*centre, "+", color=VARIANT, markersize=7)
+    _label(ax, centre, np.array([-8, -13]), rf"${{}}_{K}r = {radius:.2f}$ m", VARIANT)
+    for k, aside in ((K - 1, (-8, 10)), (K, (14, 9)), (K + 1, (13, 5))):
         _label(ax, x[k], np.array(aside), rf"${{}}_{k}\mathbf{{x}}$")
-    _plane(ax, "")
-    ax.legend(loc="lower left")
+    ax.set_aspect("equal")
+    ax.set(xlabel=_ALONG, ylabel=_UP, xlim=(0.5, 3.25), ylim=(-0.3, 1.72))
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
 
@@ -240,6 +244,7 @@ def _angle(
     c, s = np.cos(turned), np.sin(turned)
     arc = vertex + radius * np.column_stack([c * begin[0] - s * begin[1], s * begin[0] + c * begin[1]])
     ax.plot(*arc.T, color=INK, linewidth=0.9)
+    ax.fill(*np.vstack([vertex, arc]).T, color="#ececec", zorder=0.5)
     head = {"arrowstyle": "-|>", "color": INK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", tuple(arc[-1]), tuple(arc[-4]), arrowprops=head)
     _label(ax, arc[15], aside, label)
@@ -247,7 +252,7 @@ def _angle(
 
 def fig_3_5(data: Data) -> Figure:
     """Bending into a ring, then inflation: the curvature falls, its product with the stretch does not."""
-    figure, (left, right) = canvas(7.2, 3.6, 1, 2)
+    figure, (left, right) = canvas(WIDTH, 5.6, 2, 1)
     rod = problem_of(data["clamped_free"], RodProblem).rod
     for ax, n, title in ((left, 241, "(a) many vertices"), (right, 13, "(b) few vertices")):
         edge = rod.length / (n - 1)
@@ -259,18 +264,20 @@ def fig_3_5(data: Data) -> Figure:
             measured = strains(flat, x, ring.D)
             middle = n // 2
             label = (
-                rf"$\mu$ = {measured.mu[middle]:.2f}, $\kappa$ = {measured.kappa[middle]:.3f} m$^{{-1}}$, "
+                rf"$\mu$ = {measured.mu[middle]:.2f}" + "\n"
+                rf"$\kappa$ = {measured.kappa[middle]:.3f} m$^{{-1}}$" + "\n"
                 rf"$\mu\kappa$ = {measured.mu[middle] * measured.kappa[middle]:.3f} m$^{{-1}}$"
             )
             ax.plot(*x.T, color=colour, marker="" if n > 100 else "o", label=label)
-        _plane(ax, title)
-        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=8)
+        ax.set_aspect("equal")
+        ax.set(xlabel=_ALONG, ylabel=_UP, title=title, xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
+        ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), labelspacing=1.2)
     return figure
 
 
 def fig_3_6(data: Data) -> Figure:
     """Tangents, Bishop vector and director at one vertex, and the two angles they make."""
-    figure, (left, right) = canvas(7.2, 3.6, 1, 2)
+    figure, (left, right) = canvas(WIDTH, 6.4, 2, 1)
     rod = data["bent_rod"]
     x, d, K = rod.x.to_numpy(), rod.d.to_numpy(), 2
     edges = np.diff(x, axis=0)
@@ -286,8 +293,8 @@ def fig_3_6(data: Data) -> Figure:
     _arrow(left, vertex, tangent, VARIANT, rf"${{}}_{K}\mathbf{{t}}$")
     _arrow(right, vertex, bishop, VARIANT, rf"${{}}_{K}\mathbf{{b}}$")
     for begin, name, symbol, radius, aside in (
-        (t[K - 1], "phi", r"\varphi", 0.6, (46, -22)),
-        (bishop, "theta", r"\vartheta", 0.6, (-26, -34)),
+        (t[K - 1], "phi", r"\varphi", 0.8, (52, 34)),
+        (bishop, "theta", r"\vartheta", 0.8, (-66, 8)),
     ):
         angle = float(rod[name][K])
         _angle(
@@ -301,13 +308,14 @@ def fig_3_6(data: Data) -> Figure:
         )
     for ax, title in ((left, "(a) tangents and director"), (right, "(b) Bishop vector and angles")):
         ax.set_aspect("equal")
-        ax.set(xlim=(-1.3, 1.4), ylim=(-0.95, 1.4), xlabel=_ALONG, ylabel=_UP, title=title)
+        ax.grid(visible=False)
+        ax.set(xlim=(-1.85, 1.45), ylim=(-0.5, 1.3), xlabel=_ALONG, ylabel=_UP, title=title)
     return figure
 
 
 def fig_3_7(_: Data) -> Figure:
     """The two nonlinear characteristics of the energy, with their quadratic approximations."""
-    figure, (left, right) = canvas(7.2, 3.0, 1, 2)
+    figure, (left, right) = canvas(WIDTH, 5.2, 2, 1)
     mu = np.linspace(0.08, 3.0, 400)
     left.plot(mu, [stretching(s)[0] for s in mu], color=COMPUTED, label=r"$\mu^2 - \mu + \mu^{-1} - 1$")
     left.plot(mu, 2 * (mu - 1) ** 2, color=EXACT, linestyle="--", label=r"$2 (\mu - 1)^2$")

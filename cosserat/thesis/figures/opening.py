@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import problem_of
 from cosserat.figures.crawlers import ANCHOR, nearest
 from cosserat.figures.rod import outline
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, canvas
+from cosserat.figures.style import BODY, COMPUTED, EARLIER, EXACT, INK, WIDTH, Picture
 from cosserat.problems.crawl import Crawl
 from cosserat.rods.problem import RodProblem
 
@@ -35,13 +35,14 @@ _E2_TO_THE_RIGHT = np.array([[0.0, 1.0], [1.0, 0.0]])  # E2 to the right, E3 up
 
 def fig_opening(data: Mapping[str, xr.Dataset]) -> Figure:
     """A worm that crawls above a column that buckles, an arch that snaps and a rod that is thrown."""
-    figure, axes = canvas(8.0, 5.3)
-    axes[0].remove()
+    figure = Picture(figsize=(WIDTH, 8.0), layout="constrained")
     chord = data["arch_path"].x_ref.to_numpy()[-1]
     level = np.column_stack([chord, [chord[1], -chord[0]]]) / np.hypot(*chord)
-    grid = figure.add_gridspec(2, 3, height_ratios=(1.75, 1), width_ratios=(0.8, 0.95, 2.1))
+    grid = figure.add_gridspec(3, 2, height_ratios=(1.75, 1, 1.05))
+    places = (grid[1, 0], grid[1, 1], grid[2, :])
     _draw_worm(figure.add_subplot(grid[0, :]), data["worm"])
-    for place, (name, title, shown, thick, turn) in enumerate(
+    for place, (name, title, shown, thick, turn) in zip(
+        places,
         (
             (
                 "column_path",
@@ -52,9 +53,10 @@ def fig_opening(data: Mapping[str, xr.Dataset]) -> Figure:
             ),
             ("arch_path", "An arch snaps through", (0, 12, 20, 28, 35), _THICKNESS_MAGNIFICATION, level),
             ("tumbling", "A rod is thrown and tumbles", (0, 20, 40, 60, 80, 100), 1.0, _E2_TO_THE_RIGHT),
-        )
+        ),
+        strict=True,
     ):
-        ax = figure.add_subplot(grid[1, place])
+        ax = figure.add_subplot(place)
         _draw_rods(ax, data[name], shown, thick, turn)
         ax.set_title(title)
     return figure
@@ -93,17 +95,17 @@ def _draw_worm(ax: Axes, run: xr.Dataset) -> None:
         foot = float(state.anchor_along) * 1e2
         ax.plot([foot], [base], marker="^", color=ANCHOR, markersize=7, clip_on=False, zorder=5)
     ax.set(
-        title="An earthworm crawls: thin sections grow long, fat ones grow short and hold on",
+        title="An earthworm crawls: thin sections grow long,\nfat ones grow short and hold on",
         xlabel=f"along the ground [cm], heights × {_HEIGHT_MAGNIFICATION:g}",
         yticks=[],
-        xlim=(float(reach.min()) - 2, float(reach.max()) + 3.5),
+        xlim=(float(reach.min()) - 2, float(reach.max()) + 5),
         ylim=(-_WORM_DISTANCE * height * (len(_FRACTIONS) - 1) - 0.3 * height, 1.2 * height),
     )
     ax.set_aspect("equal")
     ax.grid(visible=False)
     ax.spines["left"].set_visible(False)
     ax.legend(
-        handles=_legend(), loc="lower left", bbox_to_anchor=(0, 0.06), borderaxespad=0, borderpad=0.2
+        handles=_legend(), loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=3, columnspacing=1.0
     )
 
 
@@ -121,7 +123,7 @@ def _draw_rods(ax: Axes, run: xr.Dataset, shown: Sequence[int], thick: float, tu
     for k in shown:
         x, d = run.x.to_numpy()[k] @ turn, thick * run.d.to_numpy()[k] @ turn
         last = k == shown[-1]
-        colour = COMPUTED if last else "#7fa8cc"
+        colour = COMPUTED if last else EARLIER
         ax.fill(*outline(x, d, problem).T, facecolor=BODY, edgecolor=colour, linewidth=0.9)
         _draw_lines(ax, (x - d)[::2], (x + d)[::2], colour, 0.5)
     ax.set_aspect("equal", adjustable="datalim")

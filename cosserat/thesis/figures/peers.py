@@ -52,16 +52,15 @@ def _panel(ax: Axes, rows: Sequence[Row], *, crowded: bool) -> None:
         )
         ax.loglog(time, error, color=colour, marker=marker)
         ax.hlines(error, least, most, color=colour, linewidth=3, alpha=0.35)
-        *shift, side = (_CROWDED if crowded else _BESIDE)[package]
+        across, up, side = (_CROWDED if crowded else _BESIDE)[package]
         for row, at, height in zip(own, time, error, strict=True):
             ax.annotate(
                 row["problem"].split(", ")[1].split()[0],
                 (at, height),
-                xytext=(shift[0], shift[1]),
+                xytext=(across, up),
                 textcoords="offset points",
                 ha=side,
                 va="center",
                 bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.5},
                 color=colour,
-                fontsize=8,
             )

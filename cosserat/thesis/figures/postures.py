@@ -45,7 +45,7 @@ def fig_five_regions(data: Data) -> Figure:
     _stretches(curves, state)
     _layer(layer, state, posture)
     handles = [*crawlers.legend_of_bodies()[:2], *curves.get_lines()[: len(crawlers.STRETCHES)]]
-    figure.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8)
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 

@@ -11,7 +11,7 @@ from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 
 from cosserat.exact import beams
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas
+from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, WIDTH, Picture, canvas
 from cosserat.problems.path import RodPath
 from cosserat.problems.static import RodStatics
 from cosserat.studies.analysis.indices import indices
@@ -21,6 +21,8 @@ from cosserat.studies.readouts import read_out
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
+_LOOKS = ((EXACT, "^:"), (COMPUTED, "o-"), (VARIANT, "s-."), (INK, "D--"))
+"""Colours, markers and lines of four curves."""
 _KEYS = {
     "length": r"length $\ell_0$",
     "radius": "radius $R$",
@@ -34,7 +36,9 @@ def fig_worm_stride(data: Data) -> Figure:
     """Sobol's indices of the stride with their intervals, and the stride over its two strongest inputs."""
     answer = data["worm_stride"]
     found = indices(answer, of="stride")
-    figure, (left, middle, right) = canvas(7.2, 2.9, 1, 3)
+    figure = Picture(figsize=(WIDTH, 5.6), layout="constrained")
+    panels = figure.subplot_mosaic([["a", "a"], ["b", "c"]])
+    left = panels["a"]
     names = [str(name) for name in found["key"].to_numpy()]
     places = np.arange(len(names))
     for shift, kind, colour in ((-0.18, "first", COMPUTED), (0.18, "total", VARIANT)):
@@ -45,12 +49,13 @@ def fig_worm_stride(data: Data) -> Figure:
     left.invert_yaxis()
     left.set(xlabel="Sobol's index [1]", ylabel="input [name]", title="(a) share of the variance")
     left.set_xlim(right=1.05)
-    left.legend(fontsize=7, loc="upper right")
+    left.legend(loc="lower right")
     order = np.argsort(-found["total"].to_numpy())[:2]
     base = answer.isel(member=answer["matrix"].to_numpy() < 2)
-    for ax, k, letter in ((middle, order[0], "b"), (right, order[1], "c")):
+    for k, letter in zip(order, "bc", strict=True):
         key = names[int(k)]
         scale, unit = _scaled(answer[key].attrs["units"])
+        ax = panels[letter]
         ax.plot(base[key] * scale, base["stride"] * 1e3, ".", color=COMPUTED)
         ax.set(xlabel=f"{_KEYS[key]} [{unit}]", ylabel="stride [mm]", title=f"({letter})")
     return figure
@@ -64,28 +69,20 @@ def fig_calibration_reach(data: Data) -> Figure:
     """Sag of the published rod over that of Timoshenko's beam, by length, vertices and Poisson's ratio."""
     answer = data["calibration_reach"]
     ratio = reach(answer)
-    figure, axes = canvas(7.2, 2.9, 1, 2)
+    figure, axes = canvas(WIDTH, 5.8, 2, 1)
     slender = ratio["length"] / case_of_study(answer).problem_as(RodStatics).rod.height
-    for colour, count in zip((EXACT, COMPUTED, VARIANT, INK), ratio["vertices"].to_numpy(), strict=True):
-        axes[0].semilogx(
-            slender, ratio.sel(vertices=count, poisson=0.2), ".-", color=colour, label=f"N = {count}"
-        )
-    for colour, poisson in zip(
-        (EXACT, COMPUTED, VARIANT, INK), ratio["poisson"].to_numpy(), strict=True
-    ):
-        axes[1].semilogx(
-            slender,
-            ratio.sel(vertices=20, poisson=poisson),
-            ".-",
-            color=colour,
-            label=rf"$\nu$ = {poisson:g}",
-        )
+    for (colour, look), count in zip(_LOOKS, ratio["vertices"].to_numpy(), strict=True):
+        values = ratio.sel(vertices=count, poisson=0.2)
+        axes[0].semilogx(slender, values, look, color=colour, label=f"N = {count}")
+    for (colour, look), poisson in zip(_LOOKS, ratio["poisson"].to_numpy(), strict=True):
+        values = ratio.sel(vertices=20, poisson=poisson)
+        axes[1].semilogx(slender, values, look, color=colour, label=rf"$\nu$ = {poisson:g}")
     for ax, title in zip(axes, (r"(a) $\nu$ = 0.2", "(b) N = 20, that of the calibration"), strict=True):
-        ax.axhline(1, color=BODY, zorder=1)
+        ax.axhline(1, color=INK, linewidth=0.8, zorder=1)
         ax.set_xticks(slender, [f"{value:g}" for value in slender.to_numpy()], minor=False)
         ax.xaxis.set_minor_locator(NullLocator())
         ax.set(xlabel="length over height [1]", ylabel="sag over the beam's [1]", title=title)
-        ax.legend(fontsize=7)
+        ax.legend()
     return figure
 
 
@@ -109,14 +106,14 @@ def reach(answer: xr.Dataset) -> xr.DataArray:
 def fig_column_strength(data: Data) -> Figure:
     """The strength over the bow beside the formula, and its distribution."""
     answer = data["column_strength"]
-    figure, (left, right) = canvas(7.2, 2.9, 1, 2)
+    figure, (left, right) = canvas(WIDTH, 5.4, 2, 1)
     strength, exact = strengths(answer)
     left.plot(answer["amplitude"] * 1e3, strength, ".", color=COMPUTED, label="computed")
     left.plot(
-        answer["amplitude"] * 1e3, exact, "x", color=EXACT, markersize=4, label="Perry and Robertson"
+        answer["amplitude"] * 1e3, exact, "x", color=INK, markersize=4, label="Perry and Robertson"
     )
     left.set(xlabel="bow [mm]", ylabel="strength [N]", title="(a) every column")
-    left.legend(fontsize=7)
+    left.legend()
     right.hist(strength, 16, color=COMPUTED, edgecolor="white")
     low, middle, high = np.quantile(strength, (0.05, 0.5, 0.95))
     for value, style in ((low, ":"), (middle, "-"), (high, ":")):

@@ -19,6 +19,7 @@ from cosserat.figures.style import (
     EXACT,
     INK,
     VARIANT,
+    WIDTH,
     canvas,
     computed_points,
     exact_curve,
@@ -39,7 +40,7 @@ def _plane(ax: Axes, title: str) -> None:
 
 def fig_varied_sections(data: Data) -> Figure:
     """A tapered beam beside the uniform one, and the displacement of a bar of two materials with its closed form."""
-    figure, (left, right) = canvas(7.2, 3.0, 1, 2)
+    figure, (left, right) = canvas(WIDTH, 5.6, 2, 1)
     draw_body(left, data["cone"], _SAG)
     uniform = data["clamped_free"]
     x, d = (
@@ -92,7 +93,7 @@ def _two_materials(xi: Array, length: float, joint: float, young: float, density
 
 def fig_low_centreline(data: Data) -> Figure:
     """Sag of one body with its centreline in the middle and near the lower surface, by both rods."""
-    figure, (ax,) = canvas(6.0, 3.6)
+    figure, (ax,) = canvas(WIDTH, 4.2)
     for name, marker, colour, label in (
         ("clamped_free", "o", COMPUTED, "published rod, centreline in the middle"),
         ("low_centreline", "s", VARIANT, "published rod, centreline near the lower surface"),
@@ -113,13 +114,13 @@ def fig_low_centreline(data: Data) -> Figure:
         sag = 1e3 * data[name].u.sel(axis="E2")
         ax.plot(data[name].xi, sag, linestyle=line, color=colour, linewidth=width, label=label)
     ax.set(xlabel=r"arc length $\xi$ [m]", ylabel=r"displacement $\mathbf{u} \cdot \mathbf{E}_2$ [mm]")
-    figure.legend(loc="outside lower center", ncols=2, fontsize=8)
+    figure.legend(loc="outside lower center", ncols=1)
     return figure
 
 
 def fig_couple_and_support(data: Data) -> Figure:
     """A beam bent by a couple on its last section, and one whose second clamp has sunk and turned."""
-    figure, (left, right) = canvas(7.2, 3.2, 1, 2)
+    figure, (left, right) = canvas(WIDTH, 5.4, 2, 1)
     draw_body(left, data["couple"], 1.0)
     _plane(left, "(a) a couple on the last section")
     draw_body(right, data["turned_support"], 1.0)
@@ -129,7 +130,7 @@ def fig_couple_and_support(data: Data) -> Figure:
 
 def fig_hook(data: Data) -> Figure:
     """A rod whose reference is an arc: at rest with the intrinsic curvature subtracted, straightened without it."""
-    figure, (ax,) = canvas(5.2, 4.2)
+    figure, (ax,) = canvas(WIDTH, 4.2)
     for name, face, edge, label in (
         ("hook", BODY, COMPUTED, "intrinsic curvature subtracted: it stays"),
         ("hook_printed", "none", VARIANT, "whole curvature, as printed: it straightens"),

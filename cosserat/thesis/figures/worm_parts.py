@@ -76,7 +76,7 @@ def _name_regions(ax: Axes, state: xr.Dataset, middle: float) -> None:
         for part in crawlers.runs(flags):
             ends = along[part][[0, -1]]
             if np.ptp(ends) > _SHORTEST_NAMED:
-                ax.annotate(name, (ends.mean(), middle), ha="center", va="center", fontsize=9, bbox=box)
+                ax.annotate(name, (ends.mean(), middle), ha="center", va="center", bbox=box)
 
 
 def _name_anchor(ax: Axes, state: xr.Dataset, base: float) -> None:
