@@ -155,3 +155,9 @@ def test_a_page_can_be_had_as_a_notebook_without_outputs_and_as_a_script(tmp_pat
     notebook = nbformat.read(built / "_downloads" / "sum.ipynb", as_version=4)
     assert [cell.get("outputs", []) for cell in notebook.cells] == [[], []]
     assert "# %%\nprint(1 + 1)" in (built / "_downloads" / "sum.py").read_text()
+
+
+def test_keys_have_an_example_and_the_cases_that_use_them():
+    shown = plain(page.keys("rod statics").data)
+    assert re.search(r'As in \w+(?: and \d+ more)?: g = "9.81 m/s\^2"', shown)
+    assert re.search(r'As in \w+ and \d+ more: at = "\w+"', shown)
