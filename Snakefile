@@ -106,6 +106,7 @@ localrules:  # where Snakemake itself runs: a second or two each, and `peers`, w
     measure,
     check,
     peers,
+    pdf,
 
 
 rule all:
@@ -221,6 +222,21 @@ for module in sorted({entry.module for entry in FIGURES.values()}):  # most of t
             "python -m cosserat figure {params.figures} --cases results/cases --output results/figures > {log} 2>&1"
 
 
+rule webassembly:
+    input:
+        package("solvers", "rods", "rods/energies", "problems", "export/webassembly"),
+    output:
+        "results/pull.wasm",
+    log:
+        "results/logs/webassembly.log",
+    benchmark:
+        "results/benchmarks/webassembly.tsv"
+    resources:
+        **asks(megabytes=700, minutes=5),
+    shell:
+        "python -m cosserat webassembly --output {output} > {log} 2>&1"
+
+
 rule chapter:
     input:
         package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
@@ -233,6 +249,7 @@ rule chapter:
         expand("results/figures/{figure}.svg", figure=FIGURES),
         expand("results/studies/{study}.nc", study=STUDIES),
         measured=lambda wildcards: [name for name in MEASURED.get(wildcards.chapter, []) if os.path.exists(name)],
+        module=lambda wildcards: ["results/pull.wasm"] if wildcards.chapter == "pull" else [],
         source="chapters/{chapter}.py",
     output:
         "results/notebooks/{chapter}.ipynb",
@@ -274,3 +291,18 @@ rule book:
         **asks(megabytes=500, minutes=10),
     shell:
         "python -m cosserat book {input.notebooks} --output results/book > {log} 2>&1"
+
+
+rule pdf:  # it needs Chromium
+    input:
+        "results/book/index.html",
+    output:
+        "results/cosserat.pdf",
+    log:
+        "results/logs/pdf.log",
+    benchmark:
+        "results/benchmarks/pdf.tsv"
+    resources:
+        **asks(megabytes=2000, minutes=10),
+    shell:
+        "python -m cosserat pdf results/book --output {output} > {log} 2>&1 || (cat {log} >&2; exit 1)"

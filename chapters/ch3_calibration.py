@@ -103,13 +103,14 @@ page.table(
 #
 # ## The coefficients belong to the mesh
 #
-# A property of a material does not change if one computes with more vertices. The next figure tests this.
+# A property of a material does not change if one computes with more vertices. Test it with the slider:
 
 # %% tags=["remove-input"]
 page.explore(
     "explore_vertices",
-    "The clamped beam under its weight. The coefficients of the published energy are those for 20 vertices. The consistent energy, "
-    "which Chapter 4 describes, has none. Dotted: the closed form.",
+    "The beam with one clamp under its weight. The published rod keeps the coefficients that were found with 20 vertices: it is right "
+    "there and nowhere else. The consistent rod of Chapter 4 has no coefficients; its tip lies on the dotted closed form with any "
+    "number of vertices.",
 )
 
 # %% tags=["remove-input"]

@@ -413,7 +413,7 @@ page.table(lines, ("case", "Newton iterations", "largest unbalanced force [N]", 
 page.figure(
     "fig_3_8",
     "The computed equilibria, with displacements magnified as the titles say. In (b) and (c) the rod sags, in (d) the middle is "
-    "thinner than the ends. The directors are drawn with the unit length of the continuous theory.",
+    "thinner than the ends, which its colour shows. Lines across a body are its sections.",
 )
 
 # %% [markdown]
@@ -432,7 +432,8 @@ page.figure(
 page.figure(
     "fig_3_9",
     "(a) The displacement: computed and closed form lie on one another. (b) Their difference in millionths of the tip's "
-    "displacement. It grows along the bar, because the bar is a little too soft everywhere.",
+    "displacement. It grows along the bar, because the bar is a little too soft everywhere. The consistent rod has no difference "
+    "of this size.",
 )
 
 # %% tags=["remove-input"]
@@ -497,8 +498,9 @@ page.excerpt("cosserat.exact.beams.clamped_free_displacement", "s = xi")
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_10",
-    "The beam with one clamp: (a) the centreline, (b) the directors. Filled markers: end vertices with the full area of the "
-    "section. Hollow markers: with half of it, as the thesis prints. Here the filled markers lie on the closed form.",
+    "The beam with one clamp: (a) the centreline, (b) the directors. each above its differences from the closed form. Filled "
+    "dots: end vertices with the full area of the section. Hollow squares: with half of it, as the thesis prints. Here the dots "
+    "lie near the closed form.",
 )
 
 # %% tags=["remove-input"]
@@ -520,7 +522,7 @@ page.rows("F3.10")
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_11",
-    "The beam with two clamps, with the same markers. Here it is the hollow ones that lie on the closed form.",
+    "The beam with two clamps, with the same markers. Here it is the hollow squares that lie near the closed form.",
 )
 
 # %% tags=["remove-input"]
@@ -598,13 +600,6 @@ page.text(
 page.misprint("E3.12", "E3.13", "E3.14")
 
 # %% tags=["remove-input"]
-page.explore(
-    "explore_poisson",
-    "The energy as printed contracts the bar twice as much as it should, and more and more as $\\nu$ grows. "
-    "The corrected and the consistent energy keep to $-\\nu n / EA$ far from the ends.",
-)
-
-# %% tags=["remove-input"]
 page.figure(
     "fig_3_12",
     "The section strain along the necked bar: flat inside, zero at the held ends. The published rod is compared with the "
@@ -642,6 +637,13 @@ once, twice = theory.values()
 page.text(
     f"At mid-span this theory gives {once:.3f} of (3.5.8), and {twice:.3f} of it with the term as printed. The computed bars have "
     f"the same. The printed energy is indefinite where $c_7 \\nu / (1 - \\nu) > 1$, beyond $\\nu = {1 / (1 + c7):.3f}$."
+)
+
+# %% tags=["remove-input"]
+page.explore(
+    "explore_poisson",
+    "Move Poisson's ratio. With the term as printed the bar contracts about twice as much as it should, and more and more as "
+    "$\\nu$ grows. With half the term, and with the consistent rod, it keeps to $-\\nu n / EA$ far from the ends.",
 )
 
 # %% [markdown]

@@ -85,6 +85,7 @@ page.text(f"The results table today: {verdict[0]} Of all rows: {verdict[-1]}.")
 # ch3_calibration
 # ch3_rods
 # ch4_consistent
+# pull
 # ```
 #
 # ```{toctree}

@@ -58,7 +58,7 @@ MAX_ROTATION = 0.7
 MAX_ROUND_OFF_FRACTION = 1e-3
 """Largest round-off of forces, as a fraction of the loads; more makes an answer worthless."""
 _STALL_FACTOR = 16.0  # a residual that stops falling below this multiple of round-off is round-off
-_MAX_CUTBACKS = 4  # rejected increments before a body is left
+MAX_CUTBACKS = 4  # rejected increments before a body is left
 _STRAIGHT = 1e-4  # rotation or stretch below which a step is a straight line
 _SETTLED = 7e-2  # last correction of an increment before the last one, as a fraction of the increment
 _STIFFENING = 0.9  # ratio of the rates at two points below which a body stiffens
@@ -171,7 +171,7 @@ def _solve(factor: Fields, n: int, width: Any, room: Vector) -> None:
 
 
 @njit(cache=True)
-def _assemble(body: Body, q: Vector, factor: float, task: int) -> float:
+def assembled(body: Body, q: Vector, factor: float, task: int) -> float:
     """Overwrite the gradient, and the Hessian if that is the task; the energy of the body."""
     for i in range(q.size):
         body.at[i] = q[i] + body.origin[i]
@@ -300,7 +300,7 @@ def follow(
     )
     outcome = STEPS
     while state[COUNT] < plane.most:
-        if not np.isfinite(_assemble(body, q, state[FACTOR], HESSIAN)):
+        if not np.isfinite(assembled(body, q, state[FACTOR], HESSIAN)):
             return UNDEFINED
         outcome = respond(around, q, plane, step, rate, state, True)
         if outcome != STEPS:
@@ -329,7 +329,7 @@ def _load_rates(body: Body, q: Vector, velocity: Vector, rates: Fields) -> None:
 
 
 @njit(cache=True)
-def _reach(
+def reach(
     body: Body,
     limits: Limits,
     q: Vector,
@@ -349,7 +349,7 @@ def _reach(
     reaction, forces = answer
     last, load = np.inf, abs(goal) * body.load
     for count in range(limits.max_iterations + 1):
-        energy = _assemble(body, q, goal, HESSIAN)
+        energy = assembled(body, q, goal, HESSIAN)
         residual, support = balance(body.gradient, body.held, step)
         rounding = _EPS * largest_product(body.band[: q.size], q, body.scale, body.at)
         scale = max(load, support)
@@ -364,7 +364,7 @@ def _reach(
             return True, count
         last = residual
         body.space(RATES, body.placed, q, step, body.held, rates)
-        fastest = _largest(rates)
+        fastest = largest_of(rates)
         settled = goal < 1.0 and fastest <= _SETTLED * size
         if settled:
             _load_rates(body, q, body.at, ahead)
@@ -382,7 +382,7 @@ def _polish(body: Body, q: Vector, step: Vector, reaction: Vector, forces: Vecto
     _react(body, reaction)
     for i in range(q.size):
         step[i] += q[i]
-    _assemble(body, step, 1.0, GRADIENT)
+    assembled(body, step, 1.0, GRADIENT)
     nearer, _ = balance(body.gradient, body.held, body.at)
     if nearer <= max(forces[0], forces[-1]):
         forces[0] = nearer
@@ -414,7 +414,7 @@ def _move(body: Body, q: Vector, step: Vector, rates: Fields, fastest: float) ->
 
 
 @njit(cache=True)
-def _largest(values: Fields) -> float:
+def largest_of(values: Fields) -> float:
     """The largest size of some numbers."""
     largest = 0.0
     for row in values:
@@ -458,7 +458,7 @@ def _extrapolate(
 @njit(cache=True)
 def _start(body: Body, q: Vector, step: Vector) -> bool:
     """Whether the body is at rest without loads, stable, and its loads above round-off; the Hessian is factorised."""
-    energy = _assemble(body, q, 0.0, HESSIAN)
+    energy = assembled(body, q, 0.0, HESSIAN)
     residual, _ = balance(body.gradient, body.held, step)
     rounding = _EPS * largest_product(body.band[: q.size], q, body.scale, body.at)
     sound = np.isfinite(energy) and residual <= _STALL_FACTOR * rounding and body.load > 0.0
@@ -468,7 +468,7 @@ def _start(body: Body, q: Vector, step: Vector) -> bool:
 
 
 @njit(cache=True)
-def _stray(
+def stray(
     body: Body, q: Vector, new: Vector, moved: Fields, work: tuple[Vector, Vector, Fields]
 ) -> float:
     """Error of a predicted motion `moved` from q to new, as a fraction of the motion; moved is overwritten."""
@@ -479,7 +479,7 @@ def _stray(
     for i in range(moved.shape[0]):
         for k in range(moved.shape[1]):
             moved[i, k] -= turned[i, k]
-    return _largest(moved) / max(_largest(turned), NEGLIGIBLE_ROTATION)
+    return largest_of(moved) / max(largest_of(turned), NEGLIGIBLE_ROTATION)
 
 
 @njit(cache=True)
@@ -500,7 +500,7 @@ def _climb(
         return LEFT
     _load_rates(body, q, middle, rates)
     while point < 1.0:
-        fastest = _largest(rates)
+        fastest = largest_of(rates)
         increment = min(increment, limits.longest, MAX_ROTATION / fastest if fastest > 0.0 else np.inf)
         if (
             increment < 1.0 - point < 3 / 2 * increment
@@ -510,13 +510,13 @@ def _climb(
         _extrapolate(rates, earlier, before, point, goal, moved)
         new[:] = q
         body.space(PREDICTED, body.placed, q, new, body.held, moved)
-        size = max(_largest(moved), NEGLIGIBLE_ROTATION)
-        good, steps = _reach(body, limits, new, goal, size, step, turned, ahead, answer)
+        size = max(largest_of(moved), NEGLIGIBLE_ROTATION)
+        good, steps = reach(body, limits, new, goal, size, step, turned, ahead, answer)
         counts[0] += steps
-        off = _stray(body, q, new, moved, (middle, step, turned)) if good else np.inf
+        off = stray(body, q, new, moved, (middle, step, turned)) if good else np.inf
         if not off <= PREDICTION_TOLERANCE:
             counts[1] += 1
-            if counts[1] >= _MAX_CUTBACKS:
+            if counts[1] >= MAX_CUTBACKS:
                 return LEFT
             increment = (goal - point) / 2
             continue

@@ -31,7 +31,7 @@ def choose_cache() -> None:
             if not known:
                 _print_note(f"compiled kernels are kept in {folder}")
             return
-    _cache_nothing()
+    cache_nothing()
     _print_note(
         "compiled kernels are not cached, which costs seconds a run; set NUMBA_CACHE_DIR to a folder to keep them"
     )
@@ -64,7 +64,8 @@ def _is_private(folder: Path) -> bool:
     return about.st_uid == os.getuid() and not about.st_mode & 0o022 and not folder.is_symlink()
 
 
-def _cache_nothing() -> None:
+def cache_nothing() -> None:
+    """Let functions that are decorated from now on keep no compiled code."""
     from numba.core.ccallback import CFunc
     from numba.core.dispatcher import Dispatcher
 

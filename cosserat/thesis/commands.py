@@ -73,6 +73,19 @@ def add_commands(add: AddCommand) -> None:
         "-o", "--output", type=Path, default=RESULTS / "peers.csv", help="table to write (%(default)s)"
     )
 
+    sub = add(
+        "webassembly",
+        _webassembly,
+        "compile the rod that a reader of the book pulls into a module for browsers",
+    )
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        default=RESULTS / "pull.wasm",
+        help="module to write (%(default)s)",
+    )
+
     sub = add("chapter", _chapter, "execute a chapter into a notebook")
     sub.add_argument("chapter", type=Path, help="the chapter's .py file")
     sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
@@ -87,6 +100,14 @@ def add_commands(add: AddCommand) -> None:
         type=Path,
         required=True,
         help="folder of the book; index.html is its first page",
+    )
+
+    sub = add("pdf", _pdf, "print a built book as one PDF, by the Chromium of the system")
+    sub.add_argument(
+        "book", type=Path, nargs="?", default=RESULTS / "book", help="folder of the book (%(default)s)"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, default=RESULTS / "cosserat.pdf", help="PDF to write (%(default)s)"
     )
 
 
@@ -221,6 +242,19 @@ def _peers(options: argparse.Namespace) -> None:
     print(f"wrote {options.output}")
 
 
+def _webassembly(options: argparse.Namespace) -> None:
+    import hashlib
+
+    from cosserat.data.files import check_destination, whole_or_absent
+    from cosserat.export.webassembly.build import pulled_rod
+
+    check_destination(options.output, ".wasm")
+    module = pulled_rod()
+    with whole_or_absent(options.output) as temporary:
+        temporary.write_bytes(module)
+    print(f"wrote {options.output}: {len(module)} bytes, sha256 {hashlib.sha256(module).hexdigest()}")
+
+
 def _chapter(options: argparse.Namespace) -> None:
     from cosserat.thesis.book.build import execute
 
@@ -232,3 +266,10 @@ def _book(options: argparse.Namespace) -> None:
     from cosserat.thesis.book.build import render
 
     print(f"wrote {render(options.notebooks, options.output)}")
+
+
+def _pdf(options: argparse.Namespace) -> None:
+    from cosserat.thesis.book.paper import print_book
+
+    pages = print_book(options.book, options.output)
+    print(f"wrote {options.output}, {pages} pages")

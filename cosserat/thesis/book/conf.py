@@ -45,10 +45,11 @@ myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
 html_theme = "sphinx_book_theme"
 html_title = "Cosserat curves"
 html_static_path = ["_static"]
-html_css_files = ["player.css", "book.css", "links.css"]
+html_css_files = ["player.css", "pull.css", "book.css", "links.css"]
 html_js_files = [
     ("book.js", {"defer": "defer"}),
     "player.js",
+    "pull.js",
     "equations.js",
     "equation_preview.js",
     "filter.js",

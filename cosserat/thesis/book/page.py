@@ -17,6 +17,7 @@ from cosserat.thesis.book.key_lists import anchor, common_keys, keys
 from cosserat.thesis.book.listings import excerpt, source, written
 from cosserat.thesis.book.notation import notation, other_symbols, several_meanings
 from cosserat.thesis.book.players import explore, player
+from cosserat.thesis.book.pulling import pull
 from cosserat.thesis.book.references import how_to_cite, references
 from cosserat.thesis.book.stored_variables import variables
 from cosserat.thesis.book.tables import folded, mathematics, table, tens
@@ -48,6 +49,7 @@ __all__ = [
     "notation",
     "other_symbols",
     "player",
+    "pull",
     "references",
     "results",
     "results_table",
