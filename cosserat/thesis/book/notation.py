@@ -167,7 +167,7 @@ def _link(page: str) -> str:
 
 
 _TITLES = {
-    "beams_to_rods": "From beams to directed rods",
+    "beams_to_rods": "From beams to rods",
     "ch1_directed_rod": "Chapter 1",
     "ch2_peristalsis": "Chapter 2, muscles",
     "ch2_crawlers": "Chapter 2, crawlers",
