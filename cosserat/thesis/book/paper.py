@@ -9,11 +9,15 @@ import tempfile
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
 from cosserat.thesis.book.browser import browser, settle
 from cosserat.thesis.book.edition import edition
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 _TAG = re.compile(r"<[a-zA-Z][^>]*>")
 _NAMES = re.compile(r'\s(id|for|name|aria-labelledby|aria-describedby|href|xlink:href)="([^"]*)"')
@@ -52,16 +56,17 @@ def print_book(book: Path, output: Path) -> int:
     check_destination(output, ".pdf")
     parts = [_part(book, name) for name in _order(book)]
     parts = [_within(part, {part.name for part in parts}) for part in parts]
-    with tempfile.TemporaryDirectory() as scratch, whole_or_absent(output) as temporary:
-        folder = Path(scratch)
+    styles = _styles(book)
+    with tempfile.TemporaryDirectory() as scratch, browser() as chromium:
         for entry in book.iterdir():
             if entry.is_dir():
-                (folder / entry.name).symlink_to(entry.resolve())
-        file = folder / "paper.html"
-        styles = _styles(book)
-        pages = _pages(_printed(file, _whole(parts, styles, {})), parts)
-        temporary.write_bytes(_printed(file, _whole(parts, styles, pages)))
-        return _count(temporary.read_bytes())
+                (Path(scratch) / entry.name).symlink_to(entry.resolve())
+        file = Path(scratch) / "paper.html"
+        pages = _pages(_printed(chromium, file, _whole(parts, styles, {})), parts)
+        printed = _printed(chromium, file, _whole(parts, styles, pages))
+    with whole_or_absent(output) as temporary:
+        temporary.write_bytes(printed)
+    return _count(printed)
 
 
 def _order(book: Path) -> list[str]:
@@ -161,29 +166,30 @@ def _whole(parts: list[Part], styles: str, pages: dict[str, int]) -> str:
     return frame
 
 
-def _printed(file: Path, text: str) -> bytes:
+def _printed(chromium: Browser, file: Path, text: str) -> bytes:
     """A file of HTML as a PDF, once its mathematics is set."""
     file.write_text(text, encoding="utf-8")
-    with browser() as chromium:
-        page = chromium.new_page()
-        page.set_default_timeout(300_000)
-        page.emulate_media(media="print", color_scheme="light")
-        page.set_viewport_size({"width": 680, "height": 1000})
-        page.goto(file.resolve().as_uri())
-        settle(page)
-        page.evaluate(
-            "() => document.querySelectorAll('details:not(.verdict)').forEach((one) => { one.open = true; })"
-        )
-        return page.pdf(
-            format="A4",
-            margin={"top": "16mm", "bottom": "18mm", "left": "15mm", "right": "15mm"},
-            outline=True,
-            tagged=True,
-            print_background=True,
-            display_header_footer=True,
-            header_template="<span></span>",
-            footer_template=_FOOT,
-        )
+    page = chromium.new_page()
+    page.set_default_timeout(300_000)
+    page.emulate_media(media="print", color_scheme="light")
+    page.set_viewport_size({"width": 680, "height": 1000})
+    page.goto(file.resolve().as_uri())
+    settle(page)
+    page.evaluate(
+        "() => document.querySelectorAll('details:not(.verdict)').forEach((one) => { one.open = true; })"
+    )
+    printed = page.pdf(
+        format="A4",
+        margin={"top": "16mm", "bottom": "18mm", "left": "15mm", "right": "15mm"},
+        outline=True,
+        tagged=True,
+        print_background=True,
+        display_header_footer=True,
+        header_template="<span></span>",
+        footer_template=_FOOT,
+    )
+    page.close()
+    return printed
 
 
 def _pages(printed: bytes, parts: list[Part]) -> dict[str, int]:
