@@ -1,5 +1,5 @@
 # `make` builds everything, `make test` tests it, `make test-workflow` runs and kills the workflow itself, `make archive`
-# writes one file of it all.
+# writes one file of it all, `make pdf` prints the book.
 # Each sets up .venv first if needed.
 
 export PYTHON ?= python3
@@ -13,13 +13,16 @@ export MPLCONFIGDIR ?= $(CURDIR)/.snakemake/cache/matplotlib
 endif
 
 .DEFAULT_GOAL := all
-.PHONY: all archive test test-workflow environment
+.PHONY: all archive pdf test test-workflow environment
 
 all: environment
 	@$(BIN)/snakemake all
 
 archive: all
 	@$(BIN)/cosserat archive
+
+pdf: environment
+	@$(BIN)/snakemake results/cosserat.pdf
 
 # Two test processes, each with one thread for linear algebra.  Python keeps what it compiles, also where the environment
 # says otherwise: some thirty tests start processes of their own, each of which would compile the package again.

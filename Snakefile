@@ -106,6 +106,7 @@ localrules:  # where Snakemake itself runs: a second or two each, and `peers`, w
     measure,
     check,
     peers,
+    pdf,
 
 
 rule all:
@@ -290,3 +291,18 @@ rule book:
         **asks(megabytes=500, minutes=10),
     shell:
         "python -m cosserat book {input.notebooks} --output results/book > {log} 2>&1"
+
+
+rule pdf:  # it needs Chromium
+    input:
+        "results/book/index.html",
+    output:
+        "results/cosserat.pdf",
+    log:
+        "results/logs/pdf.log",
+    benchmark:
+        "results/benchmarks/pdf.tsv"
+    resources:
+        **asks(megabytes=2000, minutes=10),
+    shell:
+        "python -m cosserat pdf results/book --output {output} > {log} 2>&1 || (cat {log} >&2; exit 1)"

@@ -66,7 +66,7 @@ from cosserat.thesis.book import page
 page.figure(
     "fig_directed_rod",
     "The soft robot of the next chapter, its front half thinned by circular muscles: lateral surface, centreline and "
-    "directors are one stored state of the library.",
+    "directors are one stored state of the library, magnified across the axis.",
 )
 
 # %% [markdown]

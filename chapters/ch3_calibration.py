@@ -109,8 +109,8 @@ page.table(
 page.explore(
     "explore_vertices",
     "The beam with one clamp under its weight. The published rod keeps the coefficients that were found with 20 vertices: it is right "
-    "there and nowhere else. The consistent rod of Chapter 4 has no coefficients and comes nearer to the dotted closed form with "
-    "every vertex.",
+    "there and nowhere else. The consistent rod of Chapter 4 has no coefficients; its tip lies on the dotted closed form with any "
+    "number of vertices.",
 )
 
 # %% tags=["remove-input"]

@@ -177,9 +177,9 @@ page.misprint("E3.19", "E3.20")
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_13",
-    "The kinetic energy of the beam with two shear stiffnesses, and of the consistent rod. Count the peaks: the beam is "
+    "(a) The kinetic energy of the first mode, with two shear stiffnesses and of the consistent rod. Count the peaks: the beam is "
     "fastest twice in each period, on its way up and on its way down. So the kinetic energy has half the period of the "
-    "motion. The fast ripple of $c_4 = 20$ is explained below.",
+    "motion. (c) The whole kinetic energy of $c_4 = 20$ has a fast ripple, which is explained below.",
 )
 
 # %% tags=["remove-input"]
@@ -230,7 +230,8 @@ page.player(
 page.figure(
     "fig_modes",
     "The lowest modes of the beam with $c_4 = 20$, each at both ends of its swing; the amplitude is arbitrary. (a), (b) and (d) "
-    "bend, with one more point at rest each time. In (c) the bar moves along its axis: compare the distances of the sections.",
+    "bend, with one more point at rest each time. In (c) the bar moves along its axis: compare the distances of the sections. Arrows go from one end of the "
+    "swing to the other.",
 )
 
 # %% tags=["remove-input"]

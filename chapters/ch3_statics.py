@@ -413,7 +413,7 @@ page.table(lines, ("case", "Newton iterations", "largest unbalanced force [N]", 
 page.figure(
     "fig_3_8",
     "The computed equilibria, with displacements magnified as the titles say. In (b) and (c) the rod sags, in (d) the middle is "
-    "thinner than the ends. The directors are drawn with the unit length of the continuous theory.",
+    "thinner than the ends, which its colour shows. Lines across a body are its sections.",
 )
 
 # %% [markdown]
@@ -432,7 +432,8 @@ page.figure(
 page.figure(
     "fig_3_9",
     "(a) The displacement: computed and closed form lie on one another. (b) Their difference in millionths of the tip's "
-    "displacement. It grows along the bar, because the bar is a little too soft everywhere.",
+    "displacement. It grows along the bar, because the bar is a little too soft everywhere. The consistent rod has no difference "
+    "of this size.",
 )
 
 # %% tags=["remove-input"]
@@ -497,8 +498,9 @@ page.excerpt("cosserat.exact.beams.clamped_free_displacement", "s = xi")
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_10",
-    "The beam with one clamp: (a) the centreline, (b) the directors. Filled markers: end vertices with the full area of the "
-    "section. Hollow markers: with half of it, as the thesis prints. Here the filled markers lie on the closed form.",
+    "The beam with one clamp: (a) the centreline, (b) the directors. each above its differences from the closed form. Filled "
+    "dots: end vertices with the full area of the section. Hollow squares: with half of it, as the thesis prints. Here the dots "
+    "lie near the closed form.",
 )
 
 # %% tags=["remove-input"]
@@ -520,7 +522,7 @@ page.rows("F3.10")
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_11",
-    "The beam with two clamps, with the same markers. Here it is the hollow ones that lie on the closed form.",
+    "The beam with two clamps, with the same markers. Here it is the hollow squares that lie near the closed form.",
 )
 
 # %% tags=["remove-input"]

@@ -69,6 +69,26 @@
 # .. autofunction:: cosserat.design
 # ```
 #
+# ## Players
+#
+# `cosserat.animate` gives a stage, which a notebook shows as a player. A stage of your own needs no result:
+#
+# ```{eval-rst}
+# .. autoclass:: cosserat.figures.stage.Stage
+#
+# .. autoclass:: cosserat.figures.stage.Panel
+#
+# .. autoclass:: cosserat.figures.stage.Line
+#
+# .. autoclass:: cosserat.figures.stage.Mark
+#
+# .. autoclass:: cosserat.figures.stage.Slider
+#
+# .. autofunction:: cosserat.figures.player.figure
+#
+# .. autofunction:: cosserat.figures.player.page
+# ```
+#
 # ## Errors
 #
 # ```{eval-rst}

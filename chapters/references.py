@@ -29,3 +29,4 @@ page.how_to_cite()
 # %% [markdown]
 # The package and the text of this book have the licence of MIT; the thesis has that of its author. Each page tells at its
 # foot the version and the commit from which it was made.
+# `make pdf` prints the whole book as one PDF, `results/cosserat.pdf`.

@@ -189,11 +189,10 @@ def path(data: xr.Dataset, frames: int = FRAMES) -> Stage:
 
 
 def magnified_panel(state: xr.Dataset, title: str) -> Panel:
-    """A rod in all states of a motion, with displacements magnified as the title then says."""
+    """A rod in all states of a motion; its title ends with the magnification of the displacements."""
     problem, reference, moved, said = _magnified(state)
-    return body_panel(
-        problem, reference, moved, title=", ".join(filter(None, (title, said))), wide=False
-    )
+    title = f"{title} {said.removeprefix('displacements ')}".rstrip()
+    return body_panel(problem, reference, moved, title=title, wide=False)
 
 
 def _special(data: xr.Dataset) -> list[Mark]:

@@ -20,7 +20,7 @@ LOOKS = {
     "body": (BODY, "#2f4a63"),
     "computed": (COMPUTED, "#6cb0ee"),
     "variant": (VARIANT, "#f08a5d"),
-    "consistent": (CONSISTENT, "#8fd19a"),
+    "consistent": (CONSISTENT, "#dddddd"),
     "exact": (EXACT, "#a0a0a0"),
     "thinned": ("#f3d3a8", "#8a6428"),
     "anchor": ("#c1121f", "#ff7b72"),

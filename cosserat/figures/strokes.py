@@ -15,7 +15,7 @@ from cosserat.figures.style import INK
 
 Array = NDArray[np.float64]
 
-_NAMES = {pair[0]: name for name, pair in LOOKS.items()}
+_NAMES = {pair[0]: name for name, pair in reversed(LOOKS.items())}  # the first of a colour
 _HEAD = np.array([[-1.0, 0.34], [0.0, 0.0], [-1.0, -0.34]])  # of an arrow, in lengths of the head
 _HEAD_SHARE = 0.4  # of the length of an arrow
 

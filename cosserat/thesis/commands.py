@@ -102,6 +102,14 @@ def add_commands(add: AddCommand) -> None:
         help="folder of the book; index.html is its first page",
     )
 
+    sub = add("pdf", _pdf, "print a built book as one PDF, by the Chromium of the system")
+    sub.add_argument(
+        "book", type=Path, nargs="?", default=RESULTS / "book", help="folder of the book (%(default)s)"
+    )
+    sub.add_argument(
+        "-o", "--output", type=Path, default=RESULTS / "cosserat.pdf", help="PDF to write (%(default)s)"
+    )
+
 
 def _add_commands_of_outputs(add: AddCommand) -> None:
     """Add the commands about the outputs as a whole."""
@@ -258,3 +266,10 @@ def _book(options: argparse.Namespace) -> None:
     from cosserat.thesis.book.build import render
 
     print(f"wrote {render(options.notebooks, options.output)}")
+
+
+def _pdf(options: argparse.Namespace) -> None:
+    from cosserat.thesis.book.paper import print_book
+
+    pages = print_book(options.book, options.output)
+    print(f"wrote {options.output}, {pages} pages")

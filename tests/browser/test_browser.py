@@ -1,15 +1,20 @@
 """The audit in a browser, tried on small pages; `python -m tests.browser results/book` looks at the book."""
 
+import re
+
 import nbformat
 import pytest
+from pypdf import PdfReader
 
 from cosserat.errors import CosseratError
 from cosserat.thesis.book import browser, page
 from cosserat.thesis.book.build import render
+from cosserat.thesis.book.paper import print_book
 
 from .__main__ import size
 from .audit import audit
 from .faults import missed, write
+from .paper import complaints
 
 needs_a_browser = pytest.mark.skipif(browser.find_browser() is None, reason="there is no Chromium here")
 SUM = " + ".join(rf"\frac{{k_{{{i}}}^2}}{{2}} \gamma_{{{i}}}^2" for i in range(9))
@@ -87,6 +92,22 @@ def test_every_planted_fault_is_found_and_nothing_else(tmp_path):
     assert missed(found.faults) == []
     assert found.views == 8 * found.pages
     assert min(found.counts.values()) > 0
+
+
+@needs_a_browser
+@pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::PendingDeprecationWarning")
+def test_the_printed_book_has_its_pages_numbered_its_outline_and_what_was_folded(small, tmp_path):
+    count = print_book(small, tmp_path / "small.pdf")
+    pdf = PdfReader(tmp_path / "small.pdf")
+    assert len(pdf.pages) == count >= 3
+    assert complaints(pdf, ["A rod"]) == []
+    assert complaints(pdf, ["A worm"]) == ["the outline has no 'A worm'"]
+    text = "\n".join(page.extract_text() for page in pdf.pages)
+    assert "It is." in text  # a misprint, which is folded on the screen
+    assert "1 row" in text
+    assert "b b b" not in text  # rows of the report stay folded
+    contents = pdf.pages[1].extract_text()
+    assert re.search(r"Its energy\s*3", contents)
 
 
 def test_a_book_of_more_than_its_size_is_a_fault(tmp_path):

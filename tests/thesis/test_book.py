@@ -313,3 +313,17 @@ def test_a_chapter_executed_twice_gives_the_same_bytes(tmp_path):
     text = (tmp_path / "one.ipynb").read_text()
     assert '"text/plain"' in text
     assert text == (tmp_path / "other.ipynb").read_text()
+
+
+def test_a_number_in_powers_of_ten_is_mathematics():
+    assert page.tens(2.45e-5) == r"$2 \cdot 10^{-5}$"
+    assert page.tens(-1234.5, 3) == r"$-1.23 \cdot 10^{3}$"
+    assert page.tens(9.96, 2) == r"$1.0 \cdot 10^{1}$"
+
+
+def test_stored_variables_are_shown_with_dimensions_unit_and_meaning():
+    shown = page.variables("fibre_stress").data
+    for told in ("fibre_stress", "edge, surface", "Pa", "axial stress"):
+        assert told in shown
+    with pytest.raises(InputError, match="no result has a variable colour"):
+        page.variables("fibre_stress", "colour")

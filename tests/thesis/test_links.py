@@ -172,6 +172,7 @@ def test_reading_order_is_that_of_the_table_of_contents():
 def test_a_module_is_shown_as_it_is():
     text = 'def f(x: int) -> bool:\n    """Of (3.4.11)."""\n    return x < 1  # E2.5\n\n\nclass A:\n    a = "b"\n'
     body = module_pages.body("cosserat/x/y.py", text)
+    body = re.sub(r"<p>.*?</p>", "", body)
     assert (
         re.sub(r"<[^>]+>", "", body).replace("&lt;", "<").replace("&gt;", ">")
         == f"cosserat/x/y.py{text.rstrip()}"

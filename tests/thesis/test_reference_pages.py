@@ -19,7 +19,7 @@ KNOWN = frozenset(
 Newton Gauss Runge Kutta Rayleigh Lobatto Cholesky Hermite Sylvester Hessian Jacobian Latin Monte Carlo
 Poisson Young Euler Bernoulli Cauchy Hooke Lamé Piola
 Voronoi Kronecker Cosserat Voigt Kelvin Dirac Greenhill Steiner
-University California Berkeley Evan Grant Debian Python Dataset Snakemake Slurm Exudyn Ctrl Jupyter Chromium
+University California Berkeley Evan Grant Debian Python Numba Dataset Snakemake Slurm Exudyn Ctrl Jupyter Chromium
 Chapter Chapters Table Fig Figs Exercise Misprint Strains Discrete Curves Descriptions Peristalsis Pa
 """,
     )
@@ -155,3 +155,9 @@ def test_a_page_can_be_had_as_a_notebook_without_outputs_and_as_a_script(tmp_pat
     notebook = nbformat.read(built / "_downloads" / "sum.ipynb", as_version=4)
     assert [cell.get("outputs", []) for cell in notebook.cells] == [[], []]
     assert "# %%\nprint(1 + 1)" in (built / "_downloads" / "sum.py").read_text()
+
+
+def test_keys_have_an_example_and_the_cases_that_use_them():
+    shown = plain(page.keys("rod statics").data)
+    assert re.search(r'As in \w+(?: and \d+ more)?: g = "9.81 m/s\^2"', shown)
+    assert re.search(r'As in \w+ and \d+ more: at = "\w+"', shown)

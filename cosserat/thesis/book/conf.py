@@ -57,6 +57,7 @@ html_js_files = [
 html_copy_source = False
 html_show_sourcelink = False
 html_use_index = False
+html_sidebars: dict[str, list[str]] = {"source/*": []}  # pages of modules are many and small
 html_last_updated_fmt = None  # the clock's; the footer has the day of the commit
 html_context = {"default_mode": "auto"}
 html_theme_options = {

@@ -13,6 +13,7 @@ from cosserat.describe.keys import Key
 from cosserat.describe.text import need, type_of
 from cosserat.explain import cited
 from cosserat.parameters import Count, Quantity
+from cosserat.thesis.book.examples_of_keys import examples
 from cosserat.thesis.book.tables import mathematics
 
 
@@ -47,9 +48,21 @@ def _definitions(kind: str, found: Sequence[Key], before: str = "") -> HTML:
             f'<dt id="{address}"><a href="#{address}"><code>{key.path}</code></a>{where}</dt>'
             f"<dd><p>{_linked(key)}; {escape(need(key))}</p><p>{_prose(key.meaning)}</p>"
             + (f"<p>{mathematics(escape(source))}</p>" if source else "")
+            + _example(kind, key)
             + "</dd>"
         )
     return HTML(f'{before}<dl class="keys">{"".join(entries)}</dl>')
+
+
+def _example(kind: str, key: Key) -> str:
+    """The key as a published case writes it, and how many others do."""
+    cases = examples().get((kind, key.path), [])
+    if not cases:
+        return ""
+    name, value = cases[0]
+    others = f" and {len(cases) - 1} more" if len(cases) > 1 else ""
+    written = escape(f"{key.path.rsplit('.', 1)[-1]} = {value}", quote=False)
+    return f"<p>As in <code>{name}</code>{others}: <code>{written}</code></p>"
 
 
 def anchor(kind: str, key: Key) -> str:

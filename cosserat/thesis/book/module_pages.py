@@ -9,6 +9,7 @@ from html import escape
 from importlib import resources
 
 _NAMED = re.compile(r"\bcosserat/((?:\w+/)*\w+\.py)\b")
+_HOME = '<p><a href="../index.html">The first page of the book</a></p>'
 _SHOWN = {"Comment": "c1", "Literal.String.Doc": "sd", "Keyword": "k"}
 """Tokens with a class of their own; text in other colours would double a page."""
 
@@ -47,7 +48,7 @@ def body(path: str, text: str) -> str:
         for number, line in enumerate(lines, 1)
     ]
     return (
-        f'<h1>{path}</h1><div id="module" class="highlight source"><pre tabindex="0">'
+        f'<h1>{path}</h1>{_HOME}<div id="module" class="highlight source"><pre tabindex="0">'
         + "\n".join(marked)
         + "</pre></div>"
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib import resources
@@ -58,7 +58,11 @@ def symbols() -> list[Symbol]:
     """The symbols of the chapters by the pages that define them, in reading order."""
     text = (resources.files("cosserat.thesis.book") / "symbols.toml").read_text(encoding="utf-8")
     pages = tomllib.loads(text)["page"]
-    return [Symbol(*line, page["name"]) for page in pages for line in page["symbols"]]
+    return [
+        Symbol(letter, meaning, unit, equation, page["name"])
+        for page in pages
+        for letter, meaning, unit, equation in page["symbols"]
+    ]
 
 
 def declared() -> list[Declared]:
@@ -163,7 +167,7 @@ def _link(page: str) -> str:
 
 
 _TITLES = {
-    "beams_to_rods": "From beams to directed rods",
+    "beams_to_rods": "From beams to rods",
     "ch1_directed_rod": "Chapter 1",
     "ch2_peristalsis": "Chapter 2, muscles",
     "ch2_crawlers": "Chapter 2, crawlers",
@@ -174,7 +178,7 @@ _TITLES = {
 """Short titles of the pages that define symbols."""
 
 
-def _table(lines: list[tuple[str, ...]], columns: tuple[str, ...] = _COLUMNS) -> HTML:
+def _table(lines: Sequence[tuple[str, ...]], columns: tuple[str, ...] = _COLUMNS) -> HTML:
     head = "".join(f'<th scope="col">{name}</th>' for name in columns)
     body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in line)}</tr>" for line in lines)
     return HTML(

@@ -40,8 +40,8 @@ FIGURES: dict[str, Entry] = {
     "fig_directed_rod": Entry(
         "A directed rod as the body it stands for",
         "A tube that is fat and short in its rear half and thin and long in front; its axis steps "
-        "down to the ground with it, and two arrows at right angles in each drawn section reach "
-        "to its boundary.",
+        "down with it, and in three sections two arrows at right angles reach from the axis to "
+        "the boundary.",
         "chapter1",
         cases=("soft_robot",),
     ),
@@ -99,9 +99,9 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_2_5": Entry(
         "Fig. 2.5: muscles as forces along the centreline",
-        "The load of one muscle is one block upwards beside an equal one downwards, and its force "
-        "is a triangle below zero; more and more muscles side by side make a trapezoid nearly a "
-        "rectangle.",
+        "The load of one muscle is a block upwards beside an equal one downwards, and its force "
+        "is a triangle below zero; with more and more muscles in a row the triangle becomes "
+        "nearly a rectangle.",
         "chapter2",
     ),
     "fig_five_regions": Entry(
@@ -120,8 +120,8 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_2_8": Entry(
         "Fig. 2.8: fronts of the push-pull gait",
-        "Two bands of falling points, one for each front, start one after the other at the front "
-        "end and run to the rear in each cycle, with a pause at rest between the cycles.",
+        "Two falling rows of points in each cycle, one for each front, enclose a slanted band of "
+        "advancing load; everything else is anchoring load, and a pause at rest comes first.",
         "gaits",
         cases=("soft_robot",),
     ),
@@ -134,8 +134,9 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_2_11": Entry(
         "Fig. 2.11: fronts of the protrusion-stance gait",
-        "The fronts fall from the front end to the rear end again and again; the advancing region "
-        "between them widens and narrows, and one front bends down to twice its speed.",
+        "The fronts fall from the front end to the rear end again and again; slanted bands of "
+        "advancing load between them widen and narrow, and one front bends down to twice its "
+        "speed.",
         "gaits",
         cases=("worm",),
     ),
@@ -150,8 +151,8 @@ FIGURES: dict[str, Entry] = {
     "fig_masses": Entry(
         "Earthworms of every size",
         "On logarithmic axes stride and speed rise and frequency falls with the mass; the line of "
-        "constant stress runs along the one of the literature, the other laws are steeper or end "
-        "early.",
+        "constant stress runs along the one of the literature, and only its extreme stretches "
+        "stay level.",
         "chapter2",
         cases=("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
     ),
@@ -207,8 +208,9 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_3_8": Entry(
         "Fig. 3.8: equilibria of the four static problems",
-        "Four magnified bodies: a bar that grows along itself, a beam that sags to its free end, "
-        "a beam that sags in its middle, and a pulled bar that is thick only at its fixed ends.",
+        "Four magnified bodies with lines across them: a bar that grows along itself, a beam that "
+        "sags to its free end, one that sags in its middle, and a pulled bar, thin and orange but "
+        "at its fixed ends.",
         "chapter3",
         cases=tuple(
             name + rod
@@ -218,22 +220,23 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_3_9": Entry(
         "Fig. 3.9: bar hanging under its own weight",
-        "The displacement of the hanging bar rises and flattens towards its free end, and the "
-        "computed points lie on the curve; the differences are smooth and many orders smaller.",
+        "The displacement of the hanging bar rises and flattens towards its free end with the "
+        "points on the curve; the differences of the published rod rise alike and are far "
+        "smaller, those of the other are none.",
         "chapter3",
         cases=("hanging_bar", "hanging_bar_consistent"),
     ),
     "fig_3_10": Entry(
         "Fig. 3.10: clamped-free Timoshenko beam",
-        "The beam sags more and more towards its free end and its sections turn ever less; points "
-        "with full end areas lie on the curve, hollow ones beyond it.",
+        "The beam sags more and more towards its free end and its sections turn ever less; in the "
+        "differences the hollow squares drift away and the dots and diamonds stay near zero.",
         "chapter3",
         cases=("clamped_free", "clamped_free_ends_halved", "clamped_free_consistent"),
     ),
     "fig_3_11": Entry(
         "Fig. 3.11: clamped-clamped Timoshenko beam",
-        "The beam sags in its middle and its sections turn opposite ways in its two halves; the "
-        "points with full end areas lie above the curve, those of the consistent rod on it.",
+        "The beam sags in its middle and its sections turn opposite ways in its two halves; in "
+        "the differences the dots make an arch above zero, and squares and diamonds stay near it.",
         "chapter3",
         cases=("clamped_clamped", "clamped_clamped_ends_halved", "clamped_clamped_consistent"),
     ),
@@ -289,7 +292,8 @@ FIGURES: dict[str, Entry] = {
     "fig_3_13": Entry(
         "Fig. 3.13: free vibration",
         "The tip swings like a cosine, the stiffer beam a little faster than the others; the "
-        "energies pulse twice a swing, and that of the stiff beam carries a fast small ripple.",
+        "energy of the first mode pulses twice a swing, and the whole energy of the stiff beam "
+        "has a fast ripple above it.",
         "motion",
         cases=("vibration_c4_2", "vibration_c4_20", "vibration_consistent"),
     ),
@@ -301,8 +305,8 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_convergence": Entry(
         "Errors of the consistent rod",
-        "Errors fall along straight lines of slope two as edges are doubled, in statics and in "
-        "vibration alike; the error of the published rod rises instead and levels off.",
+        "Grey lines of errors fall with slope minus two as edges are doubled, in statics and in "
+        "vibration alike; one orange line, of the published rod, rises instead and levels off.",
         "consistent",
         cases=("convergence", "calibration"),
     ),
@@ -323,8 +327,8 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_tumbling": Entry(
         "A tumbling rod",
-        "A straight rod turns over and over as it flies away; on a logarithmic axis the changes "
-        "of energy, momentum and angular momentum stay far below a dashed line.",
+        "A straight rod turns over and over as it flies to the right; below, on a logarithmic "
+        "axis, the changes of energy, momentum and angular momentum stay far under a dashed line.",
         "consistent",
         cases=("tumbling",),
         round_off=True,
@@ -338,8 +342,8 @@ FIGURES: dict[str, Entry] = {
     ),
     "fig_modes": Entry(
         "The lowest modes of the vibrating beam",
-        "Four mode shapes of a clamped beam: bent once, bent twice, a pure change of length, and "
-        "bent three times, each with its opposite as a dotted outline.",
+        "Four mode shapes of a clamped beam with arrows: bent once, bent twice, moved along its "
+        "axis, and bent three times, each with its opposite as a dotted outline.",
         "motion",
         cases=("vibration_c4_20",),
     ),

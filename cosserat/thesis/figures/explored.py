@@ -73,7 +73,7 @@ def vertices(data: Data) -> Stage:
         error = answer.tip.to_numpy() / sag[-1] - 1
         errors += curve(count, 100 * error, look, dash=dash)
         sizes += curve(count, np.log10(np.abs(error)), look, dash=dash)
-    parts.append(Line(xi, _SAG * sag, "ink", dash="2 3", label="closed form (3.5.3), centreline"))
+    parts.append(Line(xi, _SAG * sag, "exact", dash="2 3", label="closed form (3.5.3), centreline"))
     number = "number of vertices N [1]"
     panels = (
         Panel(

@@ -22,7 +22,7 @@ Data = Mapping[str, xr.Dataset]
 _RELAXING = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
 _SETTLED = 0.75  # s, after which no eye sees a motion
 _TALL = 3.0  # magnification of the height of the worm, which is thirty times as long
-_STATES = 160  # of a crawl
+_STATES = 120  # of a crawl
 
 
 @dataclass(frozen=True)
