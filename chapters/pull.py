@@ -41,7 +41,8 @@ page.source("cosserat.thesis.book.pulling.pulled_case")
 # %% tags=["remove-input"]
 page.pull(
     "The tint is the stretch of the sections: orange where they are thinner than at rest, blue where they are "
-    "thicker. The arrow is the force of the hand. The energy is that of the whole rod."
+    "thicker. The arrow is the force of the hand. The energy is that of the whole rod. On paper, and in a browser "
+    "that cannot run the solver, stored equilibria are drawn, above the force of the hand over the way of the tip."
 )
 
 # %% [markdown]
@@ -56,10 +57,10 @@ page.pull(
 # the energy: the factorisation exists only if every small change of shape costs energy. A straight rod that is pushed too
 # far fails this test. Then the solver lets the rod fall: step by step its energy decreases, with the tip in place, until it
 # is at rest in a minimum. The line below the figure says so. A rod that is symmetric may fall to either side; the solver
-# takes one of them.
+# takes one of them. One step of the fall is this: the step is halved until the energy decreases.
 
 # %% tags=["remove-input"]
-page.excerpt("cosserat.export.webassembly.pull.pull", "middle[:] = new", "q[:] = new")
+page.source("cosserat.export.webassembly.pull._descend")
 
 # %% [markdown]
 # ## Which code solves it

@@ -1,7 +1,7 @@
 """`python -m tests.browser.drag results/book` drags the rod of the book with a mouse and a keyboard.
 
 Each state is compared with `cosserat.run` for the same place of the tip.  The exit code is 1 if one differs by more
-than `MOST`, 2 if there is no browser.
+than `MOST` or if stored states do not stand in where the module cannot run, 2 if there is no browser.
 """
 
 from __future__ import annotations
@@ -94,6 +94,28 @@ def tried(book: Path) -> list[tuple[str, tuple[float, ...]]]:
     return found
 
 
+def stands_in(book: Path) -> list[tuple[str, bool]]:
+    """Whether the stored states are seen, and the live figure is not, where the module cannot run."""
+    seen = []
+    with browser() as chromium:
+        for name, scripts, before in (
+            ("without scripts", False, ""),
+            ("without WebAssembly", True, "delete window.WebAssembly"),
+            (
+                "with a module that is refused",
+                True,
+                "WebAssembly.instantiate = async () => { throw Error('no'); }",
+            ),
+        ):
+            tab = chromium.new_context(java_script_enabled=scripts).new_page()
+            tab.add_init_script(before)
+            tab.goto((book / "pull.html").resolve().as_uri())
+            stored = tab.locator(f"{FIGURE} .stored figure.player").is_visible()
+            said = tab.locator(f"{FIGURE} .instead").is_visible()
+            seen.append((name, stored and said and not tab.locator(f"{FIGURE} .live").is_visible()))
+    return seen
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m tests.browser.drag", description=__doc__.split("\n")[0]
@@ -103,7 +125,7 @@ def main() -> int:
     if not (options.book / "pull.html").is_file():
         parser.error(f"{options.book} has no page pull.html; build the book with 'make'")
     try:
-        found = tried(options.book)
+        found, seen = tried(options.book), stands_in(options.book)
     except CosseratError as error:
         print(f"python -m tests.browser.drag: {error}", file=sys.stderr)
         return 2
@@ -112,7 +134,9 @@ def main() -> int:
             f"{what} {value:.1e}" for what, value in zip(("shape", "force", "energy"), each, strict=True)
         )
         print(f"{name:28} {words}{'' if max(each) <= MOST else '  DIFFERS'}")
-    return 0 if all(max(each) <= MOST for _, each in found) else 1
+    for name, good in seen:
+        print(f"{name:28} {'stored states stand in' if good else 'NOTHING STANDS IN'}")
+    return 0 if all(max(each) <= MOST for _, each in found) and all(good for _, good in seen) else 1
 
 
 if __name__ == "__main__":

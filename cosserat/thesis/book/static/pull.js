@@ -12,7 +12,7 @@
   }
 
   function number(value, digits) {
-    return value.toFixed(digits).replace("-", "\u2212");
+    return (+value.toFixed(digits) || 0).toFixed(digits).replace("-", "\u2212");  /* no minus before a zero */
   }
 
   function start(figure, said, made) {
