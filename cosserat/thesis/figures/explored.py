@@ -135,7 +135,7 @@ def muscles(data: Data) -> Stage:
         "the stretches, and the length."
     )
     sliders = Slider("tension", tension, "mN", 1), Slider("pressure", pressure, "kPa")
-    drawn = (many + 1, many * 4 + 4)  # weak muscles, and those of the thesis
+    drawn = (many + 1, 2 * many + 2, 4 * many + 4)  # weaker muscles, and at last those of the thesis
     title = "Tension and pressure at one instant"
     return Stage(title, alt, panels, sliders[0], 4.0, poster=drawn, second=sliders[1])
 

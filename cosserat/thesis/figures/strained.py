@@ -44,7 +44,7 @@ def deformations(_: object) -> Stage:
         "each deformation larger, smaller, or turns its sign."
     )
     slider = Slider("amplitude", 100 * shares, "%", 0)
-    return Stage("Twelve ways to deform a section", alt, panels, slider, 4.0, poster=(0, -1))
+    return Stage("Twelve ways to deform a section", alt, panels, slider, 4.0, poster=(0, 12, -1))
 
 
 def _panel(found: Deformation, shares: Array) -> Panel:
