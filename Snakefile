@@ -296,6 +296,7 @@ rule book:
 rule pdf:  # it needs Chromium
     input:
         "results/book/index.html",
+        "cosserat/thesis/book/paper.html",
     output:
         "results/cosserat.pdf",
     log:

@@ -21,6 +21,7 @@ from cosserat.thesis.book import page
 from cosserat.thesis.book.api import as_markup
 from cosserat.thesis.book.build import execute, render
 from cosserat.thesis.book.edition import edition
+from cosserat.thesis.book.finish import short
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::DeprecationWarning", "ignore::PendingDeprecationWarning"
@@ -138,6 +139,17 @@ def test_a_page_names_its_edition_and_loads_no_more_than_it_needs(built):
         name for name in kept if name.endswith(".map") or "/locales/" in name or name == "genindex.html"
     ]
     assert sum(map(len, kept.values())) < 5e6
+
+
+def test_pictures_are_short_files_with_the_same_lines():
+    drawn = (
+        '<svg>\n <metadata>of today</metadata>\n <path id="a" d="M 1.23456789 -0.001 \nL 12 3.999999 " '
+        'transform="scale(0.015625)"/>\n <use x="7.0199999" href="#m"/>\n <text>1.23456</text>\n</svg>'
+    )
+    assert short(drawn) == (
+        '<svg><path id="a" d="M 1.23 -0 L 12 4" transform="scale(0.015625)"/>'
+        '<use x="7.02" href="#m"/><text>1.23456</text></svg>'
+    )
 
 
 def test_a_book_replaces_a_book_and_an_empty_folder(notebooks, book, tmp_path):

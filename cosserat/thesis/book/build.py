@@ -149,7 +149,7 @@ def _files(folder: Path) -> list[str]:
 
 
 def _looks_built(file: Path) -> bool:
-    if file.parts[0] in ("_static", "_sources", "_downloads", "source"):
+    if file.parts[0] in ("_static", "_sources", "_images", "_downloads", "source"):
         return True
     return len(file.parts) == 1 and (
         file.suffix == ".html" or file.name in ("objects.inv", "searchindex.js")
