@@ -43,8 +43,8 @@ class Part:
 def print_book(book: Path, output: Path) -> int:
     """Print a built book to a PDF with an outline, a list of contents and page numbers; returns the number of pages.
 
-    What is folded is opened, except for rows of the report, which are whole on their own page.  Players show the state
-    that they begin with.  Pages of source code are left out.
+    Solutions and misprints are opened.  Rows of the report, which are whole on their own page, and the tests of errata
+    stay folded.  Players show the state that they begin with.  Pages of source code are left out.
 
     Raises
     ------
@@ -176,7 +176,7 @@ def _printed(chromium: Browser, file: Path, text: str) -> bytes:
     page.goto(file.resolve().as_uri())
     settle(page)
     page.evaluate(
-        "() => document.querySelectorAll('details:not(.verdict)').forEach((one) => { one.open = true; })"
+        "() => document.querySelectorAll('details.hide, .misprints details').forEach((one) => { one.open = true; })"
     )
     printed = page.pdf(
         format="A4",
