@@ -251,6 +251,12 @@
 #
 # .. autofunction:: cosserat.rods.directed_rod.lame
 #
+# .. autoclass:: cosserat.figures.deformations.Deformation
+#    :members:
+#
+# .. autodata:: cosserat.figures.deformations.DEFORMATIONS
+#    :no-value:
+#
 # .. autofunction:: cosserat.rods.directed_rod.measures
 #
 # .. autofunction:: cosserat.rods.directed_rod.stretches

@@ -142,7 +142,7 @@ def necking_decay(beam: Beam, theory: NeckingTheory) -> float:
     """beta [1/m]: decay rate of the section stretch beside an end that cannot contract.
 
     "printed" is eq. (3.5.9).  The others follow from k6 lambda'' = k2 (lambda - 1) + k7 (mu - 1) with the axial force
-    constant, k6 = mu I as in eqs. (1.2.98) and (2.6.20), and three choices where the page is silent:
+    constant, k6 = mu I as in eqs. (1.2.98) and (2.6.20), and three choices where the thesis is silent:
 
     "two directors": both lateral stretches equal, the theory of Chapter 1.
     "plane strain": no stretch along E1.
@@ -175,7 +175,7 @@ def necking_strain(beam: Beam, n: float, beta: float, xi: Array) -> Array:
 
 
 def necking_strain_as_printed(beam: Beam, n: float, beta: float, xi: Array) -> Array:
-    """Eq. (3.5.8) in the order of operations of the page, as evidence that it loses its digits."""
+    """Eq. (3.5.8) in the order of operations of the thesis, as evidence that it loses its digits."""
     decay = (1 - np.cosh(beta * beam.length)) / np.sinh(beta * beam.length)
     shape: Array = decay * np.sinh(beta * xi) + np.cosh(beta * xi) - 1
     return beam.poisson * n / beam.axial_stiffness * shape

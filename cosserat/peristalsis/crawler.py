@@ -132,7 +132,7 @@ class Crawler(Parameters):
     def line_density(self) -> float:
         """rho_0 [kg/m], its mean along a body that varies.
 
-        ASSUME mass over length where the mass is given: the page gives no rho_0 of the worm.
+        ASSUME mass over length where the mass is given: the thesis gives no rho_0 of the worm.
         """
         if self.mass is not None:
             return self.mass / self.length

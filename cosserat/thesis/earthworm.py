@@ -27,7 +27,7 @@ MUSCLE_LAWS: dict[Muscles, tuple[float, float]] = {
 
 In section 2.8 a strip of muscle one millimetre wide has the same tension in every worm.  The force is then
 proportional to the circumference.  The pressure is inversely proportional to the radius by hoop balance, or constant
-as the 5.7 kPa of the page.  Muscle of constant stress whose thickness is proportional to the radius gives the third
+as the 5.7 kPa of the thesis.  Muscle of constant stress whose thickness is proportional to the radius gives the third
 law.
 """
 

@@ -68,7 +68,7 @@ def test_published_coefficients_are_valid_at_twenty_vertices_only():
 
 
 def test_added_supports_carry_no_force(solved):
-    """The supports that the page does not list prevent rigid motions only."""
+    """The supports that the thesis does not list prevent rigid motions only."""
     bar = solved["hanging_bar"]
     weight = bar.applied_force.sum().item()
     reaction = bar.support_force.isel(vertex=0)

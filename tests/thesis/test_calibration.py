@@ -165,7 +165,7 @@ def test_the_clamped_free_tip_tends_to_bending_plus_a_hinge(fitted):
 
 
 def test_necking_needs_a_larger_c6_in_the_limit(fitted):
-    """c6 = 1/2 belongs to N = 20; with a resolved layer the page's curve needs c6 = 0.82, to 2 %."""
+    """c6 = 1/2 belongs to N = 20; with a resolved layer the thesis's curve needs c6 = 0.82, to 2 %."""
     found = float(fitted.necking_coefficients.sel(section_coefficient="c6")[-1])
     assert found == pytest.approx(0.82, rel=2e-2)
     problem = cosserat.case("necking").problem

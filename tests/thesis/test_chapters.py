@@ -12,14 +12,6 @@ from cosserat.thesis.book import page
 from cosserat.thesis.table.errata import read_errata
 
 CHAPTERS = sorted((ROOT / "chapters").glob("*.py"))
-NOT_YET = {
-    "beams_to_rods",
-    "ch1_directed_rod",
-    "index",
-    "results_table",
-}
-"""Chapters that still import from inside of the package."""
-
 DIRECTIVE = r"^# \.\. auto\w+:: (cosserat\.[\w.]+)"
 DOCUMENTED = set(re.findall(DIRECTIVE, (ROOT / "chapters/python_api.py").read_text(), re.MULTILINE))
 DOCUMENTED_MODULES = {name.rpartition(".")[0] for name in DOCUMENTED}
@@ -65,15 +57,7 @@ def test_imports_from_inside_of_the_package_are_noticed(source, found):
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda file: file.stem)
 def test_a_chapter_uses_the_public_doors_alone(chapter):
-    found = inside(chapter.read_text())
-    if chapter.stem in NOT_YET:
-        assert found, f"{chapter.stem} is done; take it from the list"
-    else:
-        assert found == []
-
-
-def test_the_list_names_chapters():
-    assert {chapter.stem for chapter in CHAPTERS} >= NOT_YET
+    assert inside(chapter.read_text()) == []
 
 
 def noted(source):

@@ -148,7 +148,9 @@ def test_E2_4_an_anchoring_end_carries_the_force_of_its_muscles():
         np.testing.assert_allclose(n, -force, rtol=1e-9)
         held[name] = profile.mu_3
     assert held["n = 0"].min() > 0.99
-    np.testing.assert_allclose(held["n = -D"], 0.82, atol=5e-3)  # what the page prints for such a region
+    np.testing.assert_allclose(
+        held["n = -D"], 0.82, atol=5e-3
+    )  # what the thesis prints for such a region
 
 
 def worm_in_circular_contraction(multiplier, length):
@@ -423,7 +425,7 @@ def test_E2_15_all_readings_of_gamma_have_one_stride_and_exclude_different_sente
 
 
 def test_E2_15_with_the_printed_equations_the_literal_reading_swings_higher_than_the_page(solved):
-    """There the answer depends on the length of the region, which only that reading changes; the page says 0.79."""
+    """There the answer depends on the length of the region, which only that reading changes; the thesis says 0.79."""
     case = cosserat.case("worm_printed")
     highest = {"A": float(segment(solved["worm_printed"]).p_coelom.max())}
     for name, times in (("B", ONE_SPEED), ("C", LITERAL)):

@@ -82,7 +82,7 @@ def test_E3_2_printed_coupling_is_indefinite_beyond_a_poissons_ratio_of_0_376(po
 
 
 def test_full_coupling_of_one_contracts_as_plane_strain_does():
-    """With c7 = 1 and no factor halved the far field is -nu (1 + nu) n / EA; the page's is a free section's."""
+    """With c7 = 1 and no factor halved the far field is -nu (1 + nu) n / EA; the thesis's is a free section's."""
     full = {"poisson_coupling": "printed", "calibration": {"c7": 1.0}}
     for poisson in (0.2, 0.3):
         case = cosserat.case("necking").vary(
@@ -98,7 +98,7 @@ def test_full_coupling_of_one_contracts_as_plane_strain_does():
     [(20, 0.5, 0.016), (1280, 0.5, 0.097), (20, 0.82, 0.054), (1280, 0.82, 0.008)],
 )
 def test_the_published_c6_fits_at_20_vertices_and_another_in_the_limit(vertices, c6, misfit):
-    """Largest deviation from the page's curve, as a share of its largest."""
+    """Largest deviation from the thesis's curve, as a share of its largest."""
     mesh = {"vertices": vertices, "calibration": {"c6": c6}}
     computed, page = readouts.necking_curve(
         cosserat.run(cosserat.case("necking").vary("refined", rod=mesh))

@@ -85,7 +85,7 @@ def fields_of(annotation, value):
 
 
 def holds(held, value):
-    """A number to rounding; of a table only the keys that the page gives."""
+    """A number to rounding; of a table only the keys that the thesis gives."""
     if isinstance(held, float):
         return value == pytest.approx(held, rel=1e-12)
     if isinstance(held, list) and len(held) == len(value):
@@ -106,7 +106,7 @@ def test_a_case_has_the_printed_input(name, place):
 
 @pytest.mark.parametrize("name", printed.PRINTED)
 def test_all_other_inputs_of_a_case_of_the_thesis_are_defaults(name):
-    """An input beyond those of the page would have no check."""
+    """An input beyond those of the thesis would have no check."""
     problem = cosserat.case(name).problem
     table = plain(problem.model_dump())
     said = [

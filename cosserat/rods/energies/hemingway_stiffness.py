@@ -71,7 +71,7 @@ def stiffnesses(
     poisson_coupling: PoissonCoupling,
     intrinsic_curvature: IntrinsicCurvature = "subtracted",
 ) -> Stiffness:
-    """Eq. (3.4.13), with the readings that the page leaves open.
+    """Eq. (3.4.13), with the readings that the thesis leaves open.
 
     end_sections : "halved" halves the areas of the boundary vertices, eq. (3.4.10), on top of their half length.
     poisson_coupling : "printed" takes 2 sum k7 (lambda - 1)(mu - 1) L in eq. (3.4.11) as it stands; "halved" drops

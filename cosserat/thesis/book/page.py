@@ -22,7 +22,17 @@ from cosserat.thesis.book.references import how_to_cite, references
 from cosserat.thesis.book.stored_variables import variables
 from cosserat.thesis.book.tables import folded, mathematics, table, tens
 from cosserat.thesis.book.tutorial import Folder
-from cosserat.thesis.book.verdicts import amount, errata, misprint, row, rows
+from cosserat.thesis.book.verdicts import (
+    amount,
+    errata,
+    misprint,
+    overview,
+    report,
+    row,
+    rows,
+    today,
+    unseen_changes,
+)
 from cosserat.thesis.book.workflow import data, results, study
 from cosserat.thesis.figures.catalogue import entry
 
@@ -48,9 +58,11 @@ __all__ = [
     "misprint",
     "notation",
     "other_symbols",
+    "overview",
     "player",
     "pull",
     "references",
+    "report",
     "results",
     "results_table",
     "row",
@@ -61,7 +73,9 @@ __all__ = [
     "table",
     "tens",
     "text",
+    "today",
     "total_of",
+    "unseen_changes",
     "variables",
     "written",
 ]

@@ -26,7 +26,7 @@ def rows(*prefixes: str) -> HTML:
     OutOfToleranceError : a claim does not hold.
     InputError : there is no such row.
     """
-    found = [row for row in _report() if row["id"].startswith(prefixes)]
+    found = [row for row in report() if row["id"].startswith(prefixes)]
     if not found:
         raise InputError(f"the report has no row that begins with {' or '.join(prefixes)}")
     failed = [row["id"] for row in found if row["verdict"] == "FAILS"]
@@ -68,6 +68,32 @@ def verdict(found: Sequence[Row]) -> str:
     return f"{count} of the results table: {'; '.join(parts)}"
 
 
+def report() -> list[Row]:
+    """All rows of the report."""
+    return list(read_report(results() / "report.csv"))
+
+
+def today() -> tuple[str, ...]:
+    """What `cosserat check` says of the report, line by line."""
+    from cosserat.thesis.table.measure import check  # two pages need it
+
+    return tuple(check(report()).splitlines())
+
+
+def overview() -> tuple[str, ...]:
+    """The counts of the report by kind and standing, line by line."""
+    from cosserat.thesis.table.measure import summary
+
+    return tuple(summary(report()).splitlines())
+
+
+def unseen_changes() -> list[tuple[str, str]]:
+    """Changes of inputs and physics that no row of the table notices, and why."""
+    from cosserat.thesis.table.power import changes
+
+    return [(change.what, change.unseen) for change in changes() if change.unseen]
+
+
 def row(name: str) -> Row:
     """One row of the report by its id.
 
@@ -75,7 +101,7 @@ def row(name: str) -> Row:
     ------
     InputError : there is no such row.
     """
-    found = {row["id"]: row for row in _report()}
+    found = {row["id"]: row for row in report()}
     if name not in found:
         raise InputError(f"the report has no row '{name}'")
     return found[name]
@@ -119,7 +145,3 @@ _STANDINGS = {
     "question": "Open question",
     "refuted": "Not a misprint:",
 }
-
-
-def _report() -> list[Row]:
-    return list(read_report(results() / "report.csv"))

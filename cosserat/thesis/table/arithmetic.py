@@ -1,4 +1,4 @@
-"""Numbers of the page that follow from other numbers of the page, computed again without a solver.
+"""Numbers of the thesis that follow from others of it, computed again without a solver.
 
 These functions take no Dataset, so no answer of a solver can replace the arithmetic.
 """

@@ -10,12 +10,12 @@ from cosserat.units import to_si
 
 @dataclass(frozen=True)
 class Input:
-    """One input as the page gives it.
+    """One input as the thesis gives it.
 
     value : a number as printed, with its unit; or the content of a sentence (a direction, the DOFs of a support).
     where : the place.
     unit : SI unit of a number, "1" for a ratio; empty for other values.
-    assumed : if the page is silent or ambiguous, the entry of the errata with our assumption.
+    assumed : if the thesis is silent or ambiguous, the entry of the errata with our assumption.
     """
 
     value: object

@@ -43,7 +43,7 @@ _OUTCOME_WORDS = {
     "erratum": "only with a misprint that the errata name",
     "assumption": "only under an assumption",
     "missed": "missed",
-    "recomputed": "arithmetic on other numbers of the page",
+    "recomputed": "arithmetic on other numbers of the thesis",
     "not attempted": "not attempted",
 }
 """Outcomes of a number in words, the best first."""

@@ -1,8 +1,8 @@
 """Inputs printed in Chapters 2 and 3 of the thesis: the only second copy of its numbers in the project.
 
 The case files hold the same numbers, and a test compares each case of the thesis with this module.  Closed forms for
-rows take their beams and loads from here, never from the solved case: if a case has another modulus than the page, its
-answer changes and the expected number does not.
+rows take their beams and loads from here, never from the solved case: if a case has another modulus than the thesis,
+its answer changes and the expected number does not.
 """
 
 from __future__ import annotations
@@ -139,7 +139,7 @@ SOLVER_KEYS = (
     "strides",
     "step",
 )
-"""Keys of a case for the solver and the stored values, which the page does not give."""
+"""Keys of a case for the solver and the stored values, which the thesis does not give."""
 
 
 def number(case: str, place: str) -> float:

@@ -96,7 +96,7 @@ def _as_worm(worm: Inputs) -> Inputs:
 _MASSES: Inputs = {
     **_as_worm(_WORM),
     "masses": Input(
-        [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2], "the range of the page's reference [50]"
+        [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2], "the range of the thesis's reference [50]"
     ),
     "muscles": Input("constant stress", "section 2.8, 'irrespective of body mass'", assumed="E2.13"),
 }

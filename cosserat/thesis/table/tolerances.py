@@ -31,8 +31,8 @@ class Row(Parameters):
     """One published number or curve.
 
     published : the text exactly as printed, or a description if nothing is printed.
-    kind : "printed" numbers are compared with that text; "analytic" ones with a closed form, the page's or another
-    exact one; "in words" with the statement; "literature" with a measurement of a source of the page that the page does
+    kind : "printed" numbers are compared with that text; "analytic" ones with a closed form, the thesis's or another
+    exact one; "in words" with the statement; "literature" with a measurement of a source of the thesis that it does
     not print.  In these three the read-out gives the expected number.  "arithmetic" numbers follow from others of the
     page: nothing is solved, no case is read, and their standing is "recomputed", which is less than "reproduced".
     claim : whether the measured number should lie within the tolerance.
