@@ -251,9 +251,6 @@
 #
 # .. autofunction:: cosserat.rods.directed_rod.lame
 #
-# .. autoclass:: cosserat.figures.deformations.Deformation
-#    :members:
-#
 # .. autodata:: cosserat.figures.deformations.DEFORMATIONS
 #    :no-value:
 #

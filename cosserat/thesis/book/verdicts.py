@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from IPython.display import HTML
 
@@ -13,7 +13,7 @@ from cosserat.thesis.book.workflow import results
 from cosserat.thesis.table.errata import Erratum, read_errata
 from cosserat.thesis.table.tolerances import read_report
 
-Row = Mapping[str, str]
+Row = dict[str, str]
 
 
 def rows(*prefixes: str) -> HTML:

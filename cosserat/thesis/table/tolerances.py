@@ -16,8 +16,6 @@ from pydantic_core import PydanticCustomError
 from cosserat.data.files import whole_or_absent
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters, Quantity
-from cosserat.thesis.table.arithmetic import ARITHMETIC
-from cosserat.thesis.table.readouts import READOUTS
 from cosserat.units import to_si
 
 Standing = Literal["reproduced", "erratum", "assumption", "recomputed", "not attempted"]
@@ -65,6 +63,11 @@ class Row(Parameters):
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
+        from cosserat.thesis.table.arithmetic import (
+            ARITHMETIC,
+        )  # and the solvers, which a page has no need of
+        from cosserat.thesis.table.readouts import READOUTS
+
         if self.standing == "not attempted":
             return self
         is_arithmetic = self.kind == "arithmetic"
