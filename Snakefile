@@ -25,6 +25,7 @@ os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get
 
 CASES = published()
 BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
+CHAPTER_BATCHES = 4  # processes that execute all chapters, for the same reason
 STUDIES = published_studies()
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 # Tracked files of chapters.
@@ -95,7 +96,6 @@ def asks(megabytes, minutes):
 wildcard_constraints:
     case="|".join(CASES),
     study="|".join(STUDIES),
-    chapter="|".join(CHAPTERS),
 
 
 report: "results/captions/workflow.rst"
@@ -237,30 +237,37 @@ rule webassembly:
         "python -m cosserat webassembly --output {output} > {log} 2>&1"
 
 
-rule chapter:
-    input:
-        package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
-        "results/check.txt",
-        "results/report.csv",
-        "results/tolerances.csv",
-        "results/errata.toml",
-        "results/left_out.toml",
-        expand("results/cases/{case}.nc", case=CASES),
-        expand("results/figures/{figure}.svg", figure=FIGURES),
-        expand("results/studies/{study}.nc", study=STUDIES),
-        measured=lambda wildcards: [name for name in MEASURED.get(wildcards.chapter, []) if os.path.exists(name)],
-        module=lambda wildcards: ["results/pull.wasm"] if wildcards.chapter == "pull" else [],
-        source="chapters/{chapter}.py",
-    output:
-        "results/notebooks/{chapter}.ipynb",
-    log:
-        "results/logs/chapter/{chapter}.log",
-    benchmark:
-        "results/benchmarks/chapter/{chapter}.tsv"
-    resources:
-        **asks(megabytes=500, minutes=5),
-    shell:
-        "python -m cosserat chapter {input.source} --output {output} > {log} 2>&1"
+for number in range(min(CHAPTER_BATCHES, len(CHAPTERS))):
+    names = CHAPTERS[number::CHAPTER_BATCHES]
+
+    rule:
+        name:
+            f"chapters_{number}"
+        input:
+            package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
+            "results/check.txt",
+            "results/report.csv",
+            "results/tolerances.csv",
+            "results/errata.toml",
+            "results/left_out.toml",
+            expand("results/cases/{case}.nc", case=CASES),
+            expand("results/figures/{figure}.svg", figure=FIGURES),
+            expand("results/studies/{study}.nc", study=STUDIES),
+            sorted({file for name in names for file in MEASURED.get(name, []) if os.path.exists(file)}),
+            ["results/pull.wasm"] if "pull" in names else [],
+            sources=expand("chapters/{chapter}.py", chapter=names),
+        output:
+            expand("results/notebooks/{chapter}.ipynb", chapter=names),
+        params:
+            place=f"results/notebooks/{names[0]}.ipynb" if len(names) == 1 else "results/notebooks",
+        log:
+            f"results/logs/chapters/{number}.log",
+        benchmark:
+            f"results/benchmarks/chapters/{number}.tsv"
+        resources:
+            **asks(megabytes=700, minutes=10),
+        shell:
+            "python -m cosserat chapter {input.sources} --output {params.place} > {log} 2>&1"
 
 
 rule peers:  # its table is tracked, so it is the output of no rule, and measured whenever it is asked for

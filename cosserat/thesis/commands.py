@@ -86,9 +86,11 @@ def add_commands(add: AddCommand) -> None:
         help="module to write (%(default)s)",
     )
 
-    sub = add("chapter", _chapter, "execute a chapter into a notebook")
-    sub.add_argument("chapter", type=Path, help="the chapter's .py file")
-    sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
+    sub = add("chapter", _chapter, "execute chapters into notebooks")
+    sub.add_argument("chapters", nargs="+", type=Path, metavar="chapter", help="its .py file")
+    sub.add_argument(
+        "-o", "--output", type=Path, required=True, help="notebook, or folder for those of several"
+    )
 
     sub = add("book", _book, "render executed chapters as a book that needs no network")
     sub.add_argument(
@@ -256,10 +258,13 @@ def _webassembly(options: argparse.Namespace) -> None:
 
 
 def _chapter(options: argparse.Namespace) -> None:
-    from cosserat.thesis.book.build import execute
+    from cosserat.thesis.book.execution import execute
 
-    execute(options.chapter, options.output)
-    print(f"wrote {options.output}")
+    chapters, output = options.chapters, options.output
+    outputs = [output / f"{one.stem}.ipynb" for one in chapters] if len(chapters) > 1 else [output]
+    execute(chapters, outputs)
+    for one in outputs:
+        print(f"wrote {one}")
 
 
 def _book(options: argparse.Namespace) -> None:

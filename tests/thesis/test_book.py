@@ -19,8 +19,9 @@ from cosserat.figures.stage import Mark, Panel, Slider, Stage
 from cosserat.publications import kinds
 from cosserat.thesis.book import page
 from cosserat.thesis.book.api import as_markup
-from cosserat.thesis.book.build import execute, render
+from cosserat.thesis.book.build import render
 from cosserat.thesis.book.edition import edition
+from cosserat.thesis.book.execution import execute
 from cosserat.thesis.book.finish import short
 
 pytestmark = pytest.mark.filterwarnings(
@@ -316,15 +317,34 @@ def test_docstrings_are_plain_text_with_terms_and_sections():
     ]
 
 
-def test_a_chapter_executed_twice_gives_the_same_bytes(tmp_path):
-    chapter = tmp_path / "chapters/sum.py"
-    chapter.parent.mkdir()
-    chapter.write_text("# %% [markdown]\n# # Sum\n\n# %%\n1 + 1\n")
-    for name in ("one", "other"):
-        execute(chapter, tmp_path / f"{name}.ipynb")
+def test_a_chapter_has_the_same_bytes_alone_and_after_another(tmp_path):
+    """Nothing that one defines is known to the next."""
+    folder = tmp_path / "chapters"
+    folder.mkdir()
+    (folder / "first.py").write_text("# %%\nimport os\nos.chdir('/')\nleft = 5\nleft\n")
+    (folder / "sum.py").write_text(
+        '# %% [markdown]\n# # Sum\n\n# %%\n1 + 1\n\n# %%\nimport os\n\n"left" in globals(), os.getcwd()\n'
+    )
+    pair = [folder / "first.py", folder / "sum.py"]
+    execute(pair, [tmp_path / "first.ipynb", tmp_path / "other.ipynb"])
+    execute(pair[1:], [tmp_path / "one.ipynb"])
     text = (tmp_path / "one.ipynb").read_text()
     assert '"text/plain"' in text
+    assert "False" in text
     assert text == (tmp_path / "other.ipynb").read_text()
+    assert '"execution_count": 1' in (tmp_path / "first.ipynb").read_text()
+
+
+def test_a_chapter_that_fails_is_named_and_nothing_is_written(tmp_path):
+    folder = tmp_path / "chapters"
+    folder.mkdir()
+    (folder / "good.py").write_text("# %%\n1\n")
+    (folder / "bad.py").write_text("# %%\n1 / 0\n")
+    with pytest.raises(CosseratError, match=r"bad.py: a cell failed.*(?s:.*)ZeroDivisionError"):
+        execute(
+            [folder / "good.py", folder / "bad.py"], [tmp_path / "good.ipynb", tmp_path / "bad.ipynb"]
+        )
+    assert not list(tmp_path.glob("*.ipynb"))
 
 
 def test_a_number_in_powers_of_ten_is_mathematics():

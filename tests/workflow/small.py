@@ -34,7 +34,10 @@ def copy(folder, cases, figures):
 
 
 def shrink(folder, cases, figures):
-    """Leave these cases, the hidden ones that cases are built on, their rows and these figures."""
+    """Leave these cases, the hidden ones that cases are built on, their rows, these figures and one chapter."""
+    for chapter in (folder / "chapters").glob("*.py"):
+        if chapter.stem != "results_table":
+            chapter.unlink()
     files = folder / "cosserat/thesis/cases"
     for name in ("chapter2.toml", "studies.toml"):
         (files / name).write_text("")
