@@ -35,7 +35,7 @@ def execute(chapters: Sequence[Path], outputs: Sequence[Path]) -> None:
             f"{chapters[0]} and {chapters[-1]} are of several checkouts; execute each by itself"
         )
     whole = nbformat.v4.new_notebook(metadata=notebooks[0].metadata)
-    owners = []
+    owners: list[Path] = []
     for chapter, notebook in zip(chapters, notebooks, strict=True):
         if owners:
             whole.cells.append(nbformat.v4.new_code_cell(_FORGET.format(root=str(*roots))))
