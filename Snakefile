@@ -24,13 +24,18 @@ workdir: workflow.basedir
 os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get_exec_path()]))
 
 CASES = published()
-BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
-CHAPTER_BATCHES = 4  # processes that execute all chapters, for the same reason
+# Cases or chapters that one process takes in turn: most of the time of a short one is the start of its process.
+BATCH = 6
 STUDIES = published_studies()
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 # Tracked files of chapters.
 CITING = [file.as_posix() for file in sources(Path())]  # of pages that show tests, and places of equations
-MEASURED = {"errata": CITING, "equations": CITING, "ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv", "results/inputs.csv"]}
+MEASURED = {
+    "errata": CITING,
+    "equations": CITING,
+    "ch5_peers": ["results/peers.csv"],
+    "reliability": ["results/faults.csv", "results/inputs.csv"],
+}
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/exact/beams.py", "cosserat/exact/elastica.py"]
 READOUTS = [
@@ -59,6 +64,12 @@ def batches():
         for kind, names in kinds.items()
         for first in range(0, len(names), BATCH)
     }
+
+
+def chapter_batches():
+    """Names of chapters, in the order of the alphabet, by the name of the batch that one kernel executes in turn."""
+    firsts = range(0, len(CHAPTERS), BATCH)
+    return {f"chapters_{first // BATCH}": CHAPTERS[first : first + BATCH] for first in firsts}
 
 
 def only_run_here():
@@ -237,12 +248,11 @@ rule webassembly:
         "python -m cosserat webassembly --output {output} > {log} 2>&1"
 
 
-for number in range(min(CHAPTER_BATCHES, len(CHAPTERS))):
-    names = CHAPTERS[number::CHAPTER_BATCHES]
+for batch, names in chapter_batches().items():
 
     rule:
         name:
-            f"chapters_{number}"
+            batch
         input:
             package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
             "results/check.txt",
@@ -253,21 +263,19 @@ for number in range(min(CHAPTER_BATCHES, len(CHAPTERS))):
             expand("results/cases/{case}.nc", case=CASES),
             expand("results/figures/{figure}.svg", figure=FIGURES),
             expand("results/studies/{study}.nc", study=STUDIES),
-            sorted({file for name in names for file in MEASURED.get(name, []) if os.path.exists(file)}),
-            ["results/pull.wasm"] if "pull" in names else [],
-            sources=expand("chapters/{chapter}.py", chapter=names),
+            measured=[file for name in names for file in MEASURED.get(name, []) if os.path.exists(file)],
+            module=["results/pull.wasm"] if "pull" in names else [],
+            source=expand("chapters/{chapter}.py", chapter=names),
         output:
             expand("results/notebooks/{chapter}.ipynb", chapter=names),
-        params:
-            place=f"results/notebooks/{names[0]}.ipynb" if len(names) == 1 else "results/notebooks",
         log:
-            f"results/logs/chapters/{number}.log",
+            f"results/logs/{batch}.log",
         benchmark:
-            f"results/benchmarks/chapters/{number}.tsv"
+            f"results/benchmarks/{batch}.tsv"
         resources:
-            **asks(megabytes=700, minutes=10),
+            **asks(megabytes=700, minutes=5),
         shell:
-            "python -m cosserat chapter {input.sources} --output {params.place} > {log} 2>&1"
+            "python -m cosserat chapter {input.source} --output results/notebooks > {log} 2>&1"
 
 
 rule peers:  # its table is tracked, so it is the output of no rule, and measured whenever it is asked for

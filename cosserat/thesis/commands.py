@@ -87,9 +87,13 @@ def add_commands(add: AddCommand) -> None:
     )
 
     sub = add("chapter", _chapter, "execute chapters into notebooks")
-    sub.add_argument("chapters", nargs="+", type=Path, metavar="chapter", help="its .py file")
+    sub.add_argument("chapters", type=Path, nargs="+", help="the chapters' .py files")
     sub.add_argument(
-        "-o", "--output", type=Path, required=True, help="notebook, or folder for those of several"
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        help="notebook to write, or the folder of several",
     )
 
     sub = add("book", _book, "render executed chapters as a book that needs no network")
@@ -258,13 +262,15 @@ def _webassembly(options: argparse.Namespace) -> None:
 
 
 def _chapter(options: argparse.Namespace) -> None:
+    from cosserat.errors import InputError
     from cosserat.thesis.book.execution import execute
 
     chapters, output = options.chapters, options.output
-    outputs = [output / f"{one.stem}.ipynb" for one in chapters] if len(chapters) > 1 else [output]
-    execute(chapters, outputs)
-    for one in outputs:
-        print(f"wrote {one}")
+    if len(chapters) > 1 and not output.is_dir():
+        raise InputError(f"{output} is not a folder; make a folder for several notebooks first")
+    outputs = [output / f"{chapter.stem}.ipynb" if output.is_dir() else output for chapter in chapters]
+    for written in execute(chapters, outputs):
+        print(f"wrote {written}")
 
 
 def _book(options: argparse.Namespace) -> None:

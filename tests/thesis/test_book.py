@@ -317,34 +317,30 @@ def test_docstrings_are_plain_text_with_terms_and_sections():
     ]
 
 
-def test_a_chapter_has_the_same_bytes_alone_and_after_another(tmp_path):
-    """Nothing that one defines is known to the next."""
+def chapters(tmp_path, **cells):
+    """Chapters by name, each of one cell, and where their notebooks go."""
     folder = tmp_path / "chapters"
     folder.mkdir()
-    (folder / "first.py").write_text("# %%\nimport os\nos.chdir('/')\nleft = 5\nleft\n")
-    (folder / "sum.py").write_text(
-        '# %% [markdown]\n# # Sum\n\n# %%\n1 + 1\n\n# %%\nimport os\n\n"left" in globals(), os.getcwd()\n'
-    )
-    pair = [folder / "first.py", folder / "sum.py"]
-    execute(pair, [tmp_path / "first.ipynb", tmp_path / "other.ipynb"])
-    execute(pair[1:], [tmp_path / "one.ipynb"])
-    text = (tmp_path / "one.ipynb").read_text()
+    for name, cell in cells.items():
+        (folder / f"{name}.py").write_text(f"# %% [markdown]\n# # Sum\n\n# %%\n{cell}\n")
+    return [folder / f"{name}.py" for name in cells], [tmp_path / f"{name}.ipynb" for name in cells]
+
+
+def test_chapters_of_one_kernel_give_the_same_bytes_and_know_nothing_of_each_other(tmp_path):
+    mine = "import os\nknown = 'known' in globals(), os.getcwd()\nos.chdir('/')\nknown"
+    files, notebooks = chapters(tmp_path, one=mine, other=mine)
+    assert list(execute(files, notebooks)) == notebooks
+    text = notebooks[0].read_text()
+    assert "(False," in text
     assert '"text/plain"' in text
-    assert "False" in text
-    assert text == (tmp_path / "other.ipynb").read_text()
-    assert '"execution_count": 1' in (tmp_path / "first.ipynb").read_text()
+    assert text == notebooks[1].read_text()
 
 
-def test_a_chapter_that_fails_is_named_and_nothing_is_written(tmp_path):
-    folder = tmp_path / "chapters"
-    folder.mkdir()
-    (folder / "good.py").write_text("# %%\n1\n")
-    (folder / "bad.py").write_text("# %%\n1 / 0\n")
-    with pytest.raises(CosseratError, match=r"bad.py: a cell failed.*(?s:.*)ZeroDivisionError"):
-        execute(
-            [folder / "good.py", folder / "bad.py"], [tmp_path / "good.ipynb", tmp_path / "bad.ipynb"]
-        )
-    assert not list(tmp_path.glob("*.ipynb"))
+def test_a_chapter_that_fails_keeps_those_before_it_alone(tmp_path):
+    files, notebooks = chapters(tmp_path, one="1 + 1", other="1 / 0", third="2")
+    with pytest.raises(CosseratError, match="other.py: a cell failed: "):
+        list(execute(files, notebooks))
+    assert [path.is_file() for path in notebooks] == [True, False, False]
 
 
 def test_a_number_in_powers_of_ten_is_mathematics():
