@@ -24,12 +24,18 @@ workdir: workflow.basedir
 os.environ.update(PATH=os.pathsep.join([os.path.dirname(sys.executable), *os.get_exec_path()]))
 
 CASES = published()
-BATCH = 6  # cases that one process solves in turn: most of the time of a short case is the start of its process
+# Cases or chapters that one process takes in turn: most of the time of a short one is the start of its process.
+BATCH = 6
 STUDIES = published_studies()
 CHAPTERS = sorted(glob_wildcards("chapters/{name}.py").name)
 # Tracked files of chapters.
 CITING = [file.as_posix() for file in sources(Path())]  # of pages that show tests, and places of equations
-MEASURED = {"errata": CITING, "equations": CITING, "ch5_peers": ["results/peers.csv"], "reliability": ["results/faults.csv", "results/inputs.csv"]}
+MEASURED = {
+    "errata": CITING,
+    "equations": CITING,
+    "ch5_peers": ["results/peers.csv"],
+    "reliability": ["results/faults.csv", "results/inputs.csv"],
+}
 SOLVER = [os.path.relpath(file) for file in computing_sources()]
 FORMULAS = ["cosserat/exact/beams.py", "cosserat/exact/elastica.py"]
 READOUTS = [
@@ -58,6 +64,12 @@ def batches():
         for kind, names in kinds.items()
         for first in range(0, len(names), BATCH)
     }
+
+
+def chapter_batches():
+    """Names of chapters, in the order of the alphabet, by the name of the batch that one kernel executes in turn."""
+    firsts = range(0, len(CHAPTERS), BATCH)
+    return {f"chapters_{first // BATCH}": CHAPTERS[first : first + BATCH] for first in firsts}
 
 
 def only_run_here():
@@ -95,7 +107,6 @@ def asks(megabytes, minutes):
 wildcard_constraints:
     case="|".join(CASES),
     study="|".join(STUDIES),
-    chapter="|".join(CHAPTERS),
 
 
 report: "results/captions/workflow.rst"
@@ -237,30 +248,34 @@ rule webassembly:
         "python -m cosserat webassembly --output {output} > {log} 2>&1"
 
 
-rule chapter:
-    input:
-        package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
-        "results/check.txt",
-        "results/report.csv",
-        "results/tolerances.csv",
-        "results/errata.toml",
-        "results/left_out.toml",
-        expand("results/cases/{case}.nc", case=CASES),
-        expand("results/figures/{figure}.svg", figure=FIGURES),
-        expand("results/studies/{study}.nc", study=STUDIES),
-        measured=lambda wildcards: [name for name in MEASURED.get(wildcards.chapter, []) if os.path.exists(name)],
-        module=lambda wildcards: ["results/pull.wasm"] if wildcards.chapter == "pull" else [],
-        source="chapters/{chapter}.py",
-    output:
-        "results/notebooks/{chapter}.ipynb",
-    log:
-        "results/logs/chapter/{chapter}.log",
-    benchmark:
-        "results/benchmarks/chapter/{chapter}.tsv"
-    resources:
-        **asks(megabytes=500, minutes=5),
-    shell:
-        "python -m cosserat chapter {input.source} --output {output} > {log} 2>&1"
+for batch, names in chapter_batches().items():
+
+    rule:
+        name:
+            batch
+        input:
+            package("describe", "thesis/book", "thesis/table", "figures", "thesis/figures"),
+            "results/check.txt",
+            "results/report.csv",
+            "results/tolerances.csv",
+            "results/errata.toml",
+            "results/left_out.toml",
+            expand("results/cases/{case}.nc", case=CASES),
+            expand("results/figures/{figure}.svg", figure=FIGURES),
+            expand("results/studies/{study}.nc", study=STUDIES),
+            measured=[file for name in names for file in MEASURED.get(name, []) if os.path.exists(file)],
+            module=["results/pull.wasm"] if "pull" in names else [],
+            source=expand("chapters/{chapter}.py", chapter=names),
+        output:
+            expand("results/notebooks/{chapter}.ipynb", chapter=names),
+        log:
+            f"results/logs/{batch}.log",
+        benchmark:
+            f"results/benchmarks/{batch}.tsv"
+        resources:
+            **asks(megabytes=700, minutes=5),
+        shell:
+            "python -m cosserat chapter {input.source} --output results/notebooks > {log} 2>&1"
 
 
 rule peers:  # its table is tracked, so it is the output of no rule, and measured whenever it is asked for

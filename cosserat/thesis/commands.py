@@ -86,9 +86,15 @@ def add_commands(add: AddCommand) -> None:
         help="module to write (%(default)s)",
     )
 
-    sub = add("chapter", _chapter, "execute a chapter into a notebook")
-    sub.add_argument("chapter", type=Path, help="the chapter's .py file")
-    sub.add_argument("-o", "--output", type=Path, required=True, help="notebook to write")
+    sub = add("chapter", _chapter, "execute chapters into notebooks")
+    sub.add_argument("chapters", type=Path, nargs="+", help="the chapters' .py files")
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        help="notebook to write, or the folder of several",
+    )
 
     sub = add("book", _book, "render executed chapters as a book that needs no network")
     sub.add_argument(
@@ -256,10 +262,15 @@ def _webassembly(options: argparse.Namespace) -> None:
 
 
 def _chapter(options: argparse.Namespace) -> None:
-    from cosserat.thesis.book.build import execute
+    from cosserat.errors import InputError
+    from cosserat.thesis.book.execution import execute
 
-    execute(options.chapter, options.output)
-    print(f"wrote {options.output}")
+    chapters, output = options.chapters, options.output
+    if len(chapters) > 1 and not output.is_dir():
+        raise InputError(f"{output} is not a folder; make a folder for several notebooks first")
+    outputs = [output / f"{chapter.stem}.ipynb" if output.is_dir() else output for chapter in chapters]
+    for written in execute(chapters, outputs):
+        print(f"wrote {written}")
 
 
 def _book(options: argparse.Namespace) -> None:

@@ -19,8 +19,9 @@ from cosserat.figures.stage import Mark, Panel, Slider, Stage
 from cosserat.publications import kinds
 from cosserat.thesis.book import page
 from cosserat.thesis.book.api import as_markup
-from cosserat.thesis.book.build import execute, render
+from cosserat.thesis.book.build import render
 from cosserat.thesis.book.edition import edition
+from cosserat.thesis.book.execution import execute
 from cosserat.thesis.book.finish import short
 
 pytestmark = pytest.mark.filterwarnings(
@@ -316,15 +317,30 @@ def test_docstrings_are_plain_text_with_terms_and_sections():
     ]
 
 
-def test_a_chapter_executed_twice_gives_the_same_bytes(tmp_path):
-    chapter = tmp_path / "chapters/sum.py"
-    chapter.parent.mkdir()
-    chapter.write_text("# %% [markdown]\n# # Sum\n\n# %%\n1 + 1\n")
-    for name in ("one", "other"):
-        execute(chapter, tmp_path / f"{name}.ipynb")
-    text = (tmp_path / "one.ipynb").read_text()
+def chapters(tmp_path, **cells):
+    """Chapters by name, each of one cell, and where their notebooks go."""
+    folder = tmp_path / "chapters"
+    folder.mkdir()
+    for name, cell in cells.items():
+        (folder / f"{name}.py").write_text(f"# %% [markdown]\n# # Sum\n\n# %%\n{cell}\n")
+    return [folder / f"{name}.py" for name in cells], [tmp_path / f"{name}.ipynb" for name in cells]
+
+
+def test_chapters_of_one_kernel_give_the_same_bytes_and_know_nothing_of_each_other(tmp_path):
+    mine = "import os\nknown = 'known' in globals(), os.getcwd()\nos.chdir('/')\nknown"
+    files, notebooks = chapters(tmp_path, one=mine, other=mine)
+    assert list(execute(files, notebooks)) == notebooks
+    text = notebooks[0].read_text()
+    assert "(False, " in text
     assert '"text/plain"' in text
-    assert text == (tmp_path / "other.ipynb").read_text()
+    assert text == notebooks[1].read_text()
+
+
+def test_a_chapter_that_fails_keeps_those_before_it_alone(tmp_path):
+    files, notebooks = chapters(tmp_path, one="1 + 1", other="1 / 0", third="2")
+    with pytest.raises(CosseratError, match="other.py: a cell failed: "):
+        list(execute(files, notebooks))
+    assert [path.is_file() for path in notebooks] == [True, False, False]
 
 
 def test_a_number_in_powers_of_ten_is_mathematics():

@@ -1,4 +1,4 @@
-"""Executed notebooks from chapters, and a book from them that needs no network."""
+"""A book from executed notebooks that needs no network."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ import contextlib
 import importlib.util
 import io
 import json
-import os
 import shutil
 import tempfile
 from importlib import resources
 from pathlib import Path
 
-from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.errors import CosseratError, InputError
 from cosserat.figures import player
 from cosserat.thesis.book.downloads import add_downloads
@@ -20,47 +18,6 @@ from cosserat.thesis.book.finish import finish
 
 _FILE_LIST = ".cosserat-book"
 """File that lists the files of a book."""
-
-
-def execute(chapter: Path, output: Path) -> None:
-    """Run a py:percent chapter from its repository's root and write the notebook with its outputs.
-
-    The same outputs give the same bytes: cells are numbered, and no times are kept.
-
-    Raises
-    ------
-    InputError : the chapter is missing, or the notebook cannot be written.
-    CosseratError : a cell failed; nothing is written.
-    """
-    import jupytext
-    import nbformat
-    from nbclient import NotebookClient
-    from nbclient.exceptions import CellExecutionError
-
-    if not chapter.is_file():
-        raise InputError(
-            f"there is no chapter {chapter}; chapters are the .py files of the folder chapters"
-        )
-    check_destination(output, ".ipynb")
-    try:
-        notebook = jupytext.read(chapter)
-    except (OSError, ValueError) as error:  # of text that is no Python, or no text
-        raise InputError(f"cannot read the chapter {chapter} ({error}); give a .py file") from None
-    client = NotebookClient(
-        notebook,
-        timeout=300,
-        record_timing=False,
-        kernel_name="python3",
-        resources={"metadata": {"path": str(chapter.resolve().parents[1])}},
-    )
-    try:
-        client.execute(env={**os.environ, "TQDM_DISABLE": "1"})  # a page shows no progress bars
-    except CellExecutionError as error:
-        raise CosseratError(f"{chapter}: a cell failed: {error}") from None
-    for number, cell in enumerate(notebook.cells):
-        cell.id = f"cell-{number}"
-    with whole_or_absent(output) as temporary:
-        nbformat.write(notebook, temporary)
 
 
 def render(notebooks: list[Path], output: Path, *, partial: bool = False) -> Path:
