@@ -26,7 +26,7 @@ def test_every_case_has_a_reference_and_every_reference_a_case():
 
 
 def test_references_are_small():
-    assert sum(file.stat().st_size for file in REFERENCES.glob("*.nc")) < 3_300_000
+    assert sum(file.stat().st_size for file in REFERENCES.glob("*.nc")) < 3_800_000
 
 
 def changed(data, name, values):
