@@ -148,7 +148,10 @@ def test_bad_files_and_folders_are_refused(capsys, tmp_path):
             "does not exist",
         ),
         (("chapter", tmp_path / "none.py", "-o", tmp_path / "n.ipynb"), "there is no chapter"),
-        (("chapter", ROOT / "chapters/index.py", "-o", tmp_path), "is a folder"),
+        (
+            ("chapter", *[ROOT / "chapters/index.py"] * 2, "-o", tmp_path / "n.ipynb"),
+            "is not a folder; make a folder for several notebooks",
+        ),
         (("peers", tmp_path / "python", "-o", tmp_path / "peers.csv"), "there is no Python"),
         (("book", tmp_path / "none.ipynb", "-o", tmp_path / "book"), "there is no notebook"),
     ]:

@@ -11,8 +11,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from cosserat.export.webassembly.pull import pull
-from cosserat.problems.static import RodStatics
 from cosserat.rods.energies.reissner_kernel import TERMS, VERTEX, assemble
+from cosserat.rods.problem import RodProblem
 from cosserat.rods.space_kernel import planar
 from cosserat.solvers.banded import Band, Vector
 from cosserat.solvers.climb import assembled
@@ -31,7 +31,7 @@ _WIDTH, _TERMS, _VERTEX = 8, len(TERMS), VERTEX.itemsize // 8
 _TOLERANCE, _MOST = NewtonSettings().tolerance, NewtonSettings().max_iterations
 
 
-def room_of(problem: RodStatics) -> Vector:
+def room_of(problem: RodProblem) -> Vector:
     """The array of a rod at rest whose last vertex is held.
 
     problem : with the consistent energy, supports along the axes and no loads.

@@ -20,7 +20,7 @@ from cosserat.export.webassembly import pulled
 from cosserat.figures import player
 from cosserat.figures.rod import outline
 from cosserat.figures.stage import Line, Mark, Panel, Slider, Stage
-from cosserat.problems.static import RodStatics
+from cosserat.rods.problem import RodProblem
 from cosserat.runner import run
 from cosserat.thesis.book.tables import mathematics
 from cosserat.thesis.book.workflow import results
@@ -64,10 +64,8 @@ def pulled_case(by_3: float = 0.0, by_2: float = 0.0) -> Case:
     )
 
 
-def _problem() -> RodStatics:
-    problem = pulled_case().problem
-    assert isinstance(problem, RodStatics)
-    return problem
+def _problem() -> RodProblem:
+    return pulled_case().problem_as(RodProblem)
 
 
 def module(path: Path | None = None) -> bytes:
