@@ -7,12 +7,12 @@ from math import atan2
 import llvmlite.binding as llvm
 import numpy as np
 import pytest
+import webassembly
 from conftest import ROOT
 
 from cosserat.export.webassembly import elementary, pulled
 from cosserat.export.webassembly.compiled import FEATURES, TARGET
 from cosserat.export.webassembly.linked import module
-from tests import webassembly
 
 MODULE = ROOT / "results/pull.wasm"
 made = pytest.mark.skipif(not MODULE.is_file(), reason="'make' makes the module")
