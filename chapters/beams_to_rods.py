@@ -178,7 +178,8 @@ page.figure(
 #
 # The cell below tries this step on an arbitrary state. It takes directors that are polynomials of $\xi$, computes the forces
 # with the energy of the library, finds the $\rho_0 \mathbf{l}^\alpha$ that keeps the directors in balance, and looks at what is
-# left of the moments. The derivatives are exact to the last digits, because they use a complex step.
+# left of the moments. The derivatives are exact to the last digits, because they use a complex step: the derivative
+# of $f$ is the imaginary part of $f(\xi + \mathrm{i}h)/h$ for a very small $h$, and nothing is subtracted.
 
 # %% tags=["hide-cell"]
 rng = np.random.default_rng(7)
@@ -335,7 +336,7 @@ assert abs(stiffness / (young * area) - 1) < 1e-12
 # %% tags=["remove-input"]
 page.figure(
     "fig_strains",
-    "The strains $\\gamma_{ij}$ of a section. $\\mathbf{E}_3$ points to the right, $\\mathbf{E}_1$ up, $\\mathbf{E}_2$ away from "
+    "The strains $\\gamma_{ij}$ of a section. $\\mathbf{E}_3$ points to the right, $\\mathbf{E}_1$ up, $\\mathbf{E}_2$ towards "
     "you. A beam has three of the six.",
 )
 
@@ -355,8 +356,8 @@ page.figure(
 # %% tags=["remove-input"]
 page.explore(
     "explore_deformations",
-    "Behind each strain stands the stiffness that pays for it. The same body pays for two strains of opposite sign in the same "
-    "way, because the energy (1.2.97) is quadratic.",
+    "Behind each strain stands the stiffness that pays for it. A strain and its opposite cost the same "
+    "energy, because (1.2.97) is quadratic.",
 )
 
 # %% [markdown]
@@ -399,7 +400,8 @@ assert sum(bool(body.beam) for body in DEFORMATIONS.values()) == 6
 # reach? Let both directors have the stretch $1 + e$, with a small $e$. A free bar has $e = e_0$ far from its end. Near the end the
 # energy is the sum of a part with $(e - e_0)^2$ and a part with $e'^2$, the taper. So $e - e_0$ falls off as
 # $\exp(-\xi / \ell)$, and the length $\ell$ is the root of the ratio of both stiffnesses. You compute it in Exercise B.3: it is
-# about a quarter of the radius. A girder of steel never notices. A worm does: its fronts are such ends, and
+# about a quarter of the radius. A girder of steel never notices. A worm does: each boundary between a fat and a thin
+# part is such an end, and
 # they travel. Chapter 3 shows the effect as necking, in Fig. 3.12.
 #
 # ## Exercises

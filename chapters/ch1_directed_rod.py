@@ -52,7 +52,7 @@
 # $$
 #
 # This is the main assumption of the theory. The place is linear in $X^\beta$: plane sections stay plane, straight lines in a
-# section stay straight, and each section deforms in the same way everywhere in itself. The slenderer the body, the
+# section stay straight, and all parts of a section stretch and shear alike. The slenderer the body, the
 # better this is. Sections that warp or bend are out of reach, and the thesis reports poor agreement for them.
 
 # %% tags=["remove-cell"]
@@ -263,7 +263,8 @@ page.excerpt(directed_rod.forces, "by_d =")
 # $$
 #
 # In three dimensions the same argument makes the stress symmetric. A beam has the balance of moments as an equation of
-# its own; here it holds for every state, at rest or not, and nothing is left to solve. A random state shows it:
+# its own. A directed rod needs none: (1.2.91) holds for every state, at rest or not, and with the balances of
+# director forces it gives the balance of moments. A random state shows (1.2.91):
 
 # %%
 rng = np.random.default_rng(1)
@@ -395,7 +396,7 @@ assert all(abs(found[name, "after"][1] - found[name, "before"][1]) > 1 for name 
 # %% tags=["remove-input"]
 page.text(
     f"The two states differ by {max(differences):.0e} at most. The multipliers do not agree and need not: the second "
-    "contains a part of the energy's own force. So a multiplier is not yet a pressure; one must say of which energy it is."
+    "contains a part of the energy's own force. So a multiplier alone is not a pressure; one must also say to which energy it was added."
 )
 
 # %% [markdown]
@@ -449,7 +450,8 @@ print(f"a rotating circle has {turning / rigid:.12f} times the energy of a rigid
 assert abs(turning / rigid - 1) < 1e-12
 
 # %% [markdown]
-# Chapter 2 is quasistatic and does not need the momenta. Chapter 3 has the same momenta for each part of its rod.
+# The bodies of Chapter 2 move so slowly that each instant is in balance, so the chapter does not need the momenta.
+# Chapter 3 has the same momenta for each part of its rod.
 #
 # ## Exercises
 #

@@ -41,7 +41,8 @@ page.player(
 # * A **front** is a junction that travels from the front end of the body to the rear. Behind a front $\gamma$ the body anchors,
 #   ahead of it it advances. Behind a front $\eta$ the body advances, ahead of it it anchors.
 # * The **anchor** is the one point that is fixed to the ground at an instant. It is the section $\xi_A$.
-# * In the **protrusion**, which lasts $t_p$, the front part becomes long and reaches forward while the rear holds. In the
+# * In the **protrusion**, which lasts $t_p$, the front part becomes long and reaches forward while an anchor behind
+#   it holds. In the
 #   **stance**, which lasts $t_s$, the front end holds, and the rear part becomes short and follows.
 # * A **stride** is a protrusion and a stance. Its length $\Delta$ is how far the body is moved by both.
 # * An earthworm consists of some 150 rings, the segments, counted from the front end. Quillin measured **segment 50**. It lies two
@@ -76,7 +77,8 @@ page.excerpt("cosserat.peristalsis.ground.placed", "for number, poses", "return 
 #
 # ## A gait is data
 #
-# Fronts and anchor are given as tracks of points `[phase, place]`. A phase counts the parts of a stride from its start. A place
+# Fronts and anchor are given as tracks of points `[phase, place]`. A phase is a time, counted in parts of the stride:
+# 1 is the end of the first part, 1.5 the middle of the second. A place
 # is a fraction of the length from the rear end. Here is the gait of the robot:
 #
 # ```toml
@@ -87,8 +89,8 @@ page.excerpt("cosserat.peristalsis.ground.placed", "for number, poses", "return 
 # anchor = [[[0, 0], [2, 0]], [[2, 1], [4, 1]]]
 # ```
 #
-# A cycle begins with a pause. In phase 1 the front $\gamma$ starts at the front end; in phase 2 it has a quarter of the body
-# left, and $\eta$ starts; in phase 3 $\gamma$ leaves the body at the rear end. The anchor is the rear end up to phase 2 and the
+# A cycle begins with a pause. At phase 1 the front $\gamma$ starts at the front end; at phase 2 it has a quarter of the body
+# left, and $\eta$ starts; at phase 3 $\gamma$ leaves the body at the rear end. The anchor is the rear end up to phase 2 and the
 # front end after it.
 #
 # The library refuses a gait with a gap in time, with fronts that cross, with an anchor off the body or on a front, or with
@@ -159,7 +161,7 @@ page.table(
 
 # %% [markdown]
 # An inflated artificial muscle has no longitudinal force, $\bar D = 0$, and a negative pressure $p$. It is short and thick where
-# its load acts, so $\gamma$ and $\eta$ change their parts. With the gait above it crawls backward and anchors with a thin
+# its load acts, so $\gamma$ and $\eta$ exchange their roles. With the gait above it crawls backward and anchors with a thin
 # part; the library gives a warning.
 #
 # ## The earthworm: protrusion and stance
@@ -225,14 +227,16 @@ NUMBERS = {
 # The printed and the corrected equations both give the published stretches and pressure of longitudinal contraction. In circular
 # contraction they differ. The printed ones give the published lateral stretch, and miss the axial stretch and the pressure by
 # less than one unit of the last digit. The corrected ones give other numbers, so the published numbers were computed
-# with the misprint of E2.5. Separate rows show (2.4.18) corrected alone, and with the weight of E2.7.
+# with the misprint of E2.5. E2.5 is about the printed equation (2.4.18). Separate rows show its correction alone, and
+# together with the weight of E2.7.
 
 # %% tags=["remove-input"]
 page.rows("2.8-mu1", "2.8-mu3", "2.8-p-")
 
 # %% [markdown]
 # Quillin gives ratios between the two contractions. The corrected worm agrees with the ratio of lengths, but not with the ratio
-# of widths. No round body of constant volume agrees with both: the square of the one times the other is not 1.
+# of widths. No round body of constant volume agrees with both: the ratio of lengths times the square of the ratio of
+# widths would have to be 1, and it is not.
 
 # %% tags=["remove-input"]
 page.rows("2.8.10", "2.8.6")

@@ -43,7 +43,9 @@ page.figure(
 # %% [markdown]
 # * A **region** is a part of the body in which the same muscles act. In an **anchoring region** the longitudinal muscles act:
 #   it is fat and holds on to the ground. In an **advancing region** the circular muscles act: it is thin and slides.
-# * A **junction** is a place where two regions meet. A junction that travels along the body is a **front**.
+# * A **junction** is a place where two regions meet. A junction that travels along the body is a **front**. Behind a
+#   front $\gamma$ the body anchors, behind a front $\eta$ it advances. This $\gamma$ is not a strain $\gamma_{ij}$.
+# * A **stride** is one cycle of the muscles. After it the body has its first shape again, further on.
 # * A **plateau** is the inner part of a region, in which the stretches are the same everywhere. A **layer** is the short part
 #   round a junction in which they pass from one plateau to the next.
 #
@@ -152,7 +154,8 @@ page.misprint("E2.7")
 #
 # The first line resists each stretch by itself. The second line couples them: pull the body along, and it becomes thin. The
 # third line resists a section that differs from its neighbour. The three stiffnesses follow from Young's modulus $E$ and
-# Poisson's ratio $\nu$, and they are those of Chapter 1. A case may give the bulk modulus in place of one of the two.
+# Poisson's ratio $\nu$, and they are those of Chapter 1. In the library a problem with all its data is a *case*, and
+# the name of each datum is a *key*. A case may give the bulk modulus in place of one of the two.
 #
 # $$
 # k_S = \frac{E \pi R^2 (1 - \nu)}{(1 + \nu)(1 - 2\nu)} , \quad k_P = \frac{\nu}{1 - \nu} k_S , \quad
@@ -174,7 +177,8 @@ page.misprint("E2.7")
 #
 # 2. *The muscles give the contact force.* It is $-\bar{D}\mathbf{e}_3$ in an anchoring region and zero in an advancing one. The
 #    direction of $\mathbf{e}_3$ is taken as constant, though it turns in the layers. The third line of (2.3.2) then gives the stretch along the body from the other two. With $\tilde{p} = k_P/k_S$ and
-#    $\tilde{d} = \bar{D}/k_S$ it is, in the order of the two regions,
+#    $\tilde{d} = \bar{D}/k_S$ it is $\bar\mu_3$ in an anchoring region and $\hat\mu_3$ in an advancing one. This hat
+#    is not that of Chapter 1:
 #
 # $$
 # \bar\mu_3 = 1 - \tilde{d} - \tilde{p} (\mu_1 + \mu_2 - 2) , \tag{2.3.5}
@@ -468,8 +472,8 @@ for own, other, weight in ((mu_1, mu_2, m), (mu_2, mu_1, 0)):
 # %% tags=["remove-input"]
 page.explore(
     "explore_muscles",
-    "Heights are drawn three times as large. Look at the right: where the tension is small, a pressure makes the body longer "
-    "than where it is large, because the contact force of the tension acts in the front half as well.",
+    "Heights are drawn three times as large. Look at the right: the same pressure makes the body longer if the tension is small, "
+    "because the contact force of the tension compresses the front half as well.",
 )
 
 # %% [markdown]
@@ -491,17 +495,20 @@ page.explore(
 #
 # ## Two solvers
 #
-# The thesis writes the equations as a first-order system, maps all regions to one domain and solves them by collocation. The
+# The thesis writes the equations as a first-order system, maps all regions to one domain and solves them by
+# collocation: the unknowns are polynomials, piece by piece, that satisfy the equations at chosen points. The
 # library has this method as a reference (`solver = "collocation"`, SciPy's `solve_bvp`). A stride consists of a hundred
 # such problems, so the library has a faster one for daily work. It divides the body into elements that are short in the layers.
-# The stretches are polynomials in each element, and for each node $k$ with the polynomial $v_k$
+# The stretches are polynomials in each element, given by their values at some points, the nodes. The polynomial $v_k$
+# is 1 at node $k$ and 0 at all others, and for each $k$
 #
 # $$
 # \int_0^1 \left( \frac{d\mu_\alpha}{d\tilde{z}} \frac{dv_k}{d\tilde{z}} + f_\alpha(\mu_1, \mu_2) \, v_k \right) d\tilde{z} = 0 ,
 # $$
 #
 # where $f_\alpha$ is the right-hand side of (2.3.6), (2.3.9) or (2.4.13). The conditions (2.3.13) are contained in this form. The
-# integral is a sum over the nodes, so each node needs the equations of its own region only. Newton's method starts from the state
+# integral is a sum over the nodes, so each node needs the equations of its own region only. Newton's method solves
+# these equations: it replaces them by linear ones, solves those, and repeats this. It starts from the state
 # of the previous instant. The two solvers share the equations and nothing else, so their agreement checks both:
 
 # %% tags=["remove-input"]
@@ -528,7 +535,8 @@ page.misprint("E2.2", "E2.9")
 #
 # ## Loads that are too strong
 #
-# A strong enough load leaves no section. The library refuses such a load before it solves anything, and the message names the
+# A load that is strong enough would press a section to nothing. The library refuses such a load before it solves
+# anything, and the message names the
 # load and the remedy:
 
 # %%
@@ -629,8 +637,9 @@ page.text(
 # ## The shape on the ground
 #
 # The stretches give the shape. Each section stands on the ground, so its centre is at the height of its stretched radius. Let
-# $x$ be the height of the centreline above its height at rest. Two sections are as far apart along the ground as the
-# centreline between them reaches there; $\xi_A$ is the anchored section, whose position is known:
+# $x$ be the height of the centreline above its height at rest. The distance of two sections along the ground is the
+# sum of the level parts of the
+# centreline between them. The position of the anchored section $\xi_A$ is known:
 #
 # $$
 # x(\xi) = R \, (\mu_1(\xi) - 1) , \tag{2.5.7}

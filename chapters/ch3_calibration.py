@@ -51,7 +51,9 @@ page.excerpt("cosserat.studies.calibration.CalibrationProcedure.fit", "start = n
 page.rows("3.4.13")
 
 # %% [markdown]
-# The fit finds $c_1$, $c_2$ and $c_7$ of the thesis, $c_3$ nearly, and not $c_4$, $c_5$ and $c_6$. The thesis says that the beam with two clamps
+# The fit gives $c_1$, $c_2$ and $c_7$ of the thesis, $c_3$ nearly, and not $c_4$, $c_5$ and $c_6$. That it gives
+# $c_2$ proves little: necking does not determine all three of its coefficients, and the fit starts at the published
+# ones. The thesis says that the beam with two clamps
 # confirms what the beam with one clamp gives. It does not: each beam alone gives other coefficients, and both together give a
 # third set.
 

@@ -202,7 +202,8 @@ page.text(
 # {}_K\mathbf{P}_{ext} = \frac{{}_K\mathbf{M}}{{}_K\lambda H} \times {}_K\hat{\mathbf{d}} , \tag{3.3.41}
 # $$
 #
-# which is half as much for a director from the middle to the surface, at half the height. In the code a couple is its work:
+# A director from the middle to the surface has the length $\lambda H/2$, so this is half of the force above. The code
+# computes the work of the couple; the forces are its derivatives:
 
 # %% tags=["remove-input"]
 page.misprint("E3.10")

@@ -18,7 +18,7 @@
 # :::{admonition} After this chapter you can
 # :class: objectives
 # * name the degrees of freedom of the discrete rod, and compute its six strains from them;
-# * say for each of the seven terms of the energy which deformation pays for it, and with which stiffness;
+# * say for each of the seven terms of the energy which deformation it belongs to, and which stiffness it has;
 # * predict the sag of a bar and of a beam by hand, and compare with the computed one;
 # * explain why the published rod needs calibration coefficients, and why they hold for one mesh only.
 # :::
@@ -27,8 +27,11 @@
 #
 # The rod moves in one plane. $\mathbf{E}_3$ points along the straight rod, $\mathbf{E}_2$ points up, and $\mathbf{E}_1$ is
 # normal to the plane. The *centreline* of the rod is a polygon: $N$ points, its *vertices*, are joined by $N - 1$ straight
-# *edges*. Each vertex carries one *director*, a vector in the plane that points from the centreline to the upper surface of
-# the body. So the director says where the cross-section at this vertex points, and how high it is.
+# *edges*. Vertices and edges together are the *mesh*; more vertices make it finer. Each vertex carries one
+# *director*, a vector in the plane that points from the centreline to the upper surface of
+# the body. So the director says where the cross-section at this vertex points, and how high it is. Two things differ
+# from Chapters 1 and 2: there $\mathbf{E}_1$ pointed up, and a reference director had the length 1. Here it is half
+# as long as the section is high, if the centreline is in the middle.
 #
 # Each quantity exists twice: in the *reference configuration*, the rod without loads (capital letters), and in the *current
 # configuration* (small letters). The vertex number $K = 0, \ldots, N - 1$ stands to the left of the letter: below for a
@@ -398,7 +401,7 @@ page.table(lines, ("case", "Newton iterations", "largest unbalanced force [N]", 
 # %% [markdown]
 # ## The four problems
 #
-# A square rod, 5 m long, 0.5 m high and of 1 GPa, hangs along itself, hangs from one clamp, hangs between two clamps, and is
+# A square rod, 5 m long, 0.5 m high and of 1 GPa, hangs straight down, sags from one clamp, sags between two clamps, and is
 # pulled between sections that cannot contract. All four have $N = 20$ vertices and the published coefficients.
 #
 # :::{admonition} The consistent rod
@@ -419,7 +422,8 @@ page.figure(
 # %% [markdown]
 # ### A hanging bar
 #
-# The bar hangs along itself, and its Poisson's ratio is zero. Then no section changes, nothing bends, and only the first term
+# The bar hangs straight down, along $\mathbf{E}_3$, and its Poisson's ratio is zero. Then no section changes, nothing
+# bends, and only the first term
 # of the energy is at work. At the distance $\xi$ from the support the bar carries the weight of what hangs below, so its
 # strain is $\rho_0 g (\ell - \xi)/EA$, with the line density $\rho_0$. The sum of the strains is the displacement,
 #
@@ -498,7 +502,7 @@ page.excerpt("cosserat.exact.beams.clamped_free_displacement", "s = xi")
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_10",
-    "The beam with one clamp: (a) the centreline, (b) the directors. each above its differences from the closed form. Filled "
+    "The beam with one clamp: (a) the centreline, (b) the directors, each above its differences from the closed form. Filled "
     "dots: end vertices with the full area of the section. Hollow squares: with half of it, as the thesis prints. Here the dots "
     "lie near the closed form.",
 )
@@ -537,7 +541,8 @@ page.rows("F3.11")
 #
 # and (3.4.11) then multiplies them by the half Voronoi lengths of the ends. This counts the same half twice: the clamped
 # section keeps a quarter of the shear stiffness of an edge. The table shows the computed sag over the closed form for both
-# readings, with $k = 5/6$ and with $k = 1$, because the thesis does not say which $k$ its beams have. No row has two ones.
+# readings, with $k = 5/6$ and with $k = 1$, because the thesis does not say which $k$ its beams have. In no row are
+# both ratios one.
 
 # %% tags=["remove-input"]
 page.misprint("E3.9", "E3.17")
@@ -642,8 +647,9 @@ page.text(
 # %% tags=["remove-input"]
 page.explore(
     "explore_poisson",
-    "Move Poisson's ratio. With the term as printed the bar contracts about twice as much as it should, and more and more as "
-    "$\\nu$ grows. With half the term, and with the consistent rod, it keeps to $-\\nu n / EA$ far from the ends.",
+    "Move Poisson's ratio. With the term as printed the bar contracts 1.7 times as much as it should at a small "
+    "$\\nu$, and more than three times as much at 0.3. With half the term it is, far from the ends, up to a sixth "
+    "below $-\\nu n / EA$ at a small $\\nu$, and right at 0.3. The consistent rod keeps to this value for every $\\nu$.",
 )
 
 # %% [markdown]

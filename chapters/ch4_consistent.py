@@ -136,8 +136,9 @@ page.misprint("E3.13")
 # ## Convergence
 #
 # A method has *order two* if its error falls to a quarter when each edge is halved. A test on one mesh cannot show this; five
-# meshes can. In the figure and the table $P$ is $PL^2/EI$ of a slender rod under a force across its tip, the *elastica* of
-# the next section but one, and the frequencies are the five lowest of the vibrating beam.
+# meshes can. The number behind $P$ in the figure and the table is $PL^2/EI$ of a slender rod with the force $P$
+# across its tip. An *elastica* is such a rod that bends far.
+# The frequencies are the five lowest of the vibrating beam.
 
 # %% tags=["remove-input"]
 page.figure(
@@ -238,7 +239,7 @@ page.player(
 # %% tags=["remove-input"]
 page.player(
     "play_arch",
-    "Follow the dot over the first limit point: the load falls while the middle of the arch goes on rising. No dead load holds it "
+    "Follow the dot over the first limit point: the load falls while the middle of the arch goes on rising. No constant load holds it "
     "there; it would snap to the other side.",
 )
 

@@ -170,7 +170,7 @@ print(f"a stride is {1e3 * stride:.2f} mm")
 # (12\ \text{cm} - 5\ \text{cm}) \, (\mu_3^\text{thin} - \mu_3^\text{fat}) ,
 # $$
 #
-# and the rear end gets this length back in the second half of the stride.
+# and in the second half of the stride the rear end is pulled forward by the same length.
 
 # %%
 middle = robot.sel(time=1.0)

@@ -18,10 +18,10 @@ from cosserat.figures.style import BODY, COMPUTED, EXACT
 
 Array = NDArray[np.float64]
 
-_OBLIQUE = np.array([[0.0, 1.0], [0.46, 0.34], [1.0, 0.0]])
-"""On paper E_3 points to the right, E_1 up, E_2 obliquely away from the reader; rows are E_1, E_2, E_3."""
-_AWAY = np.array([-0.34, 1.0, -0.46])  # from the reader along the line of sight
-_LIGHT = np.array([0.8, -0.5, -0.33])  # towards the light
+_OBLIQUE = np.array([[0.0, 1.0], [-0.46, -0.34], [1.0, 0.0]])
+"""On paper E_3 points to the right, E_1 up, E_2 obliquely towards the reader; rows are E_1, E_2, E_3."""
+_AWAY = np.array([-0.34, -1.0, -0.46])  # from the reader along the line of sight
+_LIGHT = np.array([0.8, 0.5, -0.33])  # towards the light
 
 
 @dataclass(frozen=True)

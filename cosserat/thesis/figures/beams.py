@@ -75,10 +75,10 @@ def _bent_twisted_and_thin(xi: Array) -> tuple[Array, Array]:
     neck = np.exp(-(((xi - 4.7) / 0.9) ** 2))
     e_3 = np.stack([np.sin(slope), 0 * xi, np.cos(slope)], axis=1)
     up = np.stack([np.cos(slope), 0 * xi, -np.sin(slope)], axis=1)
-    away = np.broadcast_to(np.eye(3)[1], up.shape)
+    beside = np.broadcast_to(np.eye(3)[1], up.shape)
     cos, sin = np.cos(twist)[:, None], np.sin(twist)[:, None]
     thin = (1 - 0.45 * neck)[:, None]
-    d = np.stack([thin * (cos * up + sin * away), thin * (cos * away - sin * up), e_3], axis=1)
+    d = np.stack([thin * (cos * up + sin * beside), thin * (cos * beside - sin * up), e_3], axis=1)
     d[:, 2] *= (1 + 0.4 * neck)[:, None]
     steps = np.diff(xi)[:, None] * (d[1:, 2] + d[:-1, 2]) / 2
     return np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)]), d

@@ -52,7 +52,7 @@ def fig_directed_rod(data: Data) -> Figure:
     for place in _DRAWN:
         k = round(place * (r.shape[0] - 1))
         ax.fill(*skin[k].T, facecolor=PAPER, edgecolor=COMPUTED, linewidth=1.2, alpha=0.85, zorder=3)
-        for number, mu, aside in ((1, state.mu_1, (0, 8)), (2, state.mu_2, (6, 9))):
+        for number, mu, aside in ((1, state.mu_1, (0, 8)), (2, state.mu_2, (-2, -12))):
             tip = r[k] + float(mu[k]) * radius * np.eye(3)[number - 1]
             foot, head = _oblique(np.array([r[k], tip]))
             arrow = {"arrowstyle": "-|>", "color": VARIANT, "shrinkA": 0, "shrinkB": 0, "linewidth": 1.6}
@@ -82,6 +82,6 @@ def _fill_body(ax: Axes, skin: Array) -> None:
 
 
 def _oblique(points: Array) -> Array:
-    """Points (..., 3) on paper, in cm: E_3 to the right, E_1 up, E_2 obliquely away, both magnified."""
+    """Points (..., 3) on paper, in cm: E_3 to the right, E_1 up, E_2 obliquely towards the reader, both magnified."""
     x, y, z = np.moveaxis(points * 1e2, -1, 0)
-    return np.stack([z + _THICKNESS * 0.35 * y, _THICKNESS * (x + 0.25 * y)], axis=-1)
+    return np.stack([z - _THICKNESS * 0.35 * y, _THICKNESS * (x - 0.25 * y)], axis=-1)
