@@ -9,7 +9,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, WIDTH, Picture
+from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
+    BODY,
+    COMPUTED,
+    EXACT,
+    INK,
+    VARIANT,
+    WIDTH,
+    Picture,
+)
 
 Array = NDArray[np.float64]
 _LEAN = 0.3  # of the section that is drawn, from E2 backwards [rad]
@@ -30,7 +40,7 @@ def picture() -> Figure:
         ax.set_aspect("equal")
         ax.grid(visible=False)
         ax.set(xticks=[], yticks=[])
-        ax.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]")
+        ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2)
     return figure
 
 

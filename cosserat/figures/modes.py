@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.rod import draw_loads, draw_outline
-from cosserat.figures.style import BODY, COMPUTED, EXACT, canvas, plain, title_of
+from cosserat.figures.style import ALONG_E2, ALONG_E3, BODY, COMPUTED, EXACT, canvas, plain, title_of
 from cosserat.figures.supports import draw_supports
 from cosserat.rods.problem import RodProblem
 
@@ -117,7 +117,7 @@ def panels(count: int) -> tuple[Figure, list[Axes]]:
 def label(ax: Axes, title: str) -> None:
     """Equal axes with units."""
     ax.set_aspect("equal", adjustable="datalim")
-    ax.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=title)
+    ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, title=title)
 
 
 def _ghost() -> dict[str, str]:

@@ -8,7 +8,17 @@ from matplotlib.figure import Figure
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.rod import draw_loads, draw_outline, magnification
-from cosserat.figures.style import BODY, COMPUTED, EXACT, VARIANT, canvas, plain, title_of
+from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
+    BODY,
+    COMPUTED,
+    EXACT,
+    VARIANT,
+    canvas,
+    plain,
+    title_of,
+)
 from cosserat.figures.supports import draw_masses, draw_supports
 from cosserat.rods.problem import RodProblem
 
@@ -33,8 +43,8 @@ def picture(data: xr.Dataset) -> Figure:
     left.plot(*x[:, -1].T, color=VARIANT, linewidth=0.8, label="last vertex")
     left.set_aspect("equal", adjustable="datalim")
     left.set(
-        xlabel=r"along $\mathbf{E}_3$ [m]",
-        ylabel=r"along $\mathbf{E}_2$ [m]",
+        xlabel=ALONG_E3,
+        ylabel=ALONG_E2,
     )
     left.set_title(f"{title_of(data)}, displacements × {magnified:g}", pad=24)  # above the legend
     right.plot(data.time, data.kinetic_energy, color=COMPUTED, label="kinetic")

@@ -8,7 +8,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosserat.figures.style import COMPUTED, EARLIER, EXACT, INK, VARIANT, canvas, plain, title_of
+from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
+    COMPUTED,
+    EARLIER,
+    EXACT,
+    INK,
+    VARIANT,
+    canvas,
+    plain,
+    title_of,
+)
 
 Array = NDArray[np.float64]
 
@@ -18,9 +29,7 @@ def picture(data: xr.Dataset) -> Figure:
     figure, (left, right) = canvas(7.2, 3.4, 1, 2)
     draw_shapes(left, data)
     left.set_aspect("equal", adjustable="datalim")
-    left.set(
-        xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=title_of(data)
-    )
+    left.set(xlabel=ALONG_E3, ylabel=ALONG_E2, title=title_of(data))
     moved = np.linalg.norm(data.x.to_numpy() - data.x_ref.to_numpy(), axis=2).max(axis=1)
     draw_path(right, moved, data.load_factor.to_numpy(), data)
     draw_special(right, data)

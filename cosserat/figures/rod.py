@@ -11,7 +11,17 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, VARIANT, canvas, title_of
+from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
+    BODY,
+    COMPUTED,
+    EXACT,
+    INK,
+    VARIANT,
+    canvas,
+    title_of,
+)
 from cosserat.figures.supports import draw_masses, draw_supports
 from cosserat.rods.loads.dead import LineLoad, PointForce
 from cosserat.rods.loads.following import FollowerForce, FollowerLineLoad
@@ -39,7 +49,7 @@ def picture(data: xr.Dataset) -> Figure:
     draw_body(top, data, magnified)
     top.set_aspect("equal", adjustable="datalim")
     top.set_title(f"{title_of(data)}, displacements × {magnified:g}")
-    top.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]")
+    top.set(xlabel=ALONG_E3, ylabel=ALONG_E2)
     curves = [
         (data.u.sel(axis="E3"), "displacement along E3 [m]"),
         (data.u.sel(axis="E2"), "displacement along E2 [m]"),

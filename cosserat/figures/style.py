@@ -28,6 +28,8 @@ CONSISTENT, EARLIER = INK, "#5f93c4"
 CURVES = (INK, EXACT, COMPUTED, VARIANT, FOURTH)
 """Black, grey, blue, vermilion and purple: told apart also by a deuteranope, and dark enough for text."""
 
+ALONG_E3, ALONG_E2 = r"along $\mathbf{E}_3$ [m]", r"along $\mathbf{E}_2$ [m]"
+"""Labels of the axes of a plane in which a rod lies."""
 WIDTH = 5.0
 """Width of a picture of the book [in]: its texts are read on a phone, whose column is two thirds of it."""
 

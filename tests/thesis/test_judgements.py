@@ -12,6 +12,7 @@ from cosserat.thesis.book.tables import prose, typeset
 from cosserat.thesis.table.citations import places
 from cosserat.thesis.table.errata import read_errata
 from cosserat.thesis.table.left_out import read_left_out
+from cosserat.thesis.table.tolerances import read_report
 
 ERRATA = read_errata(ROOT / "results/errata.toml")
 LISTED = read_left_out(ROOT / "results/left_out.toml")
@@ -20,9 +21,9 @@ LISTED = read_left_out(ROOT / "results/left_out.toml")
 @pytest.fixture(autouse=True)
 def report(monkeypatch):
     """The released report, which is there without any run."""
-    rows = judgements.read_report(ROOT / "results/reference/report.csv")
+    rows = read_report(ROOT / "results/reference/report.csv")
     for module in (judgements, equation_list):
-        monkeypatch.setattr(module, "read_report", lambda _: rows)
+        monkeypatch.setattr(module, "report", lambda: rows)
     return rows
 
 

@@ -10,11 +10,10 @@ from IPython.display import HTML
 
 from cosserat.errors import InputError
 from cosserat.thesis.book.tables import prose
-from cosserat.thesis.book.verdicts import errata
+from cosserat.thesis.book.verdicts import errata, report
 from cosserat.thesis.book.workflow import results
 from cosserat.thesis.table.citations import Place, cited, places
 from cosserat.thesis.table.left_out import LeftOut, LeftOutList, read_left_out
-from cosserat.thesis.table.tolerances import read_report
 
 _MOST = 4  # places of one sort that a line names
 _COLUMNS = ("equation", "in the book", "in the library", "in a test", "misprints and rows")
@@ -141,7 +140,7 @@ def _judged() -> dict[str, list[str]]:
     for name, item in errata().items():
         for number in cited(item.where):
             found.setdefault(number, []).append(name)
-    for row in read_report(results() / "report.csv"):
+    for row in report():
         for number in cited(row["where"]):
             found.setdefault(number, []).append(row["id"])
     return found

@@ -13,10 +13,9 @@ from IPython.display import HTML
 from cosserat.errors import InputError
 from cosserat.thesis.book.module_pages import coloured
 from cosserat.thesis.book.tables import prose, typeset
-from cosserat.thesis.book.verdicts import Row, amount, errata
+from cosserat.thesis.book.verdicts import Row, amount, errata, report
 from cosserat.thesis.book.workflow import results
 from cosserat.thesis.table.errata import Erratum
-from cosserat.thesis.table.tolerances import read_report
 
 _WORDS = {
     "erratum": "misprint",
@@ -75,9 +74,7 @@ def _definition(file: Path, name: str) -> str:
 
 def results_table() -> HTML:
     """Every attempted row of the report, verdict first, to filter and to sort; reasons fold."""
-    attempted = [
-        row for row in read_report(results() / "report.csv") if row["standing"] != "not attempted"
-    ]
+    attempted = [row for row in report() if row["standing"] != "not attempted"]
     head = "".join(f'<th scope="col">{name}</th>' for name in _COLUMNS)
     body = "".join(_line(row) for row in attempted)
     total = f'<tr><td colspan="{len(_COLUMNS)}">{total_of(attempted)}</td></tr>'

@@ -19,6 +19,8 @@ from cosserat.exact import beams
 from cosserat.figures.crawlers import THINNED
 from cosserat.figures.rod import draw_loads, draw_outline
 from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
     BODY,
     COMPUTED,
     CONSISTENT,
@@ -40,7 +42,6 @@ Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
 
 _ALONG = r"arc length $\xi$ [m]"
-_E3, _E2 = r"along $\mathbf{E}_3$ [m]", r"along $\mathbf{E}_2$ [m]"
 _THIN = THINNED  # the thinnest section
 _SECTIONS = LinearSegmentedColormap.from_list("sections", [BODY, "#f4efe4", _THIN])
 _CURVE_POINTS = 401  # points of a closed form's curve
@@ -59,7 +60,7 @@ def fig_3_8(data: Data) -> Figure:
     for ax, (name, title, magnified, sections, heights) in zip(axes, panels, strict=True):
         _equilibrium(ax, data[name], data[f"{name}_consistent"], magnified, sections)
         ax.set_aspect("equal")
-        ax.set(title=title, xlabel=_E3, ylabel=_E2, xlim=(-1.0, 7.7), ylim=heights)
+        ax.set(title=title, xlabel=ALONG_E3, ylabel=ALONG_E2, xlim=(-1.0, 7.7), ylim=heights)
     problem = problem_of(data["necking"], RodProblem)
     beam = beam_of(problem)
     end = beam.length * (1 + panels[-1][2] * tension_of(problem) / beam.axial_stiffness)

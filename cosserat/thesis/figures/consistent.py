@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from cosserat.exact import elastica
 from cosserat.figures.path import draw_path, draw_shapes
 from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
     BODY,
     COMPUTED,
     EARLIER,
@@ -86,7 +88,7 @@ def fig_far(data: Data) -> Figure:
     )
     for ax, (name, title) in zip(axes, titles, strict=True):
         draw_shapes(ax, data[name])
-        ax.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", title=title)
+        ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, title=title)
         ax.set_aspect("equal")
         ax.set(xlim=(-0.2, 1.05), ylim=(-0.1, 0.9), xticks=[0, 0.5, 1], yticks=[0, 0.5])
     return figure
@@ -136,7 +138,7 @@ def fig_tumbling(data: Data) -> Figure:
         text, va = f"{1e3 * float(flight.time[k]):.0f} ms", "top" if below else "bottom"
         beside(top, (end[0], end[1]), text, (9, -3) if below else (0, 3), ha="center", va=va)
     top.set_aspect("equal")
-    top.set(xlabel=r"along $\mathbf{E}_2$ [m]", ylabel=r"along $\mathbf{E}_3$ [m]", title="(a) flight")
+    top.set(xlabel=ALONG_E2, ylabel=ALONG_E3, title="(a) flight")
     top.margins(0.06, 0.2)
     energy = (flight.kinetic_energy + flight.strain_energy).to_numpy()[:, None]
     kept = (

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.figures.conventions import arrow, label
-from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, WIDTH, canvas
+from cosserat.figures.style import ALONG_E2, ALONG_E3, COMPUTED, EXACT, INK, VARIANT, WIDTH, canvas
 
 Array = NDArray[np.float64]
 _AXIAL, _SLIDE = 1.25, -0.3  # a and g of the drawn edge [1]
@@ -45,7 +45,7 @@ def fig_edge_strains(data: Mapping[str, xr.Dataset]) -> Figure:
     _draw_turn(ax, last)
     ax.set_aspect("equal")
     ax.grid(visible=False)
-    ax.set(xlabel=r"along $\mathbf{E}_3$ [m]", ylabel=r"along $\mathbf{E}_2$ [m]", xlim=(-0.35, 1.6))
+    ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, xlim=(-0.35, 1.6))
     return figure
 
 

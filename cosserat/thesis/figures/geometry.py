@@ -11,15 +11,25 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
-from cosserat.figures.style import BODY, COMPUTED, EXACT, INK, PAPER, VARIANT, WIDTH, Picture, canvas
+from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
+    BODY,
+    COMPUTED,
+    EXACT,
+    INK,
+    PAPER,
+    VARIANT,
+    WIDTH,
+    Picture,
+    canvas,
+)
 from cosserat.rods.energies.hemingway_kernel import squared_tangent, stretching
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry, strains, vertex_tangents
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
-
-_ALONG, _UP = r"along $\mathbf{E}_3$ [m]", r"along $\mathbf{E}_2$ [m]"
 
 
 def _arrow(ax: Axes, foot: Array, vector: Array, colour: str, label: str = "", far: float = 11) -> None:
@@ -76,7 +86,7 @@ def fig_3_1(data: Data) -> Figure:
     axes[1].set_title(r"(b) current: ${}_K\mathbf{x}$, ${}_K\mathbf{d}$")
     for ax, heights in zip(axes, (low, middle), strict=True):
         ax.set_aspect("equal")
-        ax.set(xlabel=_ALONG, ylabel=_UP, xlim=high, ylim=heights)
+        ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, xlim=high, ylim=heights)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
@@ -129,7 +139,7 @@ def fig_3_2(data: Data) -> Figure:
         )
     _label(ax, below[count // 2], np.array([48, -14]), f"length $L$ = {rod.length:g} m")
     ax.set_aspect("equal")
-    ax.set(xlabel=_ALONG, ylabel=_UP, xlim=(-0.3, 5.15), ylim=(-0.85, 1.75))
+    ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, xlim=(-0.3, 5.15), ylim=(-0.85, 1.75))
     figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
@@ -154,7 +164,9 @@ def fig_3_3(data: Data) -> Figure:
     for ax in (left, right):
         ax.set_aspect("equal")
         ax.grid(visible=False)
-        ax.set(xlim=(-0.7, 0.42), ylim=(-0.43, 0.47), xlabel=r"along $\mathbf{E}_1$ [m]", ylabel=_UP)
+        ax.set(
+            xlim=(-0.7, 0.42), ylim=(-0.43, 0.47), xlabel=r"along $\mathbf{E}_1$ [m]", ylabel=ALONG_E2
+        )
     return figure
 
 
@@ -231,7 +243,7 @@ def fig_3_4(data: Data) -> Figure:
     for k, aside in ((K - 1, (-8, 10)), (K, (14, 9)), (K + 1, (13, 5))):
         _label(ax, x[k], np.array(aside), rf"${{}}_{k}\mathbf{{x}}$")
     ax.set_aspect("equal")
-    ax.set(xlabel=_ALONG, ylabel=_UP, xlim=(0.5, 3.25), ylim=(-0.3, 1.72))
+    ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, xlim=(0.5, 3.25), ylim=(-0.3, 1.72))
     figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
@@ -270,7 +282,7 @@ def fig_3_5(data: Data) -> Figure:
             )
             ax.plot(*x.T, color=colour, marker="" if n > 100 else "o", label=label)
         ax.set_aspect("equal")
-        ax.set(xlabel=_ALONG, ylabel=_UP, title=title, xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
+        ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, title=title, xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
         ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), labelspacing=1.2)
     return figure
 
@@ -309,7 +321,7 @@ def fig_3_6(data: Data) -> Figure:
     for ax, title in ((left, "(a) tangents and director"), (right, "(b) Bishop vector and angles")):
         ax.set_aspect("equal")
         ax.grid(visible=False)
-        ax.set(xlim=(-1.85, 1.45), ylim=(-0.5, 1.3), xlabel=_ALONG, ylabel=_UP, title=title)
+        ax.set(xlim=(-1.85, 1.45), ylim=(-0.5, 1.3), xlabel=ALONG_E3, ylabel=ALONG_E2, title=title)
     return figure
 
 

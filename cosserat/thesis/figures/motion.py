@@ -14,6 +14,7 @@ from cosserat.data.dataset import problem_of
 from cosserat.exact import beams, elastica
 from cosserat.figures.rod import draw_outline
 from cosserat.figures.style import (
+    ALONG_E3,
     BODY,
     COMPUTED,
     CONSISTENT,
@@ -119,7 +120,7 @@ def fig_modes(data: Data) -> Figure:
                 ax.annotate("", tuple(x[k]), tuple(geometry.X[k] - u[k]), arrowprops=arrow, zorder=5)
         ax.set_aspect("equal")
         ax.set(
-            xlabel=r"along $\mathbf{E}_3$ [m]",
+            xlabel=ALONG_E3,
             ylabel=r"$\mathbf{E}_2$ [m]",
             xlim=(-0.05 * problem.rod.length, 1.1 * problem.rod.length),
             ylim=(-0.14 * problem.rod.length, 0.14 * problem.rod.length),

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import problem_of
 from cosserat.figures.rod import draw_body, draw_outline
 from cosserat.figures.style import (
+    ALONG_E2,
+    ALONG_E3,
     BODY,
     COMPUTED,
     CONSISTENT,
@@ -29,13 +31,12 @@ from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]
-_ALONG, _UP = r"along $\mathbf{E}_3$ [m]", r"along $\mathbf{E}_2$ [m]"
 _SAG = 20  # magnification of displacements under the weight
 
 
 def _plane(ax: Axes, title: str) -> None:
     ax.set_aspect("equal", adjustable="datalim")
-    ax.set(xlabel=_ALONG, ylabel=_UP, title=title)
+    ax.set(xlabel=ALONG_E3, ylabel=ALONG_E2, title=title)
 
 
 def fig_varied_sections(data: Data) -> Figure:
