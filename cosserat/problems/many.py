@@ -30,7 +30,7 @@ from cosserat.rods.sections.plain import Circle, Ellipse, Rectangle, Square
 from cosserat.rods.space import RodSpace
 from cosserat.solution import Field, Many
 from cosserat.solvers.banded import Mask
-from cosserat.solvers.many import Family, member
+from cosserat.solvers.many import Family
 from cosserat.solvers.members import REACHED, Answers, Members
 from cosserat.solvers.system import MechanicalSystem
 
@@ -178,7 +178,7 @@ def members_of(
     """
     varied = _with(problem, columns)
     count = next(iter(columns.values())).size
-    one = member(system)
+    one = system.member
     geometry, rod = problem.geometry, problem.rod
     every = Members._make(np.repeat(values, count, axis=0) for values in one)
     if any(key in OF_BODY for key in columns):

@@ -41,7 +41,7 @@ class RodSpace:
     displacements: bool
     rounded: Vector
 
-    @property
+    @cached_property
     def dimension(self) -> int:
         """Dimension of the space of positions and directors."""
         return self.kinematics.dimension

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numba import njit
 from numba import types as numba_types
-from numba.core.dispatcher import Dispatcher
 from numba.experimental import function_type
 from numpy.typing import NDArray
 
@@ -81,17 +80,8 @@ class Family:
     @classmethod
     def of(cls, system: MechanicalSystem, settings: NewtonSettings) -> Family | None:
         """That of one body; None where the loop cannot take it."""
-        own, space = system.internal, system.space.compiled
-        plain = not (system.attached or system.held or system.frame.oblique or system.constraints.moving)
-        if not plain or space is None or system.began is not None or system.damping_rate:
-            return None
-        if not own.symmetric or own.history.size or own.level is not None:
-            return None
-        if not isinstance(own.evaluate, Dispatcher):  # plain Python in place of a compiled kernel
-            return None
-        if not all(p.linear and p.level is None and not p.history.size for p in system.external):
-            return None
-        if system.constrained.size * settings.load_increments > _MOST_WORK:
+        own, space, size = system.internal, system.space.compiled, system.constrained.size
+        if space is None or not system.simple or size * settings.load_increments > _MOST_WORK:
             return None
         kernel, _, parts = space
         return cls(
@@ -120,29 +110,13 @@ class Family:
         return answers
 
 
-def member(system: MechanicalSystem) -> Members:
-    """One body of a family as an array of one."""
-    own, space, n = system.internal, system.space, system.constrained.size
-    assert space.compiled is not None
-    origin = np.zeros(n) if own.origin is None else own.origin
-    return Members(
-        own.data[None],
-        origin[None],
-        space.compiled[1][None],
-        space.scale[None],
-        system.start[None],
-        system.dead_load[None],
-        np.array([system.load_sizes]),
-    )
-
-
 def climbed(solver: EquilibriumSolver) -> Equilibrium | None:
     """The equilibrium under the full load by the compiled loop; None where it cannot take the body, or leaves it."""
     system = solver.system
     family = Family.of(system, solver.settings)
     if family is None:
         return None
-    found = family.solve(member(system))
+    found = family.solve(system.member)
     if found.status[0] != REACHED:
         return None
     (forces,), (counts,) = found.forces.tolist(), found.counts.tolist()

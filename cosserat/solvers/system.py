@@ -12,6 +12,7 @@ from math import isfinite
 from typing import NamedTuple, Protocol
 
 import numpy as np
+from numba.core.dispatcher import Dispatcher
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import (
@@ -28,6 +29,7 @@ from cosserat.solvers.banded import (
 from cosserat.solvers.damping import NO_MODES, DampedModes, damped_like
 from cosserat.solvers.frames import NO_FRAME, Frame
 from cosserat.solvers.indefinite import Factors
+from cosserat.solvers.members import Members
 from cosserat.solvers.potential import Level, Potential
 
 Fields = NDArray[np.float64]
@@ -180,6 +182,38 @@ class MechanicalSystem:
         """Whether all its forces have a potential."""
         return all(potential.symmetric for potential in self.potentials)
 
+    @cached_property
+    def simple(self) -> bool:
+        """Whether it is one compiled potential under dead loads, and its constrained DOFs stay where they are."""
+        own, compiled = self.internal, self.space.compiled is not None
+        compiled &= isinstance(own.evaluate, Dispatcher)  # else it is plain Python
+        plain = not (self.attached or self.held or self.frame.oblique or self.constraints.moving)
+        elastic = own.symmetric and not own.history.size and own.level is None
+        return (
+            compiled
+            and plain
+            and elastic
+            and self.began is None
+            and not self.damping_rate
+            and all(p.linear and p.level is None and not p.history.size for p in self.external)
+        )
+
+    @cached_property
+    def member(self) -> Members:
+        """A simple one as an array of one for `solvers.climb`."""
+        own, space = self.internal, self.space
+        assert space.compiled is not None
+        origin = np.zeros(self.constrained.size) if own.origin is None else own.origin
+        return Members(
+            own.data[None],
+            origin[None],
+            space.compiled.placed[None],
+            space.scale[None],
+            self.start[None],
+            self.dead_load[None],
+            np.array([self.load_sizes]),
+        )
+
     @property
     def inertia(self) -> Band:
         """The mass of a body that moves."""
@@ -240,8 +274,8 @@ class MechanicalSystem:
         return float(size.max()), float(size.sum())
 
     def prepared(self) -> MechanicalSystem:
-        """The same, with the sizes of its loads and of its DOFs computed, which every solver asks for."""
-        for known in (self.load_sizes, self.potentials, self.space.scale):
+        """The same, with what every solver asks for computed: sizes of loads and of DOFs, and it for compiled code."""
+        for known in (self.load_sizes, self.potentials, self.space.scale, self.simple and self.member):
             assert known is not None
         return self
 

@@ -10,7 +10,6 @@ import cosserat
 from cosserat.errors import InputError
 from cosserat.problems.many import in_range, members_of, solve_many
 from cosserat.quantities import Quantity
-from cosserat.solvers.many import member
 
 SLENDER = {"vertices": 9}
 ROUND = {
@@ -100,7 +99,7 @@ def test_a_member_has_the_bits_of_its_single_run(name):
     every, _, _ = members_of(problem, columns, problem.system(problem.geometry))
     for number in range(3):
         alone = single(problem, columns, number)
-        one = member(alone.system(alone.geometry))
+        one = alone.system(alone.geometry).member
         for part, values, expected in zip(every._fields, every, one, strict=True):
             assert (values[number] == expected[0]).all(), part
         solution = alone.solve("alone")
