@@ -135,11 +135,13 @@ def factorise(band: Fields, held: Mask) -> bool:
 def _hold_apart(band: Fields, held: Mask) -> None:
     """Uncouple the constrained DOFs of a band (n + w, w), and make their diagonal one."""
     for j in range(held.size):
+        if not held[j]:
+            continue
+        band[j, 0] = 1.0
         for k in range(1, band.shape[1]):
-            if held[j] or (j + k < held.size and held[j + k]):
-                band[j, k] = 0.0
-        if held[j]:
-            band[j, 0] = 1.0
+            band[j, k] = 0.0
+            if k <= j:
+                band[j - k, k] = 0.0
 
 
 @njit(cache=True, error_model="numpy")
@@ -184,6 +186,39 @@ def _solve(factor: Fields, n: int, width: Any, room: Vector) -> None:
         for k in range(1, len(width)):
             total -= factor[j, k] * room[j + k]
         room[j] = total * factor[j, 0]
+
+
+@njit(cache=True)
+def substitute_both(factor: Fields, x: Vector, y: Vector, rooms: Fields) -> None:
+    """Overwrite two right-hand sides (n,) with the solutions; rooms : (2, n + w) is overwritten."""
+    rooms[0, : x.size], rooms[1, : x.size] = x, y
+    if factor.shape[1] == len(_UNROLLED):
+        _solve_both(factor, x.size, _UNROLLED, rooms[0], rooms[1])
+    else:
+        _solve_both(factor, x.size, range(factor.shape[1]), rooms[0], rooms[1])
+    x[:], y[:] = rooms[0, : x.size], rooms[1, : x.size]
+
+
+@njit(cache=True)
+def _solve_both(factor: Fields, n: int, width: Any, x: Vector, y: Vector) -> None:
+    """Overwrite the first n numbers of two right-hand sides (n + w,) with the solutions.
+
+    The number known last is subtracted last: what depends on no other goes on meanwhile.
+    """
+    x[n:] = y[n:] = 0.0
+    for j in range(n):
+        x[j] *= factor[j, 0]
+        y[j] *= factor[j, 0]
+        for k in range(1, len(width)):
+            x[j + k] -= factor[j, k] * x[j]
+            y[j + k] -= factor[j, k] * y[j]
+    x[n:] = y[n:] = 0.0
+    for j in range(n - 1, -1, -1):
+        one, other = x[j], y[j]
+        for k in range(len(width) - 1, 0, -1):
+            one -= factor[j, k] * x[j + k]
+            other -= factor[j, k] * y[j + k]
+        x[j], y[j] = one * factor[j, 0], other * factor[j, 0]
 
 
 @njit(cache=True)
@@ -359,7 +394,7 @@ def respond(around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector,
     """
     n = q.size
     residual, reaction = balance(around.gradient, around.held, step)
-    rounding = _EPS * largest_product(around.band, q, around.scale, around.room[:n])
+    rounding = _EPS * largest_product(around.band, q, around.scale, around.rooms[0, :n])
     for i in range(n):
         rate[i] = 0.0 if around.held[i] else -around.rate[i]
     last, scale = state[RESIDUAL], max(abs(state[FACTOR]) * plane.load, reaction)
@@ -370,9 +405,10 @@ def respond(around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector,
     around.factor[:n] = around.band
     around.factor[n:] = 0.0
     if not around.skew.shape[0] and factorise(around.factor, around.held):
-        if not balanced:
-            substitute(around.factor, step, around.room)
-        substitute(around.factor, rate, around.room)
+        if balanced:
+            substitute(around.factor, rate, around.rooms[0])
+        else:
+            substitute_both(around.factor, step, rate, around.rooms)
     else:
         _respond_indefinite(around, step, rate, state, balanced)
     if balanced:
@@ -589,7 +625,7 @@ def _of_address(
         arcs.load,
         np.empty(n),
         around.gradient,
-        around.room,
+        around.rooms[0],
         around.band,
         around.skew,
         np.empty(numbers.terms),

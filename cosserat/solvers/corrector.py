@@ -76,7 +76,7 @@ def _compiled() -> Callable[..., int]:
     numbers = types.NamedTuple((types.uint8[::1], vector, vector, vector, whole), Numbers)
     held, pivots = types.boolean[::1], types.int64[::1]
     around = types.NamedTuple(
-        (vector, vector, matrix, matrix, vector, held, matrix, vector, matrix, pivots), Around
+        (vector, vector, matrix, matrix, vector, held, matrix, matrix, matrix, pivots), Around
     )
     arcs = types.NamedTuple((number, number, whole, *(number,) * (len(Arcs._fields) - 3)), Arcs)
     found = types.NamedTuple((*(matrix,) * (len(Found._fields) - 1), vector), Found)
@@ -126,7 +126,7 @@ class Corrector:
             system.space.scale,
             system.constrained,
             np.zeros((n + width, width)),
-            np.empty(n + width),
+            np.empty((2, n + width)),
             np.empty((n, 3 * width - 2)),
             np.empty(n, dtype=np.int64),
         )

@@ -186,7 +186,7 @@ class Around(NamedTuple):
     """Work space of corrections.
 
     gradient, rate : (n,) assembled last, and its derivative by the load factor [N].  band, skew : (n, w) the Hessian,
-    as in `Tangent`.  scale, held : (n,) as in `Body`.  factor, room : (n + w, w) and (n + w,).  lu, pivots : as of
+    as in `Tangent`.  scale, held : (n,) as in `Body`.  factor, rooms : (n + w, w) and (2, n + w).  lu, pivots : as of
     `solvers.climb.decompose`.
     """
 
@@ -197,7 +197,7 @@ class Around(NamedTuple):
     scale: Vector
     held: Mask
     factor: Fields
-    room: Vector
+    rooms: Fields
     lu: Fields
     pivots: NDArray[np.int64]
 
