@@ -96,13 +96,13 @@ class RodPath(GrownProblem):
             branches=int(self.arc.branch == "leave"),
         )
         points: list[Equilibrium] = []
-        at_rest, furthest = self.rod.strain_energy.reference(geometry), 0.0
+        at_rest, split = self.rod.strain_energy.reference(geometry), self.rod.kinematics.split
+        below, furthest = self.rod.below, 0.0
         try:
             for point in trace_path(solver, unloaded(solver), arc):
                 reached = f"{point.factor:.4g} of the load"
-                vectors = self.rod.kinematics.split(at_rest + point.unframed(system).q)
-                x, d = vectors[:, 0], vectors[:, 1]
-                check_crossing(geometry, x, d, self.rod.below, f"{name}, {reached}")
+                vectors = split(at_rest + point.unframed(system).q)
+                check_crossing(geometry, vectors[:, 0], vectors[:, 1], below, f"{name}, {reached}")
                 points.append(point)
                 furthest = max(furthest, point.factor)
                 run.progress(min(furthest, 1.0), reached)
