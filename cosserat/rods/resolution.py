@@ -64,16 +64,16 @@ def _along(x: Array, d: Array, K: int, one: float, two: float) -> float:
     p, r = p / both, r / both
     along = x[K + 1, 0] + two * e - (x[K, 0] + one * u)
     across = x[K + 1, 1] + two * f - (x[K, 1] + one * v)
-    return along * r - across * p
+    return float(along * r - across * p)
 
 
 @njit(cache=True, error_model="numpy")
 def _apart(x: Array, d: Array, lower: float) -> bool:
     """Whether no neighbouring sections of a configuration cross."""
+    apart = True
     for K in range(x.shape[0] - 1):
-        if not (_along(x, d, K, 1.0, 1.0) > 0 and _along(x, d, K, -lower, -lower) > 0):
-            return False
-    return True
+        apart &= _along(x, d, K, 1.0, 1.0) > 0 and _along(x, d, K, -lower, -lower) > 0
+    return apart
 
 
 def check_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: str) -> None:

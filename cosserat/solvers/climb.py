@@ -509,7 +509,7 @@ def _correct(
 def _length(body: Body, q: Vector, change: Vector, rise: float) -> float:
     """Length of a change of the DOFs, in step limits, and of the load factor."""
     size = 1 / body.space(FRACTION, body.placed, q, change, body.held, body.skew)
-    return np.sqrt(size * size + rise * rise)
+    return float(np.sqrt(size * size + rise * rise))
 
 
 @njit(cache=True)
@@ -518,7 +518,7 @@ def _product(one: Vector, rise: float, other: Vector, slope: float, weight: floa
     total = 0.0
     for i in range(one.size):
         total += one[i] * other[i]
-    return total + weight * rise * slope
+    return float(total + weight * rise * slope)
 
 
 @njit(cache=True, error_model="numpy")
@@ -565,10 +565,10 @@ def follow(
     The last arc is one in which an eigenvalue changes its sign, the load turns back or passes one of its bounds, or one
     after which there is no other.  start : DOFs and direction.  found : is overwritten.
     """
-    body = _of_address(kernel_address, space_address, numbers, around, arcs)
+    body, most = _of_address(kernel_address, space_address, numbers, around, arcs), len(found.q)
     (q, way), factor, rise, ds = start, arcs.factor, arcs.slope, arcs.ds
     negative, lost, state = arcs.negative, 0.0, np.zeros(STATE)
-    for k in range(found.q.shape[0]):
+    for k in range(most):
         first, good = ds, False
         weight = _product(way, 0.0, way, 0.0, 0.0)
         answer = found.q[k], found.direction[k], found.rate[k], state
@@ -591,7 +591,7 @@ def follow(
             return k + 1
         q, way, factor, rise = found.q[k], found.direction[k], state[FACTOR], slope
         ds, lost = next_arc(ds, int(lost), arcs.longest), 0.0
-    return found.q.shape[0]
+    return most
 
 
 @njit(cache=True)

@@ -101,11 +101,18 @@ class Balance:
 
 
 class _Ahead:
-    """Arcs that are found, how many, and from which point the next one goes."""
+    """Arcs that are found, the number of the next one, and the point from which it goes."""
 
     def __init__(self, found: Found, count: int) -> None:
-        self.found, self.count, self.next = found, count, 0
+        self.found, self.next = found, 0
+        self.states: list[list[float]] = found.state[:count].tolist()
+        self.arcs: list[list[float]] = found.arc[:count].tolist()
         self.last: Equilibrium | None = None
+
+    def goes_on(self, point: Equilibrium, ds: float) -> bool:
+        """Whether the next arc goes from this point with this length."""
+        known = self.last is point and self.next < len(self.arcs)
+        return known and self.arcs[self.next][TRIED] == ds
 
 
 _NOTHING_AHEAD = _Ahead(Found.empty(0, 0), 0)
@@ -162,7 +169,7 @@ class Corrector:
         )
         count = self._follow(arcs, (point.q, direction[0]), found)
         self.solver.iterations += int(found.lost[0])
-        return self._end(found, 0, point) if count else None
+        return self._end(found, 0, found.state[0].tolist(), point.history) if count else None
 
     def onward(
         self,
@@ -177,21 +184,17 @@ class Corrector:
         Further arcs are kept for the next calls.  most : how many there may be.
         """
         ahead = self._ahead
-        if (
-            ahead.last is not point
-            or ahead.next >= ahead.count
-            or ahead.found.arc[ahead.next, TRIED] != ds
-        ):
+        if not ahead.goes_on(point, ds):
             ahead = self._look_ahead(point, direction, ds, bounds, most)
-            if ahead.count == 0:
+            if not ahead.arcs:
                 self.solver.iterations += int(ahead.found.lost[0])
                 return None
-        k, found = ahead.next, ahead.found
-        _, length, slope, steps = found.arc[k].tolist()
+        k = ahead.next
+        _, length, slope, steps = ahead.arcs[k]
         self.solver.iterations += int(steps)
-        end = self._end(found, k, point)
+        end = self._end(ahead.found, k, ahead.states[k], point.history)
         ahead.last, ahead.next = end, k + 1
-        return end, (found.direction[k], slope), length
+        return end, (ahead.found.direction[k], slope), length
 
     def _look_ahead(
         self,
@@ -230,14 +233,14 @@ class Corrector:
             tolerance=self.solver.settings.tolerance,
         )
 
-    def _end(self, found: Found, k: int, point: Equilibrium) -> Equilibrium:
-        """The end of an arc of those found from a point."""
-        solver, state = self.solver, found.state[k].tolist()
+    def _end(self, found: Found, k: int, state: list[float], history: History) -> Equilibrium:
+        """The end of an arc, and what the last attempt of the solver has left unbalanced."""
+        solver = self.solver
         solver.residual, solver.tolerance = state[RESIDUAL], state[TOLERANCE]
         return Equilibrium(
             found.q[k],
             state[FACTOR],
-            point.history,
+            history,
             found.reaction[k],
             solver.iterations,
             solver.residual,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector
-from cosserat.solvers.climb import decompose, iterate_inverse, lowest_motion, resolve
+from cosserat.solvers.climb import decompose, iterate_inverse, lowest_motion, negative_pivots, resolve
 
 
 class Factors:
@@ -35,6 +35,14 @@ class Factors:
             return None
         x = start.copy()
         return iterate_inverse(self.factors, self.pivots, x), x
+
+
+def negative_eigenvalues(band: Band) -> int:
+    """How many eigenvalues are negative."""
+    n, width = band.shape
+    work = np.zeros((n + width, width))
+    work[:n] = band
+    return int(negative_pivots(work, n))
 
 
 def lowest_eigenvector(band: Band, constrained: Mask) -> Vector:

@@ -178,8 +178,10 @@ class Found(NamedTuple):
     @classmethod
     def empty(cls, arcs: int, dofs: int) -> Found:
         """Nothing found yet."""
-        ends = (np.empty((arcs, dofs)) for _ in range(4))
-        return cls(*ends, np.empty((arcs, STATE)), np.empty((arcs, 4)), np.empty(1))
+        q, direction, rate, reaction = np.empty((4, arcs, dofs))
+        return cls(
+            q, direction, rate, reaction, np.empty((arcs, STATE)), np.empty((arcs, 4)), np.empty(1)
+        )
 
 
 class Around(NamedTuple):

@@ -25,15 +25,25 @@ def path(name):
 @pytest.mark.parametrize("name", ["column_path", "arch_path"])
 def test_the_compiled_loop_and_single_steps_find_one_path(monkeypatch, name):
     solver, found = path(name)
-    assert solver.corrector._loop is not None
+    assert solver.corrector.compiled
     monkeypatch.setattr(corrector.Family, "of", lambda *_: None)
     other, stepped = path(name)
-    assert other.corrector._loop is None
+    assert not other.corrector.compiled
     assert [p.negative for p in found] == [p.negative for p in stepped]
     for one, two in zip(found, stepped, strict=True):
         assert one.factor == pytest.approx(two.factor, abs=1e-9)
         np.testing.assert_allclose(one.q, two.q, atol=1e-9)
         np.testing.assert_allclose(one.reaction, two.reaction, atol=1e-7)
+
+
+def test_arcs_found_at_once_are_those_found_one_by_one(monkeypatch):
+    solver, found = path("arch_path")
+    monkeypatch.setattr(corrector, "_MOST_AHEAD", 1)
+    other, alone = path("arch_path")
+    assert other.iterations == solver.iterations
+    for one, two in zip(found, alone, strict=True):
+        assert (one.factor, one.iterations, one.residual) == (two.factor, two.iterations, two.residual)
+        assert (one.q == two.q).all()
 
 
 def test_the_rate_known_from_a_correction_is_that_of_an_assembly():
