@@ -74,9 +74,9 @@ def _has_own_length(annotation: Any) -> bool:
     return isinstance(annotation, Items | Reader) or any(map(_has_own_length, inner))
 
 
-def _check_length(key: str, value: object, annotations: Sequence[object]) -> None:
+def _check_length(key: str, value: Sequence[object], annotations: Sequence[object]) -> None:
     """Raise PydanticCustomError for a list that is too long, if it has no rule of its own."""
-    items = len(value) if is_list(value) else 0
+    items = len(value)
     if items > MOST_ITEMS and not any(map(_has_own_length, annotations)):
         raise PydanticCustomError(
             "items", f"has {items} items in '{key}'; it may have up to {MOST_ITEMS}"
@@ -112,12 +112,15 @@ class Parameters(BaseModel):
         if not isinstance(values, Mapping):
             return values
         kept: dict[str, Any] = {}
+        fields = cls.model_fields
         for key, value in values.items():
-            field = cls.model_fields.get(key)
-            if field is not None:
-                _check_length(key, value, [field.annotation, *field.metadata])
-            named = isinstance(value, str) and (isinstance(value, Dropped) or value == "none")
-            field = field if named else None
+            if not isinstance(value, str):
+                if is_list(value) and key in fields:
+                    _check_length(key, value, [fields[key].annotation, *fields[key].metadata])
+                kept[key] = value
+                continue
+            named = isinstance(value, Dropped) or value == "none"
+            field = fields.get(key) if named else None
             word = field is not None and _may_be_none(cls, key)
             if isinstance(value, Dropped):
                 kept |= {key: str(value)} if value and word else {}

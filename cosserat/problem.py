@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
@@ -33,10 +33,18 @@ def silent(fraction: float, words: str) -> None:
 
 @dataclass(frozen=True)
 class Run:
-    """Services for a problem while it is solved: a progress report, and a store of parts."""
+    """Services for a problem while it is solved: a progress report, and a store of parts.
+
+    wanted : names of the fields that are read, all of them by default; others that take time may be left out.
+    """
 
     progress: Progress = silent
     checkpoints: Checkpoints | None = None
+    wanted: Set[str] | None = None
+
+    def wants(self, names: Set[str]) -> bool:
+        """Whether some of these fields are read."""
+        return self.wanted is None or bool(self.wanted & names)
 
 
 ALONE = Run()

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Callable, Sequence, Set
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,10 +34,18 @@ from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
 _GIVEN = {
+    "_internal": {
+        *("xi_edge", "contact_force", "normal_force", "shear_force", "bending_moment"),
+        *("fibre_strain", "fibre_stress", "shear_stress"),
+    },
     "_director_forces": {"contact_director_force", "intrinsic_director_force"},
-    "_places": {"u", "rotation", "probe_displacement", "probe_rotation"},
+    "_reactions": {"reaction_force", "reaction_moment", "reaction_director_force"},
+    "_moves": {"u"},
+    "_turns": {"rotation", "probe_displacement", "probe_rotation"},
+    "_attached": {"attached_force"},
 }
 """All that some makers of outputs give, which are left out where nothing of it is needed."""
+_ELSEWHERE = set().union(*_GIVEN.values())
 
 
 @dataclass(frozen=True)
@@ -49,7 +57,8 @@ class States:
     couples : (S,) energy of the loads that are not dead [J].
     stresses : loads that are stresses of the rod itself, potentials of displacements, each with its factors (S,).
     attached : (S, n) force of springs and foundations [N]; (S, 0) without them.
-    sense : (vertex, (S,)) a vertex, and the rotation of its section to within half a turn [rad]; None if not known.
+    sense : gives (vertex, (S,)) a vertex, and the rotation of its section to within half a turn [rad]; None if that is
+        not known.
     """
 
     problem: RodProblem
@@ -60,9 +69,10 @@ class States:
     reactions: Array
     couples: Array
     stresses: Sequence[tuple[Potential, Array]]
-    sense: tuple[int, Array] | None
+    sense: Callable[[], tuple[int, Array] | None]
     attached: Array
 
+    @cached_property
     def vectors(self) -> Array:
         """Positions and directors, (S, N, m, 2) [m]."""
         rod = self.problem.rod
@@ -85,8 +95,9 @@ def outputs(states: States, names: Set[str] = frozenset()) -> Solution:
     names : of the fields that are needed; all of them if there are none.
     """
     made = Solution({}, {}, {"axis": states.problem.rod.kinematics.axes})
-    for maker in (_internal, _director_forces, _reactions, _places, _parts_of_energy, _attached):
-        if names and not names & _GIVEN.get(maker.__name__, names):
+    makers = _internal, _director_forces, _reactions, _moves, _turns, _parts_of_energy, _attached
+    for maker in makers:
+        if names and not names & _GIVEN.get(maker.__name__, names - _ELSEWHERE):
             continue
         more = maker(states)
         made = Solution({**made.fields, **more.fields}, {}, {**made.labels, **more.labels})
@@ -102,7 +113,7 @@ def outputs(states: States, names: Set[str] = frozenset()) -> Solution:
 def _internal(states: States) -> Solution:
     """N, Q, M, and stresses as beams have them."""
     arc = states.geometry.arc_length
-    found = resultants(states.vectors(), states.gradient)
+    found = resultants(states.vectors, states.gradient)
     edge, vector = (states.along, "edge"), (states.along, "edge", "axis")
     fields: dict[str, Field] = {
         "xi_edge": (("edge",), (arc[1:] + arc[:-1]) / 2),
@@ -155,7 +166,7 @@ def _reactions(states: States) -> Solution:
         return Solution({}, {})
     force = rod.kinematics.split(states.reactions)[:, vertices]
     along = (states.along, "support")
-    directors = states.vectors()[:, vertices, 1:]
+    directors = states.vectors[:, vertices, 1:]
     fields: dict[str, Field] = {
         "reaction_force": ((*along, "axis"), force[:, :, 0]),
         "reaction_moment": (along, cross(directors, force[:, :, 1:]).sum(axis=-1)),
@@ -168,18 +179,20 @@ def _reactions(states: States) -> Solution:
     return Solution(fields, {}, {"support": tuple(names[int(vertex)] for vertex in vertices)})
 
 
-def _places(states: States) -> Solution:
+def _moves(states: States) -> Solution:
+    """Displacements of the vertices."""
+    moved = states.vectors[:, :, 0] - states.geometry.X
+    return Solution({"u": ((states.along, "vertex", "axis"), moved)}, {})
+
+
+def _turns(states: States) -> Solution:
     """Rotations of the sections, and what the named points do."""
-    problem, vectors = states.problem, states.vectors()
-    turned = rotations(vectors[:, :, 1], states.geometry.D, states.sense)
-    moved = vectors[:, :, 0] - states.geometry.X
-    fields: dict[str, Field] = {
-        "u": ((states.along, "vertex", "axis"), moved),
-        "rotation": ((states.along, "vertex"), turned),
-    }
+    problem, vectors = states.problem, states.vectors
+    turned = rotations(vectors[:, :, 1], states.geometry.D, states.sense())
+    fields: dict[str, Field] = {"rotation": ((states.along, "vertex"), turned)}
     if not problem.probes:
         return Solution(fields, {})
-    arc = states.geometry.arc_length
+    arc, moved = states.geometry.arc_length, vectors[:, :, 0] - states.geometry.X
     read = at_probes(problem.probes, arc, np.concatenate([moved, turned[..., None]], axis=-1))
     fields["probe_displacement"] = ((states.along, "probe", "axis"), read[..., :2])
     fields["probe_rotation"] = ((states.along, "probe"), read[..., 2])
@@ -220,7 +233,8 @@ def rotations(d: Array, D: Array, sense: tuple[int, Array] | None) -> Array:
     """Angles of directors (S, N, 2) from those of the reference (N, 2), counted through whole turns: (S, N) [rad].
 
     Neighbouring sections are within half a turn of each other, and so are those of one vertex in neighbouring states.
-    sense : as in `States`; without it the first section of the first state is within half a turn of its reference.
+    sense : what `States.sense` gives; without it the first section of the first state is within half a turn of its
+        reference.
     """
     own = rotated_back(d, D)
     steps = np.arctan2(cross(own[:, :-1], own[:, 1:]), (own[:, :-1] * own[:, 1:]).sum(axis=-1))
@@ -259,7 +273,7 @@ def of_equilibria(
         np.array([point.reaction for point in points]),
         couples,
         [(stress, factors) for stress in problem.stresses(geometry)] + held,
-        _held_section(problem, geometry, factors),
+        partial(_held_section, problem, geometry, factors),
         attached_forces(system, points),
     )
 
@@ -303,7 +317,7 @@ def of_instants(
         frame.out(reactions(system, given)),
         np.array([system.nonlinear_load_energy(state.q, state.history) for state in given]),
         [(stress, _levels(stress, given)) for stress in problem.stresses(geometry)],
-        (0, first_angle - start),
+        lambda: (0, first_angle - start),
         attached_forces(system.unframed, instants),
     )
 
@@ -318,9 +332,18 @@ def parts_of_energy(
     system: MechanicalSystem, points: Sequence[Equilibrium]
 ) -> tuple[Array, Array, Array]:
     """Strain energy, that of springs and, at the load factor, that of the loads that are not dead, (S,) each [J]."""
-    strain = [system.internal.energy(point.q) for point in points]
-    attached = [system.attached_energy(point.q, point.history) for point in points]
-    return np.array(strain), np.array(attached), np.array([coupled_energy(system, p) for p in points])
+    strain = np.array([system.internal.energy(point.q) for point in points])
+    attached = np.zeros(len(points))
+    if system.attached:
+        attached = np.array([system.attached_energy(point.q, point.history) for point in points])
+    return strain, attached, coupled_energies(system, points)
+
+
+def coupled_energies(system: MechanicalSystem, points: Sequence[Equilibrium]) -> Array:
+    """The energy of the loads that are not dead, (S,) [J]."""
+    if not system.held and all(load.linear for load in system.external):
+        return np.zeros(len(points))
+    return np.array([coupled_energy(system, point) for point in points])
 
 
 def energies(

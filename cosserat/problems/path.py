@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Set
 from dataclasses import replace
+from functools import cache
 from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
@@ -15,8 +16,15 @@ from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Run
 from cosserat.problems.grown import GrownProblem
-from cosserat.problems.outputs import energies, of_equilibria, outputs, parts_of_energy, work_along
-from cosserat.problems.special import special_fields
+from cosserat.problems.outputs import (
+    coupled_energies,
+    energies,
+    of_equilibria,
+    outputs,
+    parts_of_energy,
+    work_along,
+)
+from cosserat.problems.special import SPECIAL_FIELDS, special_fields
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import check_crossing, coarse
@@ -88,21 +96,24 @@ class RodPath(GrownProblem):
             branches=int(self.arc.branch == "leave"),
         )
         points: list[Equilibrium] = []
-        furthest = 0.0
+        at_rest, split = self.rod.strain_energy.reference(geometry), self.rod.kinematics.split
+        below, furthest = self.rod.below, 0.0
         try:
             for point in trace_path(solver, unloaded(solver), arc):
-                x, d = _placed(self.rod, geometry, point.unframed(system))
-                where = f"{name}, {point.factor:.4g} of the load"
-                check_crossing(geometry, x, d, self.rod.below, where)
+                reached = f"{point.factor:.4g} of the load"
+                vectors = split(at_rest + point.unframed(system).q)
+                check_crossing(geometry, vectors[:, 0], vectors[:, 1], below, f"{name}, {reached}")
                 points.append(point)
                 furthest = max(furthest, point.factor)
-                run.progress(min(furthest, 1.0), f"{point.factor:.4g} of the load")
+                run.progress(min(furthest, 1.0), reached)
         except (NotConvergedError, CrossingError) as error:
             if points:
                 error.reached = _solution(self, geometry, points, solver)
             raise
-        found = _solution(self, geometry, points, solver)
+        found = _solution(self, geometry, points, solver, run)
         found = replace(found, warnings=(*warnings, *found.warnings))
+        if not run.wants(SPECIAL_FIELDS):
+            return found
         return _with_special_points(found, self.rod, geometry, points, solver)
 
     @classmethod
@@ -147,20 +158,18 @@ def _with_special_points(
     )
 
 
-def _placed(rod: Rod, geometry: Geometry, point: Equilibrium) -> tuple[Array, Array]:
-    """Vertices and directors, (N, 2) each."""
-    vectors = rod.vectors(geometry, point.q)
-    return vectors[:, 0], vectors[:, 1]
-
-
 def _solution(
-    problem: RodProblem, geometry: Geometry, points: list[Equilibrium], solver: EquilibriumSolver
+    problem: RodProblem,
+    geometry: Geometry,
+    points: list[Equilibrium],
+    solver: EquilibriumSolver,
+    run: Run = ALONE,
 ) -> Solution:
     rod, system = problem.rod, solver.system.unframed
     points = [point.unframed(solver.system) for point in points]
     vectors = rod.vectors(geometry, np.array([point.q for point in points]))
     x, d = vectors[..., 0, :].copy(), vectors[..., 1, :].copy()
-    parts = parts_of_energy(system, points)
+    parts = cache(lambda: parts_of_energy(system, points))
     along, vector = ("point",), ("vertex", "axis")
     fields: dict[str, Field] = {
         "load_factor": (along, np.array([point.factor for point in points])),
@@ -170,8 +179,10 @@ def _solution(
         "d_ref": (vector, geometry.D),
         "x": ((*along, *vector), x),
         "d": ((*along, *vector), d),
-        "potential": (along, sum(parts[1:], parts[0])),
     }
+    if run.wants({"potential"}):
+        strain, attached, coupled = parts()
+        fields["potential"] = (along, strain + attached + coupled)
     statistics = {
         "points": len(points),
         "iterations": solver.iterations,
@@ -185,10 +196,11 @@ def _solution(
         )
 
     def derive(names: Set[str] = frozenset()) -> Solution:
-        found = outputs(of_equilibria(problem, geometry, system, points, "point", parts[-1]), names)
+        coupled = coupled_energies(system, points)
+        found = outputs(of_equilibria(problem, geometry, system, points, "point", coupled), names)
         stored: dict[str, Array] = {}
         if not names or names & _STORED:
-            stored = energies(system, points, parts) | work_along(system, points)
+            stored = energies(system, points, parts()) | work_along(system, points)
         more = {name: (along, values) for name, values in stored.items()}
         return replace(found, fields={**found.fields, **more})
 

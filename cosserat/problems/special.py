@@ -14,6 +14,10 @@ from cosserat.solution import Field
 from cosserat.solvers.special import SpecialPoint
 
 Array = NDArray[np.float64]
+SPECIAL_FIELDS = {
+    *("special_load_factor", "special_x", "special_d", "special_u", "special_delta", "special_after")
+}
+"""Fields of special points."""
 _STILL = 1e-9  # of the directors of a mode, below which its displacements are round-off
 
 

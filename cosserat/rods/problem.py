@@ -276,13 +276,11 @@ class RodProblem(Problem):
 
     def stresses(self, geometry: Geometry) -> list[Potential]:
         """The loads that are stresses of the rod itself, potentials of displacements."""
+        strained = (key for key, kind in LOADS.items() if issubclass(kind, StressFreeStrain))
+        if not any(self.loads_of(key) for key in strained):
+            return []
         body = LoadedRod(self.rod, geometry, self.rod.strain_energy.reference(geometry))
-        kinds = [
-            kind
-            for key, kind in LOADS.items()
-            if issubclass(kind, StressFreeStrain) and self.loads_of(key)
-        ]
-        return [load for load in self._potentials(body) if load.terms == STRESSES] if kinds else []
+        return [load for load in self._potentials(body) if load.terms == STRESSES]
 
     def unloaded_rod(self, geometry: Geometry) -> MechanicalSystem:
         """The supported rod without loads and damping, in displacements."""

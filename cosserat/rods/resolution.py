@@ -48,30 +48,45 @@ def _stretch(x: Array, d: Array, lower: Array, edges: Array, stretch: Array) -> 
     """
     for s in range(x.shape[0]):
         for K in range(x.shape[1] - 1):
-            u, v, e, f = d[s, K, 0], d[s, K, 1], d[s, K + 1, 0], d[s, K + 1, 1]
-            low, high = np.sqrt(u * u + v * v), np.sqrt(e * e + f * f)
-            p, r = e / high + u / low, f / high + v / low
-            both = np.sqrt(p * p + r * r)
-            p, r = p / both, r / both
             for side in range(2):
                 one, two = (1.0, 1.0) if side == 0 else (-lower[K], -lower[K + 1])
-                along = x[s, K + 1, 0] + two * e - (x[s, K, 0] + one * u)
-                across = x[s, K + 1, 1] + two * f - (x[s, K, 1] + one * v)
-                stretch[s, side, K] = (along * r - across * p) / edges[s % edges.shape[0], K]
+                along = _along(x[s], d[s], K, one, two)
+                stretch[s, side, K] = along / edges[s % edges.shape[0], K]
+
+
+@njit(cache=True, error_model="numpy")
+def _along(x: Array, d: Array, K: int, one: float, two: float) -> float:
+    """Distance of two neighbouring sections at heights of one and two directors, across the mean of these; (N, 2)."""
+    u, v, e, f = d[K, 0], d[K, 1], d[K + 1, 0], d[K + 1, 1]
+    low, high = np.sqrt(u * u + v * v), np.sqrt(e * e + f * f)
+    p, r = e / high + u / low, f / high + v / low
+    both = np.sqrt(p * p + r * r)
+    p, r = p / both, r / both
+    along = x[K + 1, 0] + two * e - (x[K, 0] + one * u)
+    across = x[K + 1, 1] + two * f - (x[K, 1] + one * v)
+    return float(along * r - across * p)
+
+
+@njit(cache=True, error_model="numpy")
+def _apart(x: Array, d: Array, lower: float) -> bool:
+    """Whether no neighbouring sections of a configuration cross."""
+    apart = True
+    for K in range(x.shape[0] - 1):
+        apart &= _along(x, d, K, 1.0, 1.0) > 0 and _along(x, d, K, -lower, -lower) > 0
+    return apart
 
 
 def check_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: str) -> None:
     """Raise CrossingError if neighbouring sections of a configuration, x and d of shape (N, 2), cross."""
+    if _apart(x, d, lower):
+        return
     stretch = surface_stretch(geometry, x, d, np.full(x.shape[0], lower))
-    if not (stretch > 0).all():
-        surface, edge = np.unravel_index(
-            int(np.argmin(np.nan_to_num(stretch, nan=-np.inf))), stretch.shape
-        )
-        side = ("upper", "lower")[int(surface)]
-        raise CrossingError(
-            f"{name}: the sections of vertices {edge} and {edge + 1} cross at the {side} surface, where the material "
-            "would pass through itself; reduce the loads, or take a rod that is thinner or bends less"
-        )
+    surface, edge = np.unravel_index(int(np.argmin(np.nan_to_num(stretch, nan=-np.inf))), stretch.shape)
+    side = ("upper", "lower")[int(surface)]
+    raise CrossingError(
+        f"{name}: the sections of vertices {edge} and {edge + 1} cross at the {side} surface, where the material "
+        "would pass through itself; reduce the loads, or take a rod that is thinner or bends less"
+    )
 
 
 def largest_turning(d: Array) -> float:

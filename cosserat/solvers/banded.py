@@ -82,26 +82,6 @@ def skew_product(skew: Band, x: Vector) -> Vector:
     return y
 
 
-@njit(cache=True)
-def negative_eigenvalues(band: Band) -> int:
-    """How many eigenvalues of H are negative, from the signs of the pivots of L D L' (Sylvester's law of inertia)."""
-    n, width = band.shape
-    work = band.copy()
-    count = 0
-    for j in range(n):
-        pivot = work[j, 0]
-        if pivot < 0.0:
-            count += 1
-        if pivot == 0.0:
-            continue
-        last = min(width, n - j)
-        for k in range(1, last):
-            factor = work[j, k] / pivot
-            for m in range(k, last):
-                work[j + k, m - k] -= factor * work[j, m]
-    return count
-
-
 def solve_positive(band: Band, right: Vector) -> Vector | None:
     """Solve H x = right by Cholesky's factorisation; None where H is not positive definite."""
     _, x, info = dpbsv(band.T, right, lower=1)

@@ -22,7 +22,6 @@ from cosserat.solvers.members import (
     COUNT,
     FACTOR,
     FRACTION,
-    INDEFINITE,
     LEFT,
     NEGATIVE,
     PREDICTED,
@@ -30,13 +29,17 @@ from cosserat.solvers.members import (
     REACHED,
     RESIDUAL,
     ROUNDING,
+    SINGULAR,
     SPACE_KERNEL,
+    STATE,
     STEPS,
     TOLERANCE,
     UNDEFINED,
     Answers,
+    Arcs,
     Around,
     Body,
+    Found,
     Limits,
     Members,
     Numbers,
@@ -65,6 +68,14 @@ _STIFFENING = 0.9  # ratio of the rates at two points below which a body stiffen
 _UNROLLED = (0,) * 8
 """As many zeros as the width of the most common band: code for just this width is twice as fast."""
 _EPS = float(np.finfo(float).eps)
+_INVERSE_ITERATIONS = 40  # most steps of inverse iteration towards an eigenvalue nearest zero
+_SETTLED_EIGENVALUE = 1e-14  # relative change of an eigenvalue at which inverse iteration ends
+_LOWEST_ITERATIONS = 50  # steps of inverse iteration towards a lowest eigenvalue
+_SMALLEST_SHIFT = (
+    -40
+)  # of the largest diagonal entry, a power of two that is doubled until a band is positive
+_TARGET_STEPS, MAX_TARGET_STEPS = 4, 8
+"""Steps of corrections up to which the next arc is longer, and above which it is shorter."""
 
 
 @njit(cache=True)
@@ -114,16 +125,23 @@ def factorise(band: Fields, held: Mask) -> bool:
 
     band : (n + w, w), zero beyond the matrix.
     """
-    width = band.shape[1]
-    for j in range(held.size):
-        for k in range(1, width):
-            if held[j] or (j + k < held.size and held[j + k]):
-                band[j, k] = 0.0
-        if held[j]:
-            band[j, 0] = 1.0
-    if width == len(_UNROLLED):
+    _hold_apart(band, held)
+    if band.shape[1] == len(_UNROLLED):
         return _eliminate(band, held.size, _UNROLLED)
-    return _eliminate(band, held.size, range(width))
+    return _eliminate(band, held.size, range(band.shape[1]))
+
+
+@njit(cache=True)
+def _hold_apart(band: Fields, held: Mask) -> None:
+    """Uncouple the constrained DOFs of a band (n + w, w), and make their diagonal one."""
+    for j in range(held.size):
+        if not held[j]:
+            continue
+        band[j, 0] = 1.0
+        for k in range(1, band.shape[1]):
+            band[j, k] = 0.0
+            if k <= j:
+                band[j - k, k] = 0.0
 
 
 @njit(cache=True, error_model="numpy")
@@ -171,6 +189,39 @@ def _solve(factor: Fields, n: int, width: Any, room: Vector) -> None:
 
 
 @njit(cache=True)
+def substitute_both(factor: Fields, x: Vector, y: Vector, rooms: Fields) -> None:
+    """Overwrite two right-hand sides (n,) with the solutions; rooms : (2, n + w) is overwritten."""
+    rooms[0, : x.size], rooms[1, : x.size] = x, y
+    if factor.shape[1] == len(_UNROLLED):
+        _solve_both(factor, x.size, _UNROLLED, rooms[0], rooms[1])
+    else:
+        _solve_both(factor, x.size, range(factor.shape[1]), rooms[0], rooms[1])
+    x[:], y[:] = rooms[0, : x.size], rooms[1, : x.size]
+
+
+@njit(cache=True)
+def _solve_both(factor: Fields, n: int, width: Any, x: Vector, y: Vector) -> None:
+    """Overwrite the first n numbers of two right-hand sides (n + w,) with the solutions.
+
+    The number known last is subtracted last: what depends on no other goes on meanwhile.
+    """
+    x[n:] = y[n:] = 0.0
+    for j in range(n):
+        x[j] *= factor[j, 0]
+        y[j] *= factor[j, 0]
+        for k in range(1, len(width)):
+            x[j + k] -= factor[j, k] * x[j]
+            y[j + k] -= factor[j, k] * y[j]
+    x[n:] = y[n:] = 0.0
+    for j in range(n - 1, -1, -1):
+        one, other = x[j], y[j]
+        for k in range(len(width) - 1, 0, -1):
+            one -= factor[j, k] * x[j + k]
+            other -= factor[j, k] * y[j + k]
+        x[j], y[j] = one * factor[j, 0], other * factor[j, 0]
+
+
+@njit(cache=True)
 def assembled(body: Body, q: Vector, factor: float, task: int) -> float:
     """Overwrite the gradient, and the Hessian if that is the task; the energy of the body."""
     for i in range(q.size):
@@ -195,6 +246,127 @@ def assembled(body: Body, q: Vector, factor: float, task: int) -> float:
     return energy
 
 
+@njit(cache=True)
+def negative_pivots(band: Fields, n: int) -> int:
+    """How many eigenvalues are negative, from the signs of the pivots of L D L' (Sylvester's law of inertia).
+
+    band : (n + w, w), zero beyond the matrix; overwritten.
+    """
+    count = 0
+    for j in range(n):
+        pivot = band[j, 0]
+        count += pivot < 0.0
+        if pivot == 0.0:
+            continue
+        for k in range(1, band.shape[1]):
+            factor = band[j, k] / pivot
+            for m in range(k, band.shape[1]):
+                band[j + k, m - k] -= factor * band[j, m]
+    return count
+
+
+@njit(cache=True, error_model="numpy")
+def decompose(band: Fields, skew: Fields, held: Mask, lu: Fields, pivots: NDArray[np.int64]) -> float:
+    """Overwrite the factors of a band that need not be positive; the sign of its determinant, zero if singular.
+
+    Gauss's elimination with partial pivoting.  skew : entries below the diagonal of a skew-symmetric part, without rows
+    there is none.  lu : (n, 3 w - 2), entry (i, j) of the matrix at [j, 2 w - 2 + i - j].  pivots : (n,).
+    """
+    n, reach = held.size, band.shape[1] - 1
+    at, last, sign = 2 * reach, 0, 1.0
+    _spread(band, skew, held, lu)
+    for j in range(n):
+        below, chosen = min(reach, n - 1 - j), 0
+        for k in range(1, below + 1):
+            if abs(lu[j, at + k]) > abs(lu[j, at + chosen]):
+                chosen = k
+        pivots[j], last = chosen, max(last, min(j + reach + chosen, n - 1))
+        pivot = lu[j, at + chosen]
+        if not abs(pivot) > 0.0:
+            return 0.0
+        sign = -sign if (pivot < 0.0) != (chosen > 0) else sign
+        for c in range(j, last + 1 if chosen else j):
+            top = at + j - c
+            lu[c, top], lu[c, top + chosen] = lu[c, top + chosen], lu[c, top]
+        for k in range(1, below + 1):
+            lu[j, at + k] /= pivot
+        for c in range(j + 1, last + 1):
+            top = at + j - c
+            for k in range(1, below + 1):
+                lu[c, top + k] -= lu[j, at + k] * lu[c, top]
+    return sign
+
+
+@njit(cache=True)
+def _spread(band: Fields, skew: Fields, held: Mask, lu: Fields) -> None:
+    """Overwrite lu by a matrix as `decompose` stores it, its constrained DOFs uncoupled."""
+    n, reach = held.size, band.shape[1] - 1
+    lu[:, :] = 0.0
+    for j in range(n):
+        for k in range(min(reach, n - 1 - j) + 1):
+            entry = 0.0 if held[j] or held[j + k] else band[j, k]
+            below = skew[j, k] if skew.shape[0] and k > 0 and not (held[j] or held[j + k]) else 0.0
+            lu[j + k, 2 * reach - k] = entry - below
+            lu[j, 2 * reach + k] = entry + below
+        if held[j]:
+            lu[j, 2 * reach] = 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def resolve(lu: Fields, pivots: NDArray[np.int64], x: Vector) -> None:
+    """Overwrite a right-hand side (n,) with the solution, by the factors of `decompose`."""
+    n, reach = lu.shape[0], lu.shape[1] // 3
+    at = 2 * reach
+    for j in range(n):
+        x[j], x[j + pivots[j]] = x[j + pivots[j]], x[j]
+        for k in range(1, min(reach, n - 1 - j) + 1):
+            x[j + k] -= lu[j, at + k] * x[j]
+    for j in range(n - 1, -1, -1):
+        x[j] /= lu[j, at]
+        for k in range(1, min(at, j) + 1):
+            x[j - k] -= lu[j, at - k] * x[j]
+
+
+@njit(cache=True, error_model="numpy")
+def iterate_inverse(lu: Fields, pivots: NDArray[np.int64], x: Vector) -> float:
+    """The eigenvalue nearest zero, by inverse iteration from x, which its vector of unit length overwrites."""
+    y, value = np.empty_like(x), np.inf
+    for _ in range(_INVERSE_ITERATIONS):
+        y[:] = x
+        resolve(lu, pivots, y)
+        along = across = square = 0.0
+        for i in range(x.size):
+            square += x[i] * x[i]
+            along += x[i] * y[i]
+            across += y[i] * y[i]
+        before, value = value, square / along
+        for i in range(x.size):
+            x[i] = y[i] / np.sqrt(across)
+        if abs(value - before) <= _SETTLED_EIGENVALUE * abs(value):
+            break
+    return value
+
+
+@njit(cache=True)
+def lowest_motion(band: Fields, x: Vector) -> None:
+    """Overwrite x, from which it starts, by the eigenvector of the smallest eigenvalue, its largest component one.
+
+    Inverse iteration with the band (n, w) plus the smallest tried multiple of the unit matrix that makes it positive.
+    """
+    n, width = band.shape
+    factor, room = np.empty((n + width, width)), np.empty(n + width)
+    nothing, largest = np.zeros(n, dtype=np.bool_), np.abs(band[:, 0]).max()
+    for k in range(_SMALLEST_SHIFT, -_SMALLEST_SHIFT):
+        factor[:n] = band
+        factor[n:] = 0.0
+        factor[:n, 0] += 2.0**k * (largest if largest > 0.0 else 1.0)
+        if factorise(factor, nothing):
+            break
+    for _ in range(_LOWEST_ITERATIONS):
+        substitute(factor, x, room)
+        x /= np.abs(x).max()
+
+
 @njit(cache=True, error_model="numpy")
 def keep_on_plane(q: Vector, plane: Plane, step: Vector, rate: Vector, state: Vector) -> None:
     """Overwrite Newton's step, at a fixed load, by that within the plane, and the change of the load factor.
@@ -214,34 +386,65 @@ def keep_on_plane(q: Vector, plane: Plane, step: Vector, rate: Vector, state: Ve
 
 
 @njit(cache=True)
-def respond(
-    around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector, state: Vector, symmetric: bool
-) -> int:
+def respond(around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector, state: Vector) -> int:
     """Overwrite the step within a plane from q, where the Hessian is known, and the rate with the load factor.
 
-    Where the forces are BALANCED the step is Newton's own.  Where the Hessian is not positive, the outcome is
-    INDEFINITE, or BALANCED with `state[NEGATIVE]`, and step and rate are right-hand sides.
+    Where the forces are BALANCED there is no step, `state[NEGATIVE]` is known, and where the Hessian is SINGULAR, the
+    rate is zero.
     """
     n = q.size
     residual, reaction = balance(around.gradient, around.held, step)
-    rounding = _EPS * largest_product(around.band, q, around.scale, around.room[:n])
+    rounding = _EPS * largest_product(around.band, q, around.scale, around.rooms[0, :n])
     for i in range(n):
         rate[i] = 0.0 if around.held[i] else -around.rate[i]
-    around.factor[:n] = around.band
-    positive = symmetric and factorise(around.factor, around.held)
-    if positive:
-        substitute(around.factor, step, around.room)
-        substitute(around.factor, rate, around.room)
     last, scale = state[RESIDUAL], max(abs(state[FACTOR]) * plane.load, reaction)
     tolerance = max(plane.tolerance * scale, rounding)
     state[RESIDUAL], state[TOLERANCE], state[ROUNDING] = residual, tolerance, rounding
-    state[NEGATIVE] = 0.0 if positive else 1.0
-    if residual <= tolerance or stalled(residual, last, rounding):
+    balanced = residual <= tolerance or stalled(residual, last, rounding)
+    state[NEGATIVE] = state[SINGULAR] = 0.0
+    around.factor[:n] = around.band
+    around.factor[n:] = 0.0
+    if not around.skew.shape[0] and factorise(around.factor, around.held):
+        if balanced:
+            substitute(around.factor, rate, around.rooms[0])
+        else:
+            substitute_both(around.factor, step, rate, around.rooms)
+    else:
+        _respond_indefinite(around, step, rate, state, balanced)
+    if balanced:
         return BALANCED
-    if not positive:
-        return INDEFINITE
+    if state[SINGULAR]:
+        return UNDEFINED
     keep_on_plane(q, plane, step, rate, state)
     return STEPS
+
+
+@njit(cache=True)
+def _respond_indefinite(
+    around: Around, step: Vector, rate: Vector, state: Vector, balanced: bool
+) -> None:
+    """Overwrite the rate and the step, right-hand sides; where the forces are balanced, count in place of the step.
+
+    With a skew part the negative eigenvalues are one if the determinant is negative, see `Tangent.negative`.
+    """
+    n = step.size
+    sign = decompose(around.band, around.skew, around.held, around.lu, around.pivots)
+    state[SINGULAR] = 1.0 if sign == 0.0 else 0.0
+    if sign == 0.0:
+        rate[:] = 0.0
+    else:
+        resolve(around.lu, around.pivots, rate)
+        if not balanced:
+            resolve(around.lu, around.pivots, step)
+    if not balanced:
+        return
+    if around.skew.shape[0]:
+        state[NEGATIVE] = 1.0 if sign < 0.0 else 0.0
+        return
+    around.factor[:n] = around.band
+    around.factor[n:] = 0.0
+    _hold_apart(around.factor, around.held)
+    state[NEGATIVE] = negative_pivots(around.factor, n)
 
 
 def _at_address(signature: Any) -> Any:
@@ -263,51 +466,12 @@ def _at_address(signature: Any) -> Any:
 _potential_at, _space_at = _at_address(KERNEL), _at_address(SPACE_KERNEL)
 
 
-@njit(cache=True, nogil=True)
-def follow(
-    kernel_address: int,
-    space_address: int,
-    numbers: Numbers,
-    around: Around,
-    plane: Plane,
-    answer: tuple[Vector, Vector, Vector, Vector],
-) -> int:
-    """Correct a body from q until its forces are balanced within a plane, or the loop is in doubt; the outcome.
-
-    answer : q, step, rate and state, which are overwritten.
-    """
-    kernel, space = _potential_at(kernel_address), _space_at(space_address)
-    q, step, rate, state = answer
-    at, none, skew = np.empty(q.size), np.empty(0), np.empty((0, 1))
-    body = Body(
-        kernel,
-        space,
-        numbers.data,
-        numbers.origin,
-        numbers.placed,
-        around.scale,
-        numbers.dead,
-        around.held,
-        plane.load,
-        plane.load,
-        at,
-        around.gradient,
-        around.room,
-        around.band,
-        skew,
-        np.empty(numbers.terms),
-        none,
-    )
-    outcome = STEPS
-    while state[COUNT] < plane.most:
-        if not np.isfinite(assembled(body, q, state[FACTOR], HESSIAN)):
-            return UNDEFINED
-        outcome = respond(around, q, plane, step, rate, state, True)
-        if outcome != STEPS:
-            return outcome
-        fraction = min(1.0, space(FRACTION, numbers.placed, q, step, around.held, skew))
-        move_on(q, step, state, fraction)
-    return outcome
+@njit(cache=True)
+def next_arc(ds: float, steps: int, longest: float) -> float:
+    """The length of the next arc, after one that took so many steps of corrections."""
+    if steps <= _TARGET_STEPS:
+        return min(longest, 2 * ds)
+    return ds / 2 if steps > MAX_TARGET_STEPS else ds
 
 
 @njit(cache=True)
@@ -317,6 +481,156 @@ def move_on(q: Vector, step: Vector, state: Vector, fraction: float) -> None:
         q[i] += fraction * step[i]
     state[FACTOR] += fraction * state[CHANGE]
     state[COUNT] += 1.0
+
+
+@njit(cache=True)
+def _correct(
+    body: Body, around: Around, plane: Plane, answer: tuple[Vector, Vector, Vector, Vector]
+) -> bool:
+    """Newton's method within a plane; whether the forces are balanced.  answer : as of `_next_point`."""
+    q, step, rate, state = answer
+    for i in range(q.size):
+        q[i] = plane.start[i] + plane.ds * plane.direction[i]
+    state[FACTOR], state[RESIDUAL] = plane.factor + plane.ds * plane.slope, np.inf
+    state[COUNT] = 0.0
+    while state[COUNT] < plane.most:
+        if not np.isfinite(assembled(body, q, state[FACTOR], HESSIAN)):
+            return False
+        outcome = respond(around, q, plane, step, rate, state)
+        if outcome != STEPS:
+            return outcome == BALANCED
+        move_on(
+            q, step, state, min(1.0, body.space(FRACTION, body.placed, q, step, body.held, body.skew))
+        )
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def _length(body: Body, q: Vector, change: Vector, rise: float) -> float:
+    """Length of a change of the DOFs, in step limits, and of the load factor."""
+    size = 1 / body.space(FRACTION, body.placed, q, change, body.held, body.skew)
+    return float(np.sqrt(size * size + rise * rise))
+
+
+@njit(cache=True)
+def _product(one: Vector, rise: float, other: Vector, slope: float, weight: float) -> float:
+    """Product of two tangents."""
+    total = 0.0
+    for i in range(one.size):
+        total += one[i] * other[i]
+    return float(total + weight * rise * slope)
+
+
+@njit(cache=True, error_model="numpy")
+def _next_point(
+    body: Body, around: Around, plane: Plane, stray: float, answer: tuple[Vector, Vector, Vector, Vector]
+) -> tuple[bool, float, float]:
+    """Whether there is an equilibrium in a plane near its centre, the slope of the path there, and the cosine of the
+    turn from the direction of the plane.
+
+    answer : q, direction of the path, rate and state, which are overwritten.
+    """
+    q, ahead, rate, state = answer
+    if not _correct(body, around, plane, answer):
+        return False, 0.0, 0.0
+    for i in range(q.size):
+        ahead[i] = q[i] - plane.start[i] - plane.ds * plane.direction[i]
+    missing = state[FACTOR] - plane.factor - plane.ds * plane.slope
+    if _length(body, q, ahead, missing) > stray:
+        return False, 0.0, 0.0  # an equilibrium of another path
+    slope = 1 / _length(body, q, rate, 1.0)
+    for i in range(q.size):
+        ahead[i] = slope * rate[i]
+    product = _product(ahead, slope, plane.direction, plane.slope, plane.weight)
+    if product < 0:
+        slope, product = -slope, -product
+        ahead[:] = -ahead
+    own = _product(ahead, slope, ahead, slope, plane.weight)
+    before = _product(plane.direction, plane.slope, plane.direction, plane.slope, plane.weight)
+    return True, slope, product / np.sqrt(own * before)
+
+
+@njit(cache=True, nogil=True)
+def follow(
+    kernel_address: int,
+    space_address: int,
+    numbers: Numbers,
+    around: Around,
+    arcs: Arcs,
+    start: tuple[Vector, Vector],
+    found: Found,
+) -> int:
+    """Follow a path by arcs from a point until something happens to it; how many arcs.
+
+    The last arc is one in which an eigenvalue changes its sign, the load turns back or passes one of its bounds, or one
+    after which there is no other.  start : DOFs and direction.  found : is overwritten.
+    """
+    body, most = _of_address(kernel_address, space_address, numbers, around, arcs), len(found.q)
+    (q, way), factor, rise, ds = start, arcs.factor, arcs.slope, arcs.ds
+    negative, lost, state = arcs.negative, 0.0, np.zeros(STATE)
+    for k in range(most):
+        first, good = ds, False
+        weight = _product(way, 0.0, way, 0.0, 0.0)
+        answer = found.q[k], found.direction[k], found.rate[k], state
+        while ds > arcs.smallest and not good:
+            plane = Plane(
+                q, way, factor, rise, ds, weight or 1.0, arcs.load, arcs.tolerance, 2 * MAX_TARGET_STEPS
+            )
+            good, slope, cosine = _next_point(body, around, plane, arcs.stray * ds, answer)
+            good = good and cosine > arcs.cosine
+            lost += state[COUNT]
+            if not good:
+                ds /= 2
+        found.lost[0] = lost
+        if not good:
+            return k
+        _keep(body, found, k, (first, ds, slope, lost), state)
+        turned = negative != state[NEGATIVE] or slope * rise < 0.0
+        ended = abs(state[FACTOR]) > arcs.limit
+        if turned or ended or (state[FACTOR] - arcs.until) * (factor - arcs.until) <= 0.0:
+            return k + 1
+        q, way, factor, rise = found.q[k], found.direction[k], state[FACTOR], slope
+        ds, lost = next_arc(ds, int(lost), arcs.longest), 0.0
+    return most
+
+
+@njit(cache=True)
+def _keep(
+    body: Body, found: Found, k: int, arc: tuple[float, float, float, float], state: Vector
+) -> None:
+    """Keep the point in a state at the end of an arc: the length tried first, the length, the slope, and the steps."""
+    _react(body, found.reaction[k])
+    for i in range(STATE):
+        found.state[k, i] = state[i]
+    for i in range(len(arc)):
+        found.arc[k, i] = arc[i]
+
+
+@njit(cache=True)
+def _of_address(
+    kernel_address: int, space_address: int, numbers: Numbers, around: Around, arcs: Arcs
+) -> Body:
+    """A body whose kernels are at given addresses."""
+    n = around.gradient.size
+    return Body(
+        _potential_at(kernel_address),
+        _space_at(space_address),
+        numbers.data,
+        numbers.origin,
+        numbers.placed,
+        around.scale,
+        numbers.dead,
+        around.held,
+        arcs.load,
+        arcs.load,
+        np.empty(n),
+        around.gradient,
+        around.rooms[0],
+        around.band,
+        around.skew,
+        np.empty(numbers.terms),
+        np.empty(0),
+    )
 
 
 @njit(cache=True)

@@ -7,14 +7,15 @@ is too far from the tangent or the path turns too much.  So the solver does not 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite, sqrt
 
 import numpy as np
 
 from cosserat.errors import NotConvergedError
 from cosserat.solvers.banded import Vector
-from cosserat.solvers.corrector import Corrector
+from cosserat.solvers.climb import MAX_TARGET_STEPS, next_arc
+from cosserat.solvers.corrector import LEAST_COSINE, TANGENT_TOLERANCE, Corrector
 from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver
 from cosserat.solvers.members import Plane
 from cosserat.solvers.system import ConfigurationSpace
@@ -22,13 +23,7 @@ from cosserat.solvers.system import ConfigurationSpace
 _BISECTION_TOLERANCE = 0.02  # fraction of the first arc to which a bifurcation is located
 _FACTOR_TOLERANCE = 0.005  # fraction of the load factor to which a bifurcation is located
 _FINEST_BISECTION = 0.001  # fraction of the first arc at which bisection ends
-_TANGENT_TOLERANCE = 0.2  # largest distance of a point from the tangent, as a fraction of the arc
-_LEAST_COSINE = 0.9  # least cosine of the turn of a path within an arc
 _RETURN_DISTANCE = 10.0  # multiple of the first arc after which a branch may return to its start
-_TARGET_ITERATIONS, _MAX_TARGET_ITERATIONS = (
-    4,
-    8,
-)  # corrector iterations below which the arc grows and above which it shrinks
 
 
 @dataclass(frozen=True)
@@ -67,9 +62,10 @@ def trace_path(
     direction = path_tangent(solver, point, None)
     turned: bool | None
     ds = arc.first
-    for _ in range(arc.count):
+    for number in range(arc.count):
         before = solver.iterations
-        (found, ahead, ds), across = _next_or_bifurcation(solver, point, direction, ds, arc)
+        onward = arc.count - number
+        (found, ahead, ds), across = _next_or_bifurcation(solver, point, direction, ds, arc, onward)
         if (
             _passes_limit_point(point, direction, found, ahead, ds, arc.until)
             and ds > _BISECTION_TOLERANCE * arc.first
@@ -107,14 +103,7 @@ def trace_path(
         solver.note_crossing(point, found, turned=turned)
         yield found
         point, direction = found, ahead
-        ds = _next_arc(ds, effort, arc)
-
-
-def _next_arc(ds: float, iterations: int, arc: ArcLengthSettings) -> float:
-    """The length of the next arc, after one that took so many iterations."""
-    if iterations <= _TARGET_ITERATIONS:
-        return min(arc.longest, 2 * ds)
-    return ds / 2 if iterations > _MAX_TARGET_ITERATIONS else ds
+        ds = next_arc(ds, effort, arc.longest)
 
 
 def _returned(solver: EquilibriumSolver, origin: Equilibrium, last: Equilibrium) -> NotConvergedError:
@@ -145,6 +134,7 @@ def _next_or_bifurcation(
     direction: tuple[Vector, float],
     ds: float,
     arc: ArcLengthSettings,
+    most: int,
 ) -> tuple[tuple[Equilibrium, tuple[Vector, float], float], tuple[Equilibrium, Equilibrium] | None]:
     """The next point, direction and arc, and the points on both sides of a crossing within the arc, if any.
 
@@ -152,7 +142,7 @@ def _next_or_bifurcation(
     ------
     NotConvergedError : there is no next point.
     """
-    further = _next(solver, point, direction, ds, arc)
+    further = _next(solver, point, direction, ds, arc, most)
     if further is None:
         across = _sharp_turn(solver, point, direction, arc)
         if across is None:
@@ -185,13 +175,20 @@ def _next(
     direction: tuple[Vector, float],
     ds: float,
     arc: ArcLengthSettings,
+    most: int,
 ) -> tuple[Equilibrium, tuple[Vector, float], float] | None:
-    """The next point along a direction, its direction and its arc; None if there is none."""
+    """The next point along a direction, its direction and its arc; None if there is none.
+
+    most : arcs that are left.
+    """
+    corrector = solver.corrector or Corrector(solver)
+    if corrector.compiled:
+        return corrector.onward(point, direction, ds, arc, most)
     while ds > SMALLEST * arc.first:
-        found = corrected(solver, point, *direction, ds, _TANGENT_TOLERANCE * ds)
+        found = corrected(solver, point, *direction, ds, TANGENT_TOLERANCE * ds)
         if found is not None:
             ahead = path_tangent(solver, found, direction)
-            if _cosine(direction, ahead) > _LEAST_COSINE:
+            if _cosine(direction, ahead) > LEAST_COSINE:
                 return found, ahead, ds
         ds /= 2
     return None
@@ -249,7 +246,7 @@ def _locate_bifurcation(
         _wide(before, after) and high - low > _FINEST_BISECTION * arc.first
     ):
         middle = high if after is None else (low + high) / 2
-        found = corrected(solver, point, *direction, middle, _TANGENT_TOLERANCE * ds)
+        found = corrected(solver, point, *direction, middle, TANGENT_TOLERANCE * ds)
         if found is not None and found.negative != point.negative:
             high, after = middle, found
         elif after is None:
@@ -271,7 +268,7 @@ def _wide(before: Equilibrium, after: Equilibrium | None) -> bool:
 def _goes_on(solver: EquilibriumSolver, before: Equilibrium, found: Equilibrium) -> bool:
     """Whether a point lies ahead of the one before it."""
     chord = found.q - before.q, found.factor - before.factor
-    return _cosine(path_tangent(solver, before, chord), chord) > _LEAST_COSINE
+    return _cosine(path_tangent(solver, before, chord), chord) > LEAST_COSINE
 
 
 def step_size(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
@@ -288,7 +285,7 @@ def _distance(space: ConfigurationSpace, one: Equilibrium, other: Equilibrium) -
 def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | None:
     """Derivative of the DOFs by the load factor at a point; None if the Hessian is singular."""
     system, tangent = solver.system, solver.tangent
-    change = solver.rate_at(point)
+    change = point.rate
     if change is None:
         system.assemble(point.q, point.history, point.factor, tangent)
         rate = system.rate(point.factor, tangent)
@@ -332,6 +329,8 @@ def corrected(
     """The equilibrium on the plane normal to a direction at an arc of ds; None if it is farther than `stray`."""
     system = solver.system
     corrector = solver.corrector or Corrector(solver)
+    if corrector.compiled:
+        return corrector.alone(point, (direction, slope), ds, stray)
     start = point.q + ds * direction
     plane = Plane(
         point.q,
@@ -342,7 +341,7 @@ def corrected(
         _weight(direction),
         system.load_sizes[0],
         solver.settings.tolerance,
-        2 * _MAX_TARGET_ITERATIONS,
+        2 * MAX_TARGET_STEPS,
     )
     found = corrector.balanced(start.copy(), plane, point.history)
     if found is None:
@@ -351,7 +350,8 @@ def corrected(
     strayed = np.hypot(step_size(system.space, found.q, found.q - start), missing)
     if strayed > stray:
         return None  # an equilibrium of another path
-    return corrector.accepted(found, point.history)
+    end = solver.accepted(found.q, found.factor, point.history, found.rounding, negative=found.negative)
+    return replace(end, rate=found.rate) if end.history is point.history else end
 
 
 def _switch_branch(

@@ -51,6 +51,7 @@ class Equilibrium:
     residual, tolerance : largest unbalanced force and the largest one allowed [N].
     rounding : largest force that round-off can cause, a lower bound of any residual [N].
     negative : how many eigenvalues of the Hessian are negative, as `Tangent` counts them.
+    rate : (n,) of the free DOFs with the load factor, with the internal variables there; None if it is not known.
     """
 
     q: Vector
@@ -62,6 +63,7 @@ class Equilibrium:
     tolerance: float
     rounding: float
     negative: int
+    rate: Vector | None = None
 
     @property
     def stable(self) -> bool:
@@ -88,7 +90,6 @@ class EquilibriumSolver:
     def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
         self.system, self.settings, self.name = system, settings, name
         self.corrector: Corrector | None = None  # once there are arcs
-        self._rate: tuple[Equilibrium, Vector] | None = None  # at the last point, if it is known
         self.iterations = self.cutbacks = self.branch_switches = 0
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False
@@ -152,7 +153,8 @@ class EquilibriumSolver:
             if residual <= tolerance or stalled(residual, last, rounding):
                 if step is not None and fraction is None:
                     return self._polished_once(q, step, factor, history, rounding)
-                return self.accepted(q, factor, history, rounding, positive=step is not None)
+                negative = 0 if step is not None else tangent.negative()
+                return self.accepted(q, factor, history, rounding, negative=negative)
             last = residual
             if step is None:
                 step = tangent.solve(unbalanced)
@@ -168,18 +170,10 @@ class EquilibriumSolver:
         forces = np.empty_like(self.tangent.gradient)
         return forces, *balance(self.tangent.gradient, self.system.constrained, forces)
 
-    def rate_at(self, point: Equilibrium) -> Vector | None:
-        """The rate of the free DOFs with the load factor at a point that was found last, if it is known."""
-        return self._rate[1] if self._rate is not None and self._rate[0] is point else None
-
-    def know_rate(self, point: Equilibrium, rate: Vector) -> None:
-        """Keep the rate of the free DOFs with the load factor at a point, for `rate_at`."""
-        self._rate = point, rate
-
     def accepted(
-        self, q: Vector, factor: float, history: History, rounding: float, *, positive: bool = False
+        self, q: Vector, factor: float, history: History, rounding: float, *, negative: int
     ) -> Equilibrium:
-        """The equilibrium at q, where the last tangent was assembled and constrained; positive : it is positive."""
+        """The equilibrium at q, where the last tangent was assembled, and so many eigenvalues are negative."""
         return Equilibrium(
             q,
             factor,
@@ -189,7 +183,7 @@ class EquilibriumSolver:
             self.residual,
             self.tolerance,
             rounding,
-            0 if positive else self.tangent.negative(),
+            negative,
         )
 
     def _polished_once(
@@ -199,7 +193,7 @@ class EquilibriumSolver:
 
         Soft motions are still resolved where round-off exceeds the forces.
         """
-        point = self.accepted(q, factor, history, rounding, positive=True)
+        point = self.accepted(q, factor, history, rounding, negative=0)
         self.system.assemble(q + step, history, factor, self.tangent)
         _, nearer, _ = self.unbalanced()
         if not nearer <= max(point.residual, rounding):

@@ -1,27 +1,11 @@
-"""Symmetric bands that may be indefinite: their solution and their softest motion."""
+"""Symmetric bands that may be indefinite: their solution, and their softest motions."""
 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
-from scipy.linalg.lapack import dgbtrf, dgbtrs, dpbtrf, dpbtrs
 
-from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector, solve_positive
-
-_DIAGONAL_SHIFTS = tuple(2.0**k for k in range(-40, 12))  # of the largest diagonal entry, in turn
-
-
-@njit(cache=True)
-def _general(band: Band, skew: Band) -> Band:
-    """The matrix with room for its factors: its transpose is LAPACK's storage of a general band."""
-    n, width = band.shape[0], band.shape[1] - 1
-    general = np.zeros((n, 3 * width + 1))
-    for j in range(n):
-        for k in range(min(width, n - 1 - j) + 1):
-            below = skew[j, k] if skew.size and k > 0 else 0.0
-            general[j + k, 2 * width - k] = band[j, k] - below
-            general[j, 2 * width + k] = band[j, k] + below
-    return general
+from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector
+from cosserat.solvers.climb import decompose, iterate_inverse, lowest_motion, negative_pivots, resolve
 
 
 class Factors:
@@ -32,44 +16,37 @@ class Factors:
     """
 
     def __init__(self, band: Band, skew: Band = NO_BAND) -> None:
-        self.width = band.shape[1] - 1
-        general = _general(band, skew).T
-        self.factors, self.pivots, info = dgbtrf(general, self.width, self.width, overwrite_ab=1)
-        exchanges = np.count_nonzero(self.pivots != np.arange(band.shape[0]))
-        negative = np.count_nonzero(self.factors[2 * self.width] < 0)
-        self.sign = 0.0 if info else (-1.0) ** (exchanges + negative)
+        n, width = band.shape
+        self.factors, self.pivots = np.empty((n, 3 * width - 2)), np.empty(n, dtype=np.int64)
+        self.sign = decompose(band, skew, np.zeros(n, dtype=np.bool_), self.factors, self.pivots)
 
     def solve(self, right: Vector) -> Vector | None:
         """The solution for one or, as columns, several right-hand sides; None where the matrix is singular."""
         if self.sign == 0.0:
             return None
-        return np.asarray(dgbtrs(self.factors, self.width, self.width, right, self.pivots)[0])
+        columns = np.array(right.T, dtype=float, ndmin=2, order="C")
+        for column in columns:
+            resolve(self.factors, self.pivots, column)
+        return columns.T.reshape(right.shape)
+
+    def softest(self, start: Vector) -> tuple[float, Vector] | None:
+        """The eigenvalue nearest zero and its vector of unit length; None where the matrix is singular."""
+        if self.sign == 0.0:
+            return None
+        x = start.copy()
+        return iterate_inverse(self.factors, self.pivots, x), x
 
 
-def _made_positive(band: Band, right: Vector) -> tuple[Band, Vector | None]:
-    """The band plus the smallest tried multiple of the unit matrix that makes it positive, and its solution."""
-    largest = float(np.abs(band[:, 0]).max()) or 1.0
-    trial, step = band.copy(), None
-    for shift in _DIAGONAL_SHIFTS:
-        trial[:, 0] = band[:, 0] + shift * largest
-        step = solve_positive(trial, right)
-        if step is not None:
-            break
-    return trial, step
-
-
-def shifted(band: Band, right: Vector) -> Vector | None:
-    """Solve with the band plus a multiple of the unit matrix that makes it positive."""
-    return _made_positive(band, right)[1]
+def negative_eigenvalues(band: Band) -> int:
+    """How many eigenvalues are negative."""
+    n, width = band.shape
+    work = np.zeros((n + width, width))
+    work[:n] = band
+    return int(negative_pivots(work, n))
 
 
 def lowest_eigenvector(band: Band, constrained: Mask) -> Vector:
     """The eigenvector of the smallest eigenvalue, of unit largest component, by inverse iteration with a shift."""
     x = np.where(constrained, 0.0, np.cos(1.7 * np.arange(constrained.size)))
-    trial, _ = _made_positive(band, x)
-    factor, info = dpbtrf(trial.T, lower=1)
-    assert info == 0
-    for _ in range(50):
-        found, _ = dpbtrs(factor, x, lower=1)
-        x = found / np.abs(found).max()
+    lowest_motion(band, x)
     return x

@@ -108,11 +108,14 @@ class Body(NamedTuple):
     none: Vector
 
 
-STEPS, BALANCED, INDEFINITE, UNDEFINED = range(4)
-"""What comes of a correction: a step, a balance, a Hessian that is not positive, no energy there."""
-FACTOR, RESIDUAL, TOLERANCE, ROUNDING, CHANGE, COUNT, NEGATIVE = range(7)
-"""Numbers of the state of corrections: load factor, forces as in `Answers`, change of the factor, steps taken, and
-whether the Hessian is not positive."""
+STEPS, BALANCED, UNDEFINED = range(3)
+"""What comes of a correction: a step, a balance, no energy there or no step."""
+STATE = 8
+FACTOR, RESIDUAL, TOLERANCE, ROUNDING, CHANGE, COUNT, NEGATIVE, SINGULAR = range(STATE)
+"""Numbers of the state of corrections: load factor, forces as in `Answers`, change of the factor, steps taken, and, of
+a balance, how many eigenvalues of the Hessian are negative and whether it is singular."""
+TRIED, LENGTH, SLOPE, STEPS_TAKEN = range(4)
+"""Numbers of an arc: the length tried first, the length, change of the load factor along the path, and steps."""
 
 
 class Plane(NamedTuple):
@@ -134,20 +137,71 @@ class Plane(NamedTuple):
     most: int
 
 
+class Arcs(NamedTuple):
+    """How a path is followed by arcs.
+
+    factor, slope, negative : at the start, as in `Plane`, and how many eigenvalues are negative there.
+    ds, smallest, longest : length of the first arc, that to which it may be halved, and that of the longest.
+    stray : largest distance of a point from the tangent, as a fraction of the arc.  cosine : least one of its turn.
+    until, limit : load factors where it ends.  load, tolerance : as in `Plane`.
+    """
+
+    factor: float
+    slope: float
+    negative: int
+    ds: float
+    smallest: float
+    longest: float
+    stray: float
+    cosine: float
+    until: float
+    limit: float
+    load: float
+    tolerance: float
+
+
+class Found(NamedTuple):
+    """The ends of K arcs.
+
+    q, direction, rate, reaction : (K, n) DOFs, direction of the path, rate of the DOFs with the load factor, and forces
+    of the constrained DOFs [N].  state : (K, STATE).  arc : (K, 4).  lost : (1,) steps of an arc that has no end.
+    """
+
+    q: Fields
+    direction: Fields
+    rate: Fields
+    reaction: Fields
+    state: Fields
+    arc: Fields
+    lost: Vector
+
+    @classmethod
+    def empty(cls, arcs: int, dofs: int) -> Found:
+        """Nothing found yet."""
+        q, direction, rate, reaction = np.empty((4, arcs, dofs))
+        return cls(
+            q, direction, rate, reaction, np.empty((arcs, STATE)), np.empty((arcs, 4)), np.empty(1)
+        )
+
+
 class Around(NamedTuple):
     """Work space of corrections.
 
-    gradient, rate : (n,) assembled last, and its derivative by the load factor [N].  band : (n, w) the Hessian.
-    scale, held : (n,) as in `Body`.  factor, room : (n + w, w) and (n + w,).
+    gradient, rate : (n,) assembled last, and its derivative by the load factor [N].  band, skew : (n, w) the Hessian,
+    as in `Tangent`.  scale, held : (n,) as in `Body`.  factor, rooms : (n + w, w) and (2, n + w).  lu, pivots : as of
+    `solvers.climb.decompose`.
     """
 
     gradient: Vector
     rate: Vector
     band: Fields
+    skew: Fields
     scale: Vector
     held: Mask
     factor: Fields
-    room: Vector
+    rooms: Fields
+    lu: Fields
+    pivots: NDArray[np.int64]
 
 
 class Numbers(NamedTuple):

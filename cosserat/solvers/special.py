@@ -9,7 +9,6 @@ the path, to round-off.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import sqrt
 
 import numpy as np
 
@@ -28,8 +27,6 @@ _SECANTS = 24  # most steps of the secant method
 _ROOT = 1e-3  # of the eigenvalues at its start, below which the last one is zero
 _NEAR_ROOT = 0.25  # the same, between two eigenvalues of opposite signs
 _ROUND_OFF = 16 * float(np.finfo(float).eps)  # of |x| . |K| |x|, below which an eigenvalue is zero
-_INVERSE_ITERATIONS = 40  # most steps of inverse iteration
-_SETTLED = 1e-14  # relative change of an eigenvalue at which inverse iteration ends
 LOCATING = NewtonSettings(tolerance=1e-15)
 """Settings of the solver that locates: equilibria down to round-off."""
 
@@ -106,15 +103,10 @@ class _Chord:
         system, tangent = self.solver.system, self.solver.tangent
         system.assemble(point.q, point.history, point.factor, tangent)
         tangent.constrain(system.constrained)
-        x, value, factors = start, np.inf, Factors(tangent.band, tangent.skew)
-        for _ in range(_INVERSE_ITERATIONS):
-            y = factors.solve(x)
-            if y is None:
-                return 0.0, x, 0.0  # singular to the last bit
-            before, value = value, float(x @ x) / float(x @ y)
-            x = y / sqrt(y @ y)
-            if abs(value - before) <= _SETTLED * abs(value):
-                break
+        found = Factors(tangent.band, tangent.skew).softest(start)
+        if found is None:
+            return 0.0, start, 0.0  # singular to the last bit
+        value, x = found
         return value, x, _ROUND_OFF * float(np.abs(x) @ absolute_product(tangent.band, x))
 
     def root(self, low: _Place, high: _Place) -> tuple[Equilibrium, Vector] | None:

@@ -21,14 +21,13 @@ from cosserat.solvers.banded import (
     Vector,
     band_product,
     constrain,
-    negative_eigenvalues,
     skew_product,
     solve_positive,
     uncouple,
 )
 from cosserat.solvers.damping import NO_MODES, DampedModes, damped_like
 from cosserat.solvers.frames import NO_FRAME, Frame
-from cosserat.solvers.indefinite import Factors
+from cosserat.solvers.indefinite import Factors, negative_eigenvalues
 from cosserat.solvers.members import Members
 from cosserat.solvers.potential import Level, Potential
 

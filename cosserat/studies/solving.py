@@ -22,7 +22,7 @@ from cosserat.errors import (
     OutOfReachError,
     UnstableError,
 )
-from cosserat.problem import Problem, silent
+from cosserat.problem import Problem, Run, silent
 from cosserat.problems.tangents import total_mass
 from cosserat.solution import Field, Many, Solution
 from cosserat.studies.family import Task, derivative_name
@@ -137,7 +137,7 @@ def _solve_together(
 ) -> NDArray[np.int64]:
     """Solve what compiled loops can solve, by threads; returns the members that are left."""
     every, problem = np.arange(task.size), task.base.problem
-    names = sorted({name for one in task.keep for name in one.needs()} | set(task.keep_whole))
+    names = sorted(_read_of(task))
     along = {dim for name in task.keep_whole for dim in VARIABLES[name].dims}
     names += [name for name in PLACES if set(VARIABLES[name].dims) <= along and name not in names]
     if not all(column.dtype.kind == "f" for column in task.columns):
@@ -154,6 +154,11 @@ def _solve_together(
             left.append(_keep_many(task, many, part, found))
             progress((part[-1] + 1) / task.size, f"{part[-1] + 1} of {task.size} members")
     return np.concatenate(left)
+
+
+def _read_of(task: Task) -> set[str]:
+    """The names of the fields that are read of each member."""
+    return {name for one in task.keep for name in one.needs()} | set(task.keep_whole)
 
 
 def _solve_part(
@@ -199,7 +204,7 @@ def _solve_one(task: Task, table: Mapping[str, object], member: int, found: Solv
         _fail(found, member, REFUSED, error)
         return
     try:
-        solution = problem.solve("the member")
+        solution = problem.solve("the member", Run(wanted=_read_of(task)))
         _keep(task, _needed(task, problem, solution), member, found)
         lost = _differentiate(task, problem, member, found)
     except NotConvergedError as error:
@@ -236,7 +241,7 @@ def _differentiate(task: Task, problem: Problem, member: int, found: Solved) -> 
 
 def _needed(task: Task, problem: Problem, solution: Solution) -> Solution:
     """A solution with the fields that are kept, also those that follow from others."""
-    names = {name for one in task.keep for name in one.needs()} | set(task.keep_whole)
+    names = _read_of(task)
     if names <= set(solution.fields):
         return solution
     fields, labels = dict(solution.fields), dict(solution.labels)

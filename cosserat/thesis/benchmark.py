@@ -10,22 +10,27 @@ from typing import TypeVar
 
 import numpy as np
 
-from cosserat.cases.catalogue import find
+from cosserat.cases.catalogue import find, find_base
 from cosserat.data.dataset import to_dataset
 from cosserat.problems.crawl import Crawl
 from cosserat.problems.many import members_of, solve_many
 from cosserat.problems.motion import RodMotion
+from cosserat.problems.path import RodPath
 from cosserat.problems.static import RodStatics
 from cosserat.runner import run
 from cosserat.solvers.integrate import IntegratorSettings, integrate
 from cosserat.solvers.many import Family
 from cosserat.solvers.members import REACHED
+from cosserat.studies.family import Task
+from cosserat.studies.readouts import read_out
+from cosserat.studies.solving import solve_members
 
 T = TypeVar("T")
 _STEP = 2.5e-4  # s
 _RUNS = 3
 _STATICS_RUNS = 10
 _MEMBERS = 4096
+_PATHS = 64
 _STEPS = {20: 800, 200: 200, 2000: 20}
 """Steps of a motion by the number of vertices."""
 
@@ -104,6 +109,28 @@ def many() -> Iterator[str]:
 def _each(seconds: float) -> str:
     """The speed of so many members in a time, in words."""
     return f"{_MEMBERS / seconds:8.0f} a second, {1e6 * seconds / _MEMBERS:6.1f} µs each"
+
+
+def paths() -> Iterator[str]:
+    """Lines with the method and with the paths per second of the members of two studies."""
+    yield (
+        f"Paths of {_PATHS} members of a study, from their values to one read-out, by CPU time of one core; the "
+        f"fastest of {_RUNS} runs:"
+    )
+    column = find("column_path").vary("speed", rod={"vertices": 20})
+    deflection = read_out("tip", "final u.E2 at last", "speed")
+    load = read_out("load", "load_factor where max |fibre_stress| reaches 0.2 MPa", "speed")
+    for name, base, kept in (
+        ("a column buckles", column, deflection),
+        ("one with a bow", find_base("_imperfect_column"), load),
+    ):
+        young = base.problem_as(RodPath).rod.young * np.linspace(0.95, 1.05, _PATHS)
+        task = Task(base, ("rod.material.young",), (young,), (kept,), ())
+        best, solved = _fastest(functools.partial(solve_members, task), _RUNS, time.process_time)
+        yield (
+            f"{name:>18}: {_PATHS / best:6.0f} a second, {1e3 * best / _PATHS:6.2f} ms each, "
+            f"{solved.iterations.mean():.1f} Newton iterations"
+        )
 
 
 def one_run() -> Iterator[str]:

@@ -226,7 +226,7 @@ def _archive(options: argparse.Namespace) -> None:
 def _speed(_: argparse.Namespace) -> None:
     from cosserat.thesis import benchmark
 
-    parts = (benchmark.statics, benchmark.many, benchmark.one_run)
+    parts = (benchmark.statics, benchmark.many, benchmark.paths, benchmark.one_run)
     for lines in (*parts, benchmark.integrator, benchmark.stride):
         for line in lines():
             print(line)

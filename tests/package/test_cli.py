@@ -390,6 +390,7 @@ def test_speed_is_measured(capsys, monkeypatch):
     monkeypatch.setattr(benchmark, "_RUNS", 1)
     monkeypatch.setattr(benchmark, "_STATICS_RUNS", 1)
     monkeypatch.setattr(benchmark, "_MEMBERS", 8)
+    monkeypatch.setattr(benchmark, "_PATHS", 2)
     monkeypatch.setattr(benchmark, "_STEPS", {20: 80, 200: 20, 2000: 2})
     coarse = cosserat.case("worm").vary("worm", step=0.5)
     monkeypatch.setattr(
@@ -400,11 +401,12 @@ def test_speed_is_measured(capsys, monkeypatch):
     first = [line.split()[0] for line in out.splitlines()]
     steps = ["Implicit", "20", "200", "2000"]
     many = ["Equilibria", "P", "P", "P", "The", "constants:", "positions:", "all", "in"]
+    paths = ["Paths", "a", "one"]
     one = ["One", "to", "its", "the", "system", "the", "all"]
     solvers = [*steps, *steps, "One", "a", "a", "ratio:"]
-    assert first == ["Equilibria,", "20", "20", "41", "2001", *many, *one, *solvers]
+    assert first == ["Equilibria,", "20", "20", "41", "2001", *many, *paths, *one, *solvers]
     assert (out.count("by wall clock"), out.count("kernels compiled")) == (5, 4)
-    assert out.count("the fastest of") == 6
+    assert out.count("the fastest of") == 7
     assert out.count("steps/s") == 6
-    assert out.count("Newton iterations") == 7
+    assert out.count("Newton iterations") == 9
     assert float(out.split()[-1]) > 0

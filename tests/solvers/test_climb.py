@@ -8,9 +8,10 @@ import cosserat
 from cosserat.rods.kinematics import PLANAR, rotated, rotation_rates, stretch_rates
 from cosserat.rods.space_kernel import planar
 from cosserat.solvers.banded import constrain, to_dense
-from cosserat.solvers.climb import factorise, substitute
+from cosserat.solvers.climb import decompose, factorise, resolve, substitute, substitute_both
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.incremental import solve_full_load
+from cosserat.solvers.indefinite import Factors, negative_eigenvalues
 from cosserat.solvers.many import climbed
 from cosserat.solvers.members import FRACTION, PREDICTED, RATES
 
@@ -35,6 +36,56 @@ def test_the_factorisation_agrees_with_that_of_scipy(width):
     plain[7, 0], held[7] = -1.0, False
     assert np.linalg.eigvalsh(to_dense(plain)).min() < 0
     assert not factorise(np.concatenate([plain, np.zeros((width, width))]), held)
+
+
+@pytest.mark.parametrize(("width", "skewed"), [(1, False), (5, True), (8, False), (8, True)])
+def test_the_elimination_with_pivots_agrees_with_dense_matrices(width, skewed):
+    rng, n = np.random.default_rng(width), 40
+    band, skew = rng.normal(size=(2, n, width))
+    band[5, 0] = 0.0  # nothing to divide by
+    for k in range(1, width):
+        band[n - k :, k] = skew[n - k :, k] = 0.0
+    held, right = rng.random(n) < 0.2, rng.normal(size=n)
+    held[5] = False
+    whole = to_dense(band)
+    if skewed:
+        skew[:, 0] = 0.0
+        whole += 2 * np.tril(to_dense(skew), -1) - to_dense(skew)
+    whole[held], whole[:, held], whole[held, held] = 0.0, 0.0, 1.0
+    lu, pivots = np.empty((n, 3 * width - 2)), np.empty(n, dtype=np.int64)
+    sign = decompose(band, skew if skewed else np.empty((0, width)), held, lu, pivots)
+    assert sign == np.linalg.slogdet(whole)[0]
+    found = right.copy()
+    resolve(lu, pivots, found)
+    np.testing.assert_allclose(found, np.linalg.solve(whole, right), rtol=1e-9, atol=1e-9)
+    if not skewed:
+        plain = band.copy()
+        constrain(plain, held)
+        assert negative_eigenvalues(plain) == (np.linalg.eigvalsh(whole) < 0).sum()
+        nearest, vector = Factors(plain).softest(np.where(held, 0.0, rng.normal(size=n)))
+        free = whole[~held][:, ~held]
+        values = np.linalg.eigvalsh(free)
+        assert nearest == pytest.approx(values[np.abs(values).argmin()], rel=1e-9)
+        np.testing.assert_allclose(free @ vector[~held], nearest * vector[~held], atol=1e-7)
+    band[:] = 0.0
+    assert decompose(band, np.empty((0, width)), np.zeros(n, dtype=bool), lu, pivots) == 0.0
+
+
+@pytest.mark.parametrize("width", [5, 8])
+def test_two_right_hand_sides_at_once_are_solved_as_each(width):
+    rng, n = np.random.default_rng(width), 40
+    band = np.zeros((n + width, width))
+    band[:n] = rng.normal(size=(n, width))
+    band[:n, 0] += 4 * width
+    for k in range(1, width):
+        band[n - k : n, k] = 0.0
+    assert factorise(band, np.zeros(n, dtype=bool))
+    given = rng.normal(size=(2, n))
+    both, each = given.copy(), given.copy()
+    substitute_both(band, *both, np.empty((2, n + width)))
+    for row in each:
+        substitute(band, row, np.empty(n + width))
+    np.testing.assert_allclose(both, each, rtol=1e-13)
 
 
 def test_the_compiled_motions_of_a_planar_rod_are_those_of_the_kinematics():

@@ -97,13 +97,32 @@ def _bending_energy(turn: float, barrier: float) -> tuple[float, float, float]:
 
 @njit(cache=True)
 def _add_edge_hessian(band: Band, p: int, v: Array, w: Array, c: Array) -> None:
-    """Add sum over k of w_k v_k v_k + c b + b c, b the last row of v, to the block of eight DOFs at p."""
-    for j in range(8):
+    """Add sum over k of w_k v_k v_k + c b + b c, b the last row of v, to the block of eight DOFs at p.
+
+    Rows 2, 4 and 5 of v are zero but for directors.
+    """
+    for j in (0, 1, 4, 5):
         for i in range(j, 8):
+            band[p + j, i - j] += _plus_products(c[j] * v[5, i], v, w, i, j)
+    for j in (2, 3):
+        for i in (4, 5):
+            band[p + j, i - j] += _plus_products(c[i] * v[5, j], v, w, i, j)
+    for j in (2, 3, 6, 7):
+        for i in (2, 3, 6, 7):
+            if i < j:
+                continue
             total = c[i] * v[5, j] + c[j] * v[5, i]
             for k in range(6):
                 total += w[k] * v[k, i] * v[k, j]
             band[p + j, i - j] += total
+
+
+@njit(cache=True)
+def _plus_products(start: float, v: Array, w: Array, i: int, j: int) -> float:
+    """A number plus w_k v_ki v_kj for the rows of v that are not zero for positions."""
+    total = start + w[0] * v[0, i] * v[0, j]
+    total += w[1] * v[1, i] * v[1, j]
+    return float(total + w[3] * v[3, i] * v[3, j])
 
 
 @njit(cache=True)
