@@ -78,6 +78,8 @@ class InstantProblem:
     """One boundary value problem: a body, its loads, and the regions in which they act.
 
     common : that of the body under the loads, if it is known.
+    span_ends : (S, 2) of its spans.  span_pieces : (S,) number of the piece of each.
+    of_spans : (3, S) force, pressure and exponent of each in a body that does not vary.
     """
 
     def __init__(
@@ -105,10 +107,10 @@ class InstantProblem:
         printed = self.groups.incompressible and loads.multiplier == "printed"
         self.exponent = [r.right - r.left if printed and r.load == "advancing" else 1.0 for r in regions]
         self.spans = spans(regions, self.pieces)
-        self._ends = np.array([(s.left, s.right) for s in self.spans])
-        self._piece = np.array([s.piece for s in self.spans])
+        self.span_ends = np.array([(s.left, s.right) for s in self.spans])
+        self.span_pieces = np.array([s.piece for s in self.spans])
         per_region = np.array([self.force, self.pressure, self.exponent])
-        self._per_span = per_region[:, [s.region for s in self.spans]]
+        self.of_spans = per_region[:, [s.region for s in self.spans]]
 
     def _strength(self, region: Region) -> float:
         """The force [N] or the pressure [Pa] of the muscles of a region."""
@@ -126,7 +128,7 @@ class InstantProblem:
         of_body = self.groups.stiffness, self.common.weight
         divided = not self.groups.incompressible
         rows: Array = equations.local_terms(
-            z, span, self._per_span, self._piece, self.common.table, of_body, divided
+            z, span, self.of_spans, self.span_pieces, self.common.table, of_body, divided
         )
         return rows
 
@@ -144,7 +146,7 @@ class InstantProblem:
     @functools.cached_property
     def _homogeneous(self) -> tuple[Array, float]:
         """mu_1, mu_2 of a long body with the loads and the section of either end of every span, shape (S, 2, 2)."""
-        ends = self._ends.ravel()
+        ends = self.span_ends.ravel()
         rows = self._rows(np.repeat(np.arange(len(self.spans)), 2), ends)
         groups = self.groups
         mu, mu_3, df, left = equations.homogeneous(
@@ -202,14 +204,14 @@ class InstantProblem:
     def mesh(self, settings: RegionSettings) -> Mesh:
         """The mesh of this instant."""
         _, layer = self._homogeneous
-        edges = [self._ends[0, 0], *self._ends[:, 1]]
+        edges = [self.span_ends[0, 0], *self.span_ends[:, 1]]
         varies = self.pieces is not UNIFORM  # then there are layers at the ends too
         return graded(edges, layer, settings.elements, settings.degree, fine_ends=varies)
 
     def guess(self, z: Array, span: Ints) -> Array:
         """Plateaus joined by layers, shape (K, 2), at places z in the spans with these indices."""
         mu, layer = self._homogeneous
-        guessed: Array = equations.layered(z, span, self._ends, mu, layer)
+        guessed: Array = equations.layered(z, span, self.span_ends, mu, layer)
         return guessed
 
     def _first_guess(self, mesh: Mesh) -> Array:
@@ -227,7 +229,7 @@ class InstantProblem:
         InputError : the loads collapse a section.  NotConvergedError : no solution.
         """
         mesh = self.mesh(settings)
-        equation = _Equation(self, mesh)
+        equation = InstantEquation(self, mesh)
         weight = equation.weight
         if before is None or before.shape[0] != mesh.nodes:
             solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked, weight)
@@ -241,7 +243,13 @@ class InstantProblem:
         return self._profile(equation, mu, mesh.slope(mu), mu_3, multiplier, solved.iterations), solved.u
 
     def _profile(
-        self, equation: _Equation, mu: Array, slope: Array, mu_3: Array, multiplier: Array, effort: int
+        self,
+        equation: InstantEquation,
+        mu: Array,
+        slope: Array,
+        mu_3: Array,
+        multiplier: Array,
+        effort: int,
     ) -> Profile:
         radius = (equation.local.radius * self.body.radius).reshape(mu_3.shape)
         return Profile(
@@ -273,7 +281,7 @@ class InstantProblem:
             found.solution(int(r), z).T for r, z in zip(mesh.region, mesh.places, strict=True)
         ]  # (p + 1, 4 or 5) each
         mu, slope = np.array([v[:, 0:3:2] for v in y]), np.array([v[:, 1:4:2] for v in y])
-        equation = _Equation(self, mesh)
+        equation = InstantEquation(self, mesh)
         mu_3, multiplier = equation.along(mu)
         for e, values in enumerate(y):
             if values.shape[1] > 4:
@@ -321,13 +329,13 @@ class InstantProblem:
         return np.array(residuals)
 
 
-class _Equation:
+class InstantEquation:
     """The sources of an instant at the points of a mesh, for the banded solver."""
 
     def __init__(self, instant: InstantProblem, mesh: Mesh) -> None:
         self.instant, self.mesh = instant, mesh
-        span = np.repeat(mesh.region, mesh.degree + 1)
-        self.local = instant.local(span, mesh.places.ravel())
+        self.span = np.repeat(mesh.region, mesh.degree + 1)
+        self.local = instant.local(self.span, mesh.places.ravel())
         varies = instant.pieces is not UNIFORM
         self.weight = self.local.gradient.reshape(mesh.places.shape) if varies else None
         self.far = [
@@ -360,21 +368,22 @@ class _Equation:
             return np.zeros_like(local.force)
         multiplier: Array = equations.multiplier_of(u.reshape(-1, 2), local.force, local.exponent)
         for number, node in self.far:
-            at_junction = self._node_value(u, node).prod()
-            inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
+            at_junction = self.node_value(u, node).prod()
+            inside = self.span == number
             multiplier[inside] *= at_junction ** (self.instant.exponent[number] - 1)
         return multiplier
 
-    def _node_value(self, u: Array, node: int) -> Array:
-        element = min(node // self.mesh.degree, u.shape[0] - 1)
-        value: Array = u[element, node - element * self.mesh.degree]
+    def node_value(self, u: Array, node: int) -> Array:
+        """What a field (..., M, p + 1, m) is at a node, (..., m)."""
+        element = min(node // self.mesh.degree, u.shape[-3] - 1)
+        value: Array = u[..., element, node - element * self.mesh.degree, :]
         return value
 
     def _remote(self, u: Array, multiplier: Array, number: int, node: int) -> Remote:
         """f changes with the logarithm of mu_1 mu_2 at the junction through lambda_c there."""
-        inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
+        inside = self.span == number
         change = np.where(inside, (self.instant.exponent[number] - 1) * multiplier, 0.0)
-        return Remote(node, change.reshape(u.shape[:2])[..., None] / u, 1 / self._node_value(u, node))
+        return Remote(node, change.reshape(u.shape[:2])[..., None] / u, 1 / self.node_value(u, node))
 
     def along(self, u: Array) -> tuple[Array, Array]:
         """mu_3 and lambda_c, shape (M, p + 1) each."""
