@@ -44,6 +44,7 @@ class Common:
     pieces : of the body; table : the same as `body.tabulated`.  weight : m where the radius is that of the body.
     """
 
+    loads: Loads
     groups: Groups
     pieces: tuple[Piece, ...]
     table: Array
@@ -55,7 +56,28 @@ class Common:
         """Of a body under loads."""
         groups, pieces = Groups.of(body, loads), body.pieces
         weight = groups.m / mean_square(pieces)
-        return cls(groups, pieces, tabulated(pieces), weight, holds_force(body, loads))
+        return cls(loads, groups, pieces, tabulated(pieces), weight, holds_force(body, loads))
+
+    @property
+    def has_exponents(self) -> bool:
+        """Whether lambda_c in advancing regions is that of eq. (2.4.18) as printed."""
+        return self.groups.incompressible and self.loads.multiplier == "printed"
+
+    def strength(self, region: Region) -> float:
+        """The force [N] or the pressure [Pa] of the muscles of a region."""
+        usual = {"anchoring": self.loads.anchoring, "advancing": self.loads.advancing}.get(
+            region.load, 0.0
+        )
+        return (usual if region.own is None else region.own) * region.amplitude
+
+    def acting(self, regions: Sequence[Region]) -> tuple[list[float], list[float]]:
+        """n and c in consecutive regions, in the units of `Local`."""
+        groups = self.groups
+        pulling = [groups.force_of(self.strength(r)) if r.load == "anchoring" else None for r in regions]
+        if self.holds_force:
+            pulling = continued(pulling)
+        pushing = (groups.c_of(self.strength(r)) if r.load == "advancing" else 0.0 for r in regions)
+        return [-(force or 0.0) for force in pulling], list(pushing)
 
 
 class Local(NamedTuple):
@@ -95,29 +117,14 @@ class InstantProblem:
         self.groups, self.pieces = self.common.groups, self.common.pieces
         self.regions = regions = merged(regions)
         self.advancing = [r.load == "advancing" for r in regions]
-        pulling = [
-            self.groups.force_of(self._strength(r)) if r.load == "anchoring" else None for r in regions
-        ]
-        if self.common.holds_force:
-            pulling = continued(pulling)
-        self.force = [-(force or 0.0) for force in pulling]
-        self.pressure = [
-            self.groups.c_of(self._strength(r)) if r.load == "advancing" else 0.0 for r in regions
-        ]
-        printed = self.groups.incompressible and loads.multiplier == "printed"
+        self.force, self.pressure = self.common.acting(regions)
+        printed = self.common.has_exponents
         self.exponent = [r.right - r.left if printed and r.load == "advancing" else 1.0 for r in regions]
         self.spans = spans(regions, self.pieces)
         self.span_ends = np.array([(s.left, s.right) for s in self.spans])
         self.span_pieces = np.array([s.piece for s in self.spans])
         per_region = np.array([self.force, self.pressure, self.exponent])
         self.of_spans = per_region[:, [s.region for s in self.spans]]
-
-    def _strength(self, region: Region) -> float:
-        """The force [N] or the pressure [Pa] of the muscles of a region."""
-        usual = {"anchoring": self.loads.anchoring, "advancing": self.loads.advancing}.get(
-            region.load, 0.0
-        )
-        return (usual if region.own is None else region.own) * region.amplitude
 
     def local(self, span: Ints, z: Array) -> Local:
         """The equations at places z, each in the span of that number."""
@@ -180,7 +187,7 @@ class InstantProblem:
         key, unit = {"anchoring": ("anchoring", "N"), "advancing": ("advancing", "Pa")}.get(
             region.load, ("anchoring", "N")
         )
-        strength = self._strength(region)
+        strength = self.common.strength(region)
         muscles = (
             f"'loads.{key}' = {strength:g} {unit}"
             if region.own is None

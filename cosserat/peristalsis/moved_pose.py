@@ -21,20 +21,17 @@ _ALONG, _MU, _SLOPE, _MU_3, _FORCE = 0, slice(1, 3), slice(3, 5), 5, 6
 class MovedPose:
     """A pose and its rates by J parameters.
 
-    numbers : rates of the numbers of its instant.  columns : (M, p + 1, 7) what is interpolated between its points:
-    distance along the ground, mu_alpha, their slopes, mu_3 and n = lambda_c mu_1 mu_2.  slopes : their derivatives.
-    rates : (J, M, p + 1, 7) at fixed places.
+    numbers : rates of the numbers of its instant.  columns : (M, p + 1, C) what is interpolated between its points:
+    the distance along the ground and, if it is `whole`, mu_alpha, their slopes, mu_3 and n = lambda_c mu_1 mu_2.
+    slopes : their derivatives.  rates : (J, M, p + 1, C) at fixed places.
     """
 
-    def __init__(self, pose: Pose, moved: ProfileRates, numbers: Numbers) -> None:
+    def __init__(self, pose: Pose, moved: ProfileRates, numbers: Numbers, *, whole: bool) -> None:
         self.pose, self.numbers, self.mesh = pose, numbers, pose.profile.mesh
-        profile = pose.profile
-        volume, lam = profile.mu.prod(axis=-1), profile.multiplier
-        relative = (moved.mu / profile.mu).sum(axis=-1)
-        force_rate = (moved.multiplier + lam * relative) * volume
-        self.columns = _columns(pose.along, profile.mu, profile.slope, profile.mu_3, lam * volume)
+        self.columns, at_points = pose.along[..., None], moved.along[..., None]
+        if whole:
+            self.columns, at_points = _columns(pose, moved)
         self.slopes = self.mesh.slope(self.columns)
-        at_points = _columns(moved.along, moved.mu, moved.slope, moved.mu_3, force_rate)
         self.rates = at_points - self.slopes * moved.z[..., None]
         self.points = moved.z
 
@@ -45,29 +42,40 @@ class MovedPose:
         return np.asarray(found[1:] + found[0] * place_rate)
 
     def at(self, z: Array) -> tuple[Array, Array, Mask]:
-        """Columns (K, 7) at places z, their rates (J, K, 7), and where those have a kink (J, K, 7)."""
-        count = len(self.rates)
-        moving = np.moveaxis(self.rates, 0, 2).reshape(*self.columns.shape[:2], -1)
-        found = self.mesh.interpolate(np.concatenate([self.columns, moving], axis=-1), z)
-        rates = np.moveaxis(found[:, 7:].reshape(z.size, count, 7), 1, 0)
-        return found[:, :7], rates, self._kinks(z)
+        """Columns (K, C) at places z, their rates (J, K, C), and where those have a kink (J, K, C)."""
+        every = np.concatenate([self.columns[None], self.rates])
+        found = self.mesh.interpolate(np.moveaxis(every, 0, 2), z)
+        rates = np.moveaxis(found, 1, 0)
+        return rates[0], rates[1:], self._kinks(z)
 
     def _kinks(self, z: Array) -> Mask:
-        """Where a front passes a place and the column or its slope jumps there, (J, K, 7)."""
-        kinks = np.zeros((len(self.rates), z.size, 7), dtype=np.bool_)
+        """Where a front passes a place and the column or its slope jumps there, (J, K, C)."""
+        columns = self.columns.shape[-1]
+        kinks = np.zeros((len(self.rates), z.size, columns), dtype=np.bool_)
         for e in np.flatnonzero(np.diff(self.mesh.region)):
             here = np.abs(z - self.mesh.ends[e + 1]) < _ON_EDGE
             passes = self.points[:, e, -1] != 0
             if not (here.any() and passes.any()):
                 continue
-            jumps = np.zeros(7, dtype=np.bool_)
+            jumps = np.zeros(columns, dtype=np.bool_)
             for own in (self.columns, self.slopes):
                 jumps |= np.abs(own[e + 1, 0] - own[e, -1]) > _JUMP * np.abs(own).max(axis=(0, 1))
             kinks |= passes[:, None, None] & here[None, :, None] & jumps
         return kinks
 
 
-def _columns(along: Array, mu: Array, slope: Array, mu_3: Array, force: Array) -> Array:
+def _columns(pose: Pose, moved: ProfileRates) -> tuple[Array, Array]:
+    """All columns, and their rates at points that move."""
+    profile = pose.profile
+    volume, lam = profile.mu.prod(axis=-1), profile.multiplier
+    relative = (moved.mu / profile.mu).sum(axis=-1)
+    force_rate = (moved.multiplier + lam * relative) * volume
+    columns = (pose.along, profile.mu, profile.slope, profile.mu_3, lam * volume)
+    rates = (moved.along, moved.mu, moved.slope, moved.mu_3, force_rate)
+    return _joined(*columns), _joined(*rates)
+
+
+def _joined(along: Array, mu: Array, slope: Array, mu_3: Array, force: Array) -> Array:
     return np.concatenate([along[..., None], mu, slope, mu_3[..., None], force[..., None]], axis=-1)
 
 
@@ -76,28 +84,28 @@ Rated = tuple[Array, Mask]
 
 
 class SectionFields:
-    """The stored fields of a moved pose at K places z, by name."""
+    """The stored fields of a moved pose at K places z, by name; all but "along" need a `whole` one."""
 
     def __init__(self, moved: MovedPose, z: Array) -> None:
         self.body, self.numbers, self.z = moved.pose.problem.body, moved.numbers, z
         self.incompressible = moved.pose.profile.incompressible
         self.values, self.rates, self.kinks = moved.at(z)
-        own = self.values[:, _MU]
-        self.mu, self.volume = own, own.prod(axis=-1)
-        self.relative = (self.rates[..., _MU] / own).sum(axis=-1)  # of mu_1 mu_2
+        self.mu = self.values[:, _MU]
+        self.volume = self.mu.prod(axis=-1)
+        self.relative = (self.rates[..., _MU] / self.mu).sum(axis=-1)  # of mu_1 mu_2
 
     def named(self, names: set[str]) -> Mapping[str, Rated]:
         """Those of the names that there are."""
-        every: Mapping[str, Callable[[], Rated]] = {
-            "along": lambda: self._column(_ALONG),
-            "mu_1": lambda: self._column(_MU.start),
-            "mu_2": lambda: self._column(_MU.start + 1),
-            "mu_1_slope": self._slope,
-            "mu_3": self._mu_3,
-            "height": self._height,
-            "p_coelom": self._pressure,
-        }
-        return {name: every[name]() for name in names & set(every)}
+        return {name: form(self) for name, form in _FORMS.items() if name in names}
+
+    def _along(self) -> Rated:
+        return self._column(_ALONG)
+
+    def _mu_1(self) -> Rated:
+        return self._column(_MU.start)
+
+    def _mu_2(self) -> Rated:
+        return self._column(_MU.start + 1)
 
     def _column(self, number: int) -> Rated:
         return self.rates[..., number], self.kinks[..., number]
@@ -139,6 +147,19 @@ class SectionFields:
         swollen_rate -= scales.young * k_i * self.rates[..., _MU].sum(axis=-1) * self.volume
         total_rate = swollen_rate - pulled_rate
         return (total_rate - (swollen - pulled) * area_rate / area) / area, self.kinks[..., _FORCE]
+
+
+_FORMS: Mapping[str, Callable[[SectionFields], Rated]] = {
+    "along": SectionFields._along,
+    "mu_1": SectionFields._mu_1,
+    "mu_2": SectionFields._mu_2,
+    "mu_1_slope": SectionFields._slope,
+    "mu_3": SectionFields._mu_3,
+    "height": SectionFields._height,
+    "p_coelom": SectionFields._pressure,
+}
+OF_STRETCHES = frozenset(_FORMS) - {"along"}
+"""Fields that need the stretches of a moved pose."""
 
 
 def scale_rates(pieces: Sequence[Piece], rates: Array, z: Array) -> tuple[Scales, Array]:

@@ -11,30 +11,81 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import InputError
 from cosserat.peristalsis import equation_rates
-from cosserat.peristalsis.crawler import Crawler
+from cosserat.peristalsis.body import Piece, spans
+from cosserat.peristalsis.crawler import Crawler, Loads
 from cosserat.peristalsis.gait import Instant
-from cosserat.peristalsis.instant import InstantEquation, InstantProblem
+from cosserat.peristalsis.instant import Common, InstantEquation, InstantProblem
 from cosserat.peristalsis.profile import Profile
+from cosserat.peristalsis.region import Region, merged
 from cosserat.solvers.elements import Mesh
 from cosserat.solvers.regions import Change, moved
 from cosserat.solvers.slopes import slope
 
 Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
 _ROUGH = 1e-8  # of the largest derivative of a number, above which its error says that there is none
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where loads act at I instants, on S parts of the body in all.
+
+    begins, ends : (S,) of the parts, fractions of the length.
+    lengths : (S,) of the regions that they lie in.  advances : (S,) whether these advance.
+    sequences : of regions, whose loads are those of some instant.  region : (S,) number of the region of each part
+    among those of all sequences.  anchors : (I,) fractions of the length.  times : (I,) in the stride [s].
+    """
+
+    begins: Array
+    ends: Array
+    lengths: Array
+    advances: NDArray[np.bool_]
+    sequences: tuple[tuple[Region, ...], ...]
+    region: Ints
+    anchors: Array
+    times: Array
+
+    @classmethod
+    def of(cls, instants: Sequence[Instant], pieces: tuple[Piece, ...]) -> Layout:
+        """Of the instants of a body with these pieces."""
+        first: dict[tuple[Any, ...], tuple[int, tuple[Region, ...]]] = {}
+        parts, count = [], 0
+        for instant in instants:
+            regions = merged(instant.regions)
+            states = tuple(r.state for r in regions)
+            if states not in first:
+                first[states] = count, regions
+                count += len(regions)
+            found = spans(regions, pieces)
+            own = [(regions[s.region], first[states][0] + s.region) for s in found]
+            parts += [
+                (s.left, s.right, r.right - r.left, r.load == "advancing", number)
+                for s, (r, number) in zip(found, own, strict=True)
+            ]
+        begins, ends, lengths, advances, region = np.array(parts).T
+        return cls(
+            begins,
+            ends,
+            lengths,
+            advances > 0,
+            tuple(regions for _, regions in first.values()),
+            region.astype(np.int64),
+            np.array([m.anchor for m in instants]),
+            np.array([m.time for m in instants]),
+        )
 
 
 class Numbers(NamedTuple):
     """The numbers that the equations of I instants are made of, S parts of the body in all.
 
-    begins, ends : (S,) of the parts, fractions of the length.  force, pressure, exponent : (S,) of
-    `instant.InstantProblem`.  anchors : (I,) fractions of the length.  times : (I,) since the start of a stride [s].
+    begins, ends, anchors, times : of `Layout`.  force, pressure, exponent : (S,) of `instant.Local`.
     pieces : (P, 10) of `body.tabulated`.  stiffness : g or i.  weight : m.  p : k_P / k_S.
     body : length and radius [m], k_I [N] and k_G / l_0^2 [N] of an incompressible body, A [m^2].
     duration : of a stride [s].
@@ -55,24 +106,21 @@ class Numbers(NamedTuple):
     duration: Array
 
     @classmethod
-    def of(
-        cls, problems: Sequence[InstantProblem], instants: Sequence[Instant], duration: float
-    ) -> Numbers:
-        """Of the instants of a stride and their problems, of one body under the same loads."""
-        common, body = problems[0].common, problems[0].body
-        spans = np.concatenate([one.span_ends for one in problems])
-        loads = np.hstack([one.of_spans for one in problems])
+    def of(cls, layout: Layout, body: Crawler, loads: Loads, duration: float) -> Numbers:
+        """Of a body under loads at some instants."""
+        common = Common.of(body, loads)
         groups = common.groups
-        begins, ends = spans.T
-        force, pressure, exponent = loads
+        acting = [common.acting(regions) for regions in layout.sequences]
+        force, pressure = (np.concatenate([own[side] for own in acting]) for side in (0, 1))
+        exponents = layout.advances & common.has_exponents
         return cls(
-            begins,
-            ends,
-            force,
-            pressure,
-            exponent,
-            np.array([one.anchor for one in instants]),
-            np.array([one.time for one in instants]),
+            layout.begins,
+            layout.ends,
+            force[layout.region],
+            pressure[layout.region],
+            np.where(exponents, layout.lengths, 1.0),
+            layout.anchors,
+            layout.times,
             common.table,
             np.array(groups.stiffness),
             np.array(common.weight),
@@ -111,7 +159,7 @@ def numbers_rate(at: Callable[[float], Numbers]) -> Numbers:
         found = base if step == 0.0 else at(step)
         if any(one.shape != own.shape for one, own in zip(found, base, strict=True)):
             raise InputError(
-                "it makes regions of an instant that are one, or parts such ones; give such regions other loads"
+                "neighbouring regions with equal loads are one, and come apart with it; let their loads differ a bit"
             )
         return np.concatenate([one.ravel() / size for one, size in zip(found, sizes, strict=True)])
 

@@ -16,10 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import InputError
-from cosserat.peristalsis.gait import Instant
 from cosserat.peristalsis.ground import Pose
-from cosserat.peristalsis.moved_pose import Mask, MovedPose, SectionFields, scale_rates
-from cosserat.peristalsis.rates import Numbers, numbers_rate, profile_rates, stacked
+from cosserat.peristalsis.moved_pose import OF_STRETCHES, Mask, MovedPose, SectionFields, scale_rates
+from cosserat.peristalsis.rates import Layout, Numbers, numbers_rate, profile_rates, stacked
 from cosserat.problems.crawl import Crawl, Posture
 from cosserat.problems.crawler import CrawlerProblem
 from cosserat.problems.tangents import Motion, Nearby
@@ -76,11 +75,11 @@ def moving_crawl(problem: Crawl, nearby: Sequence[Nearby], name: str, wanted: Se
     InputError, NotConvergedError, OutOfReachError : there is no such crawl.
     """
     solved = problem.solved(name)
-    instants = problem.gait.instants(problem.step)
+    layout = Layout.of([pose.instant for pose in solved.every], problem.crawler.pieces)
 
     def numbers(changed: Crawl) -> Numbers:
-        own = [m for stage in changed.stages(_carried(problem, changed, instants)) for m in stage]
-        return Numbers.of(changed.problems(own, name), own, changed.gait.duration)
+        own = layout if _keeps_fronts(problem, changed) else _carried(problem, changed)
+        return Numbers.of(own, changed.crawler, changed.loads, changed.gait.duration)
 
     base = problem.solution(solved)
     names = set(wanted) & set(base.fields)
@@ -88,7 +87,7 @@ def moving_crawl(problem: Crawl, nearby: Sequence[Nearby], name: str, wanted: Se
     def rates(moved: Sequence[MovedPose]) -> dict[str, Rate]:
         return _of_crawl(problem, solved.poses, moved, names)
 
-    return _motion(solved.every, base, nearby, (numbers, rates))
+    return _motion(solved.every, base, nearby, names, (numbers, rates))
 
 
 def moving_posture(problem: Posture, nearby: Sequence[Nearby], name: str, wanted: Set[str]) -> Motion:
@@ -98,20 +97,22 @@ def moving_posture(problem: Posture, nearby: Sequence[Nearby], name: str, wanted
     names = set(wanted) & set(base.fields)
 
     def numbers(changed: Posture) -> Numbers:
-        return Numbers.of([changed.problem(name)], [changed.instant], 0.0)
+        own = Layout.of([changed.instant], changed.crawler.pieces)
+        return Numbers.of(own, changed.crawler, changed.loads, 0.0)
 
     def rates(moved: Sequence[MovedPose]) -> dict[str, Rate]:
         found = SectionFields(moved[0], problem.places).named(names)
         of_body = _of_body(problem, moved[0].numbers, names)
         return {name: Rate(*own) for name, own in found.items()} | of_body
 
-    return _motion([pose], base, nearby, (numbers, rates))
+    return _motion([pose], base, nearby, names, (numbers, rates))
 
 
 def _motion(
     poses: Sequence[Pose],
     base: Solution,
     nearby: Sequence[Nearby],
+    wanted: set[str],
     ways: tuple[Callable[[Any], Numbers], Callable[[Sequence[MovedPose]], dict[str, Rate]]],
 ) -> Motion:
     """How poses move; ways : the numbers of a changed problem, and the rates of fields from moved poses."""
@@ -126,7 +127,7 @@ def _motion(
             lost[k] = str(error)
     if not found:
         return Motion(base, tuple(MovedCrawl(base, {}, 0) for _ in nearby), tuple(lost))
-    moved = _moved(poses, stacked(found))
+    moved = _moved(poses, stacked(found), whole=bool(wanted & OF_STRETCHES))
     if moved is None:
         return Motion(base, tuple(MovedCrawl(base, {}, 0) for _ in nearby), (_SINGULAR,) * len(lost))
     rates = fields(moved)
@@ -137,27 +138,37 @@ def _after(numbers: Callable[[Any], Numbers], near: Nearby) -> Callable[[float],
     return lambda step: numbers(near(step))
 
 
-def _carried(problem: Crawl, changed: Crawl, instants: Sequence[Instant]) -> Sequence[Instant]:
+def _keeps_fronts(problem: Crawl, changed: Crawl) -> bool:
+    """Whether fronts, anchors and joints of a changed crawl are where they are.
+
+    Raises
+    ------
+    InputError : the number of its instants may not be theirs.
+    """
+    if changed.step != problem.step:
+        raise InputError(_STEP)
+    joints, own = ([(p.left, p.right) for p in one.crawler.pieces] for one in (problem, changed))
+    return joints == own and (changed.gait is problem.gait or changed.gait == problem.gait)
+
+
+def _carried(problem: Crawl, changed: Crawl) -> Layout:
     """The instants of a changed gait, at the same fractions of the times between its events.
 
     Raises
     ------
     InputError : there are no such instants.
     """
-    if changed.step != problem.step:
-        raise InputError(_STEP)
-    if changed.gait == problem.gait:
-        return instants
     before, after = problem.gait.breaks(), changed.gait.breaks()
     if len(before) != len(after):
         raise InputError(_EVENTS)
-    phases = np.interp([m.phase for m in instants], before, after)
-    return [changed.gait.instant(float(phase)) for phase in phases]
+    phases = np.interp(problem.gait.divided(problem.step), before, after)
+    stages = changed.stages([changed.gait.instant(float(phase)) for phase in phases])
+    return Layout.of([m for stage in stages for m in stage], changed.crawler.pieces)
 
 
-def _moved(poses: Sequence[Pose], rates: Numbers) -> list[MovedPose] | None:
+def _moved(poses: Sequence[Pose], rates: Numbers, *, whole: bool) -> list[MovedPose] | None:
     """The poses with their rates by J parameters; None where one has none."""
-    cuts = np.cumsum([0, *(len(pose.problem.spans) for pose in poses)])
+    cuts = np.cumsum([0, *(len(pose.problem.spans) for pose in poses)]).tolist()
     found = []
     for pose, (begin, end) in zip(poses, pairwise(cuts), strict=True):
         assert pose.nodal is not None  # the solver is the banded one
@@ -165,7 +176,7 @@ def _moved(poses: Sequence[Pose], rates: Numbers) -> list[MovedPose] | None:
         moved = profile_rates(pose.problem, pose.profile, pose.nodal, pose.along, own)
         if moved is None:
             return None
-        found.append(MovedPose(pose, moved, own))
+        found.append(MovedPose(pose, moved, own, whole=whole))
     return found
 
 

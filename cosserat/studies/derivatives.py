@@ -112,7 +112,7 @@ def derivatives(
     ------
     CosseratError : the problem has no result, or none with the read-outs.
     """
-    table = table_of(problem)
+    table = table_of(problem, [one.key.path for one in parameters])
     near = [_nearby(problem, table, one) for one in parameters]
     wanted = {word for one in read_outs for word in one.needs()}
     motion, method = _motion(problem, near, name, wanted), method_of(problem)
