@@ -271,7 +271,7 @@ def _extreme(over: str, values: Array, rates: Array, kinks: NDArray[np.bool_]) -
     own = rates[tied]
     if kinks[tied].any():
         raise InputError("its values have a kink there")
-    if np.ptp(own) > _SAME * np.abs(rates).max():
+    if np.ptp(own) > _SAME * np.abs(rates).max() + _TIE * size:
         raise InputError(
             f"{tied.size} values share the {'largest' if sign > 0 else 'smallest'} one and change differently"
         )
