@@ -1,8 +1,8 @@
 """Crawls and postures that move with parameters, by the tangent of every instant.
 
 derived: the rear end moves by the difference of two distances of an anchor from it, eqs. (2.5.10), (2.5.11), so its
-rate is the sum of the differences of theirs.  The instants of a stride keep their fractions of the times between the
-events of the gait, at which tracks turn, begin and end and the anchor changes.
+rate is the sum of the differences of theirs.  The instants at the events of a gait, where tracks turn, begin or end and
+the anchor changes, go with these; the others keep their phases.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from cosserat.errors import InputError
 from cosserat.peristalsis.ground import Pose
 from cosserat.peristalsis.moved_pose import OF_STRETCHES, Mask, MovedPose, SectionFields, scale_rates
 from cosserat.peristalsis.rates import Layout, Numbers, numbers_rate, profile_rates, stacked
+from cosserat.peristalsis.tracks import PHASE_TOLERANCE
 from cosserat.problems.crawl import Crawl, Posture
 from cosserat.problems.crawler import CrawlerProblem
 from cosserat.problems.tangents import Motion, Nearby
@@ -32,6 +33,7 @@ _STEP = "'step' says how many instants there are, and a result changes at once w
 _EVENTS = (
     "two events of the gait at one time come apart with it, and what they do then depends on their order"
 )
+_PASSES = "an event of the gait passes an instant with it; take another 'step'"
 _LACKS = "muscles act on one side of a front and not on the other, so what they do at a section jumps"
 
 
@@ -152,16 +154,20 @@ def _keeps_fronts(problem: Crawl, changed: Crawl) -> bool:
 
 
 def _carried(problem: Crawl, changed: Crawl) -> Layout:
-    """The instants of a changed gait, at the same fractions of the times between its events.
+    """The instants of a changed gait: those at its events go with them, the others stay at their phases.
 
     Raises
     ------
     InputError : there are no such instants.
     """
-    before, after = problem.gait.breaks(), changed.gait.breaks()
-    if len(before) != len(after):
+    before, after = np.array(problem.gait.breaks()), np.array(changed.gait.breaks())
+    if before.size != after.size:
         raise InputError(_EVENTS)
-    phases = np.interp(problem.gait.divided(problem.step), before, after)
+    phases = np.array(problem.gait.divided(problem.step))
+    event = np.searchsorted(before[:-1], phases - PHASE_TOLERANCE)
+    phases = np.where(np.abs(before[event] - phases) <= PHASE_TOLERANCE, after[event], phases)
+    if (np.diff(phases) <= 0).any():
+        raise InputError(_PASSES)
     stages = changed.stages([changed.gait.instant(float(phase)) for phase in phases])
     return Layout.of([m for stage in stages for m in stage], changed.crawler.pieces)
 
