@@ -101,33 +101,28 @@ CASES = {
 }  # fmt: skip
 
 
-def read(case, of):
-    """The read-outs of a case solved to round-off."""
-    key, tolerance = ("mesh", 1e-13) if hasattr(case.problem, "crawler") else ("newton", 1e-14)
-    sharp = {f"{key}.tolerance": [tolerance]}
-    found = cosserat.study(case, sharp, of, name="one", progress=lambda *_: None)
-    assert found["reason"].item(0) == "" or found["status"].item(0) == 1, found["reason"].item(0)
-    return np.array([found[name].item(0) for name in of])
+def read(case, key, values, of):
+    """The read-outs of a case solved to round-off for some values of a key, (values, read-outs)."""
+    solver, tolerance = ("mesh", 1e-13) if hasattr(case.problem, "crawler") else ("newton", 1e-14)
+    members = {key: list(values), f"{solver}.tolerance": [tolerance]}
+    found = cosserat.study(case, members, of, name="near", progress=lambda *_: None)
+    assert (found["status"] <= 1).all(), found["reason"].to_numpy()
+    return np.array([found[name].to_numpy().ravel() for name in of]).T
 
 
 def differenced(case, key, value, of):
     """Derivatives by a key times its value, by Ridders' method on whole solves, (read-outs,)."""
-    from cosserat.studies.keys import case_with, table_of
-
-    table = table_of(case.problem)
-
-    def at(step):
-        return read(case_with(case, table, {key: value * (1 + step)}, "near"), of)
-
-    best, error, before, step = None, np.full(len(of), np.inf), [], 2.0**-5
-    for _ in range(6):
-        row = [(at(step) - at(-step)) / (2 * step)]
+    steps = 2.0 ** -np.arange(5.0, 11.0)
+    ahead, behind = np.split(read(case, key, value * (1 + np.concatenate([steps, -steps])), of), 2)
+    best, error, before = None, np.full(len(of), np.inf), []
+    for first in (ahead - behind) / (2 * steps[:, None]):
+        row = [first]
         for order, coarse in enumerate(before, start=1):
             row.append(row[-1] + (row[-1] - coarse) / (4**order - 1))
             change = np.maximum(np.abs(row[-1] - row[-2]), np.abs(row[-1] - coarse))
             best = row[-1].copy() if best is None else np.where(change < error, row[-1], best)
             error = np.minimum(change, error)
-        before, step = row, step / 2
+        before = row
     return best
 
 

@@ -19,7 +19,7 @@ CASES = cosserat.load_cases(FILE)
         ("followed", ["rod.length", "follower_forces.0.force"]),
         ("published", ["rod.section.height", "gravity.g"]),
         ("moved", ["prescribed_rotations.0.by"]),
-        ("robot_as_printed", ["crawler.radius", "crawler.material.poisson"]),
+        ("robot_as_printed", ["crawler.material.poisson"]),
         ("earthworm_as_printed", ["crawler.length", "gait.gamma.0.2.1"]),
         ("tapered", ["gait.ramp", "loads.advancing"]),
     ],
@@ -53,7 +53,7 @@ def test_both_critical_loads_are_proportional_to_the_modulus():
 
 
 def test_a_stride_and_its_derivatives_by_other_means():
-    value, errors = by_other_means(96, STRIDE[1:3])
+    value, errors = by_other_means(96, STRIDE[1:2])
     assert value < 5e-8
     assert errors < 3e-7  # both are 1e-9 with polynomials of degree 160
 
