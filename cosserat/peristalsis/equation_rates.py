@@ -1,6 +1,6 @@
 """How the compiled equations of a crawler change with J parameters, the stretches at the points being fixed.
 
-derived: derivatives of the formulas in `equations`, term by term; a letter with `_rate` is a derivative by a parameter.
+derived: derivatives of the formulas in `equations`, term by term.  A rate is a derivative by a parameter.
 """
 
 from __future__ import annotations

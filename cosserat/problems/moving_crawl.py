@@ -30,9 +30,7 @@ _SINGULAR = (
     "an instant is at a limit point or a bifurcation, where it has no derivative; change the loads a bit"
 )
 _STEP = "'step' says how many instants there are, and a result changes at once with their number"
-_EVENTS = (
-    "two events of the gait at one time come apart with it, and what they do then depends on their order"
-)
+_EVENTS = "two events of the gait at one time come apart with it, and their order counts; move one a bit"
 _PASSES = "an event of the gait passes an instant with it; take another 'step'"
 _LACKS = "muscles act on one side of a front and not on the other, so what they do at a section jumps"
 

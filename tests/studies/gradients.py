@@ -88,7 +88,7 @@ CASES = {
     "robot_as_printed": ((*BODY, "crawler.density", "crawler.material.poisson"), CRAWL),
     "earthworm": ((*BODY, "crawler.mass", "gait.gamma.0.2.1", "gait.anchor.0.1.1"),
                   {**CRAWL, "inside": "max p_coelom"}),
-    "earthworm_as_printed": ((*BODY, "crawler.mass", "gait.gamma.0.2.1"), {**CRAWL, "inside": "final p_coelom at 40"}),
+    "earthworm_as_printed": ((*BODY, "crawler.mass", "gait.gamma.0.2.1"), {**CRAWL, "inside": "final p_coelom at 20"}),
     "tapered": ((*MATTER, "crawler.mass", "crawler.segments.0.radius.0", "crawler.segments.1.young.1", "gait.ramp"),
                 {**CRAWL, "inside": "final p_coelom at 33"}),
     "chambered": ((*BODY, "gait.ramp", "gait.chambers.0.begin", "gait.chambers.0.pressure", "gait.chambers.2.force"),
