@@ -650,7 +650,7 @@ page.text(
 # $$
 
 # %% tags=["remove-input"]
-page.excerpt("cosserat.problems.crawl.CrawlerProblem.length_along", "tilt = profile.slope")
+page.excerpt("cosserat.problems.crawler.CrawlerProblem.length_along", "tilt = profile.slope")
 
 # %% [markdown]
 # This is the shape at one instant. In the next chapter the muscles change from instant to instant, and the body moves.

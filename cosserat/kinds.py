@@ -111,6 +111,7 @@ KINDS = {
         "cosserat.problems.crawl:Posture",
         "cosserat.figures.crawlers:picture",
         mesh=_CRAWLER,
+        moving="cosserat.problems.moving_crawl:moving_posture",
         refined=f"{_REFINED}:of_crawler",
     ),
     "crawl": Kind(
@@ -118,7 +119,8 @@ KINDS = {
         "cosserat.figures.crawlers:picture",
         "cosserat.figures.crawling:animate",
         _CRAWLER,
-        refined=f"{_REFINED}:of_crawl",
+        "cosserat.problems.moving_crawl:moving_crawl",
+        f"{_REFINED}:of_crawl",
     ),
 }
 """Kinds by the value of `kind` in a case; `cosserat.publications` adds those of each publication."""

@@ -158,6 +158,13 @@ class Parameters(BaseModel):
         except ValidationError as error:
             raise InputError(explain(error, cls, name)) from None
 
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """A copy with some fields changed and not validated; what was computed from the old ones is left behind."""
+        copied = super().model_copy(update=update, deep=deep)
+        for name in copied.__dict__.keys() - type(self).model_fields.keys():
+            del copied.__dict__[name]
+        return copied
+
     def replace(self, **changes: Any) -> Self:
         """A copy with the named fields changed, validated like the original.
 

@@ -99,6 +99,11 @@ class Problem(Parameters, ABC):
         """
         return None
 
+    @property
+    def has_tangent(self) -> bool:
+        """Whether its result moves exactly with parameters, if results of its kind do."""
+        return True
+
     @abstractmethod
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Solve the problem; `name` : name of the case in errors."""

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cosserat.problems.crawl import CrawlerProblem
+from cosserat.problems.crawler import CrawlerProblem
 from cosserat.rods.problem import RodProblem
 
 Array = NDArray[np.float64]

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, FOURTH, INK, VARIANT, canvas, title_of
-from cosserat.problems.crawl import Crawl, CrawlerProblem
+from cosserat.problems.crawl import Crawl
+from cosserat.problems.crawler import CrawlerProblem
 
 Array = NDArray[np.float64]
 

@@ -35,11 +35,6 @@ _BREAK_OFFSET = 1e-7  # distance from a break at which its two sides are compare
 _CHANGE_TOLERANCE = 1e-4  # fraction of the body that fronts pass between those sides, and the clearance
 _MOST_INSTANTS = 20_000
 _MOST_TRACKS = 100
-_MOST_POINTS = 5000  # of all tracks together
-_MOST_COMPARED = (
-    3_000_000  # pairs of tracks at the points of all, which are compared when a gait is read
-)
-_MOST_ROWS = 200  # of the schedules of all chambers together
 
 
 @dataclass(frozen=True)
@@ -238,6 +233,10 @@ class Gait(Parameters):
                 return place
         raise AssertionError("the tracks of the anchor were checked to cover the stride")
 
+    def instant(self, phase: float) -> Instant:
+        """The instant at a phase."""
+        return Instant(phase, self.time(phase), self.regions(phase), self.anchored(phase))
+
     def instants(self, step: float) -> tuple[Instant, ...]:
         """The instants of one stride: its breaks, and between them at most `step` [s] apart."""
         return _instants(self, step)
@@ -248,7 +247,7 @@ class Gait(Parameters):
 
     def telling_phases(self, step: float) -> list[float]:
         """Phases of its breaks and of one instant between each two: all that tell which loads ever act."""
-        phases, found = self._divided(step), self.breaks()
+        phases, found = self.divided(step), self.breaks()
         for begin, end in itertools.pairwise(tuple(found)):
             next_one = phases[bisect.bisect_right(phases, begin + PHASE_TOLERANCE)]
             if next_one < end - PHASE_TOLERANCE:
@@ -264,7 +263,7 @@ class Gait(Parameters):
                 "instants; take a longer one",
             )
 
-    def _divided(self, step: float) -> list[float]:
+    def divided(self, step: float) -> list[float]:
         """The phases of the instants, increasing."""
         phases = self.breaks()
         for number, duration in enumerate(self.phases):
@@ -382,9 +381,7 @@ class Gait(Parameters):
 
 @functools.lru_cache(maxsize=4)
 def _instants(gait: Gait, step: float) -> tuple[Instant, ...]:
-    return tuple(
-        Instant(p, gait.time(p), gait.regions(p), gait.anchored(p)) for p in gait._divided(step)
-    )
+    return tuple(map(gait.instant, gait.divided(step)))
 
 
 @functools.lru_cache(maxsize=4)

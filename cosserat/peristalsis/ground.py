@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.peristalsis.gait import Instant
+from cosserat.peristalsis.instant import InstantProblem
 from cosserat.peristalsis.profile import Profile
 
 Array = NDArray[np.float64]
@@ -18,11 +19,12 @@ Array = NDArray[np.float64]
 class Pose:
     """The body at an instant of a stride.
 
-    along : (M, p + 1) distance along the ground from the rear end [m].  nodal : the start of the next solve.
-    tilt : the largest sine of it.
+    problem : the one that its profile solves.  along : (M, p + 1) distance along the ground from the rear end [m].
+    nodal : the start of the next solve.  tilt : the largest sine of it.
     """
 
     instant: Instant
+    problem: InstantProblem
     profile: Profile
     along: Array
     nodal: Array | None

@@ -44,6 +44,7 @@ class Common:
     pieces : of the body; table : the same as `body.tabulated`.  weight : m where the radius is that of the body.
     """
 
+    loads: Loads
     groups: Groups
     pieces: tuple[Piece, ...]
     table: Array
@@ -55,7 +56,28 @@ class Common:
         """Of a body under loads."""
         groups, pieces = Groups.of(body, loads), body.pieces
         weight = groups.m / mean_square(pieces)
-        return cls(groups, pieces, tabulated(pieces), weight, holds_force(body, loads))
+        return cls(loads, groups, pieces, tabulated(pieces), weight, holds_force(body, loads))
+
+    @property
+    def has_exponents(self) -> bool:
+        """Whether lambda_c in advancing regions is that of eq. (2.4.18) as printed."""
+        return self.groups.incompressible and self.loads.multiplier == "printed"
+
+    def strength(self, region: Region) -> float:
+        """The force [N] or the pressure [Pa] of the muscles of a region."""
+        usual = {"anchoring": self.loads.anchoring, "advancing": self.loads.advancing}.get(
+            region.load, 0.0
+        )
+        return (usual if region.own is None else region.own) * region.amplitude
+
+    def acting(self, regions: Sequence[Region]) -> tuple[list[float], list[float]]:
+        """n and c in consecutive regions, in the units of `Local`."""
+        groups = self.groups
+        pulling = [groups.force_of(self.strength(r)) if r.load == "anchoring" else None for r in regions]
+        if self.holds_force:
+            pulling = continued(pulling)
+        pushing = (groups.c_of(self.strength(r)) if r.load == "advancing" else 0.0 for r in regions)
+        return [-(force or 0.0) for force in pulling], list(pushing)
 
 
 class Local(NamedTuple):
@@ -78,6 +100,8 @@ class InstantProblem:
     """One boundary value problem: a body, its loads, and the regions in which they act.
 
     common : that of the body under the loads, if it is known.
+    span_ends : (S, 2) of its spans.  span_pieces : (S,) number of the piece of each.
+    of_spans : (3, S) force, pressure and exponent of each in a body that does not vary.
     """
 
     def __init__(
@@ -93,29 +117,14 @@ class InstantProblem:
         self.groups, self.pieces = self.common.groups, self.common.pieces
         self.regions = regions = merged(regions)
         self.advancing = [r.load == "advancing" for r in regions]
-        pulling = [
-            self.groups.force_of(self._strength(r)) if r.load == "anchoring" else None for r in regions
-        ]
-        if self.common.holds_force:
-            pulling = continued(pulling)
-        self.force = [-(force or 0.0) for force in pulling]
-        self.pressure = [
-            self.groups.c_of(self._strength(r)) if r.load == "advancing" else 0.0 for r in regions
-        ]
-        printed = self.groups.incompressible and loads.multiplier == "printed"
+        self.force, self.pressure = self.common.acting(regions)
+        printed = self.common.has_exponents
         self.exponent = [r.right - r.left if printed and r.load == "advancing" else 1.0 for r in regions]
         self.spans = spans(regions, self.pieces)
-        self._ends = np.array([(s.left, s.right) for s in self.spans])
-        self._piece = np.array([s.piece for s in self.spans])
+        self.span_ends = np.array([(s.left, s.right) for s in self.spans])
+        self.span_pieces = np.array([s.piece for s in self.spans])
         per_region = np.array([self.force, self.pressure, self.exponent])
-        self._per_span = per_region[:, [s.region for s in self.spans]]
-
-    def _strength(self, region: Region) -> float:
-        """The force [N] or the pressure [Pa] of the muscles of a region."""
-        usual = {"anchoring": self.loads.anchoring, "advancing": self.loads.advancing}.get(
-            region.load, 0.0
-        )
-        return (usual if region.own is None else region.own) * region.amplitude
+        self.of_spans = per_region[:, [s.region for s in self.spans]]
 
     def local(self, span: Ints, z: Array) -> Local:
         """The equations at places z, each in the span of that number."""
@@ -126,7 +135,7 @@ class InstantProblem:
         of_body = self.groups.stiffness, self.common.weight
         divided = not self.groups.incompressible
         rows: Array = equations.local_terms(
-            z, span, self._per_span, self._piece, self.common.table, of_body, divided
+            z, span, self.of_spans, self.span_pieces, self.common.table, of_body, divided
         )
         return rows
 
@@ -144,7 +153,7 @@ class InstantProblem:
     @functools.cached_property
     def _homogeneous(self) -> tuple[Array, float]:
         """mu_1, mu_2 of a long body with the loads and the section of either end of every span, shape (S, 2, 2)."""
-        ends = self._ends.ravel()
+        ends = self.span_ends.ravel()
         rows = self._rows(np.repeat(np.arange(len(self.spans)), 2), ends)
         groups = self.groups
         mu, mu_3, df, left = equations.homogeneous(
@@ -178,7 +187,7 @@ class InstantProblem:
         key, unit = {"anchoring": ("anchoring", "N"), "advancing": ("advancing", "Pa")}.get(
             region.load, ("anchoring", "N")
         )
-        strength = self._strength(region)
+        strength = self.common.strength(region)
         muscles = (
             f"'loads.{key}' = {strength:g} {unit}"
             if region.own is None
@@ -202,14 +211,14 @@ class InstantProblem:
     def mesh(self, settings: RegionSettings) -> Mesh:
         """The mesh of this instant."""
         _, layer = self._homogeneous
-        edges = [self._ends[0, 0], *self._ends[:, 1]]
+        edges = [self.span_ends[0, 0], *self.span_ends[:, 1]]
         varies = self.pieces is not UNIFORM  # then there are layers at the ends too
         return graded(edges, layer, settings.elements, settings.degree, fine_ends=varies)
 
     def guess(self, z: Array, span: Ints) -> Array:
         """Plateaus joined by layers, shape (K, 2), at places z in the spans with these indices."""
         mu, layer = self._homogeneous
-        guessed: Array = equations.layered(z, span, self._ends, mu, layer)
+        guessed: Array = equations.layered(z, span, self.span_ends, mu, layer)
         return guessed
 
     def _first_guess(self, mesh: Mesh) -> Array:
@@ -227,7 +236,7 @@ class InstantProblem:
         InputError : the loads collapse a section.  NotConvergedError : no solution.
         """
         mesh = self.mesh(settings)
-        equation = _Equation(self, mesh)
+        equation = InstantEquation(self, mesh)
         weight = equation.weight
         if before is None or before.shape[0] != mesh.nodes:
             solved = solve(mesh, equation, self._first_guess(mesh), settings, self.asked, weight)
@@ -241,7 +250,13 @@ class InstantProblem:
         return self._profile(equation, mu, mesh.slope(mu), mu_3, multiplier, solved.iterations), solved.u
 
     def _profile(
-        self, equation: _Equation, mu: Array, slope: Array, mu_3: Array, multiplier: Array, effort: int
+        self,
+        equation: InstantEquation,
+        mu: Array,
+        slope: Array,
+        mu_3: Array,
+        multiplier: Array,
+        effort: int,
     ) -> Profile:
         radius = (equation.local.radius * self.body.radius).reshape(mu_3.shape)
         return Profile(
@@ -273,7 +288,7 @@ class InstantProblem:
             found.solution(int(r), z).T for r, z in zip(mesh.region, mesh.places, strict=True)
         ]  # (p + 1, 4 or 5) each
         mu, slope = np.array([v[:, 0:3:2] for v in y]), np.array([v[:, 1:4:2] for v in y])
-        equation = _Equation(self, mesh)
+        equation = InstantEquation(self, mesh)
         mu_3, multiplier = equation.along(mu)
         for e, values in enumerate(y):
             if values.shape[1] > 4:
@@ -321,13 +336,13 @@ class InstantProblem:
         return np.array(residuals)
 
 
-class _Equation:
+class InstantEquation:
     """The sources of an instant at the points of a mesh, for the banded solver."""
 
     def __init__(self, instant: InstantProblem, mesh: Mesh) -> None:
         self.instant, self.mesh = instant, mesh
-        span = np.repeat(mesh.region, mesh.degree + 1)
-        self.local = instant.local(span, mesh.places.ravel())
+        self.span = np.repeat(mesh.region, mesh.degree + 1)
+        self.local = instant.local(self.span, mesh.places.ravel())
         varies = instant.pieces is not UNIFORM
         self.weight = self.local.gradient.reshape(mesh.places.shape) if varies else None
         self.far = [
@@ -360,21 +375,22 @@ class _Equation:
             return np.zeros_like(local.force)
         multiplier: Array = equations.multiplier_of(u.reshape(-1, 2), local.force, local.exponent)
         for number, node in self.far:
-            at_junction = self._node_value(u, node).prod()
-            inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
+            at_junction = self.node_value(u, node).prod()
+            inside = self.span == number
             multiplier[inside] *= at_junction ** (self.instant.exponent[number] - 1)
         return multiplier
 
-    def _node_value(self, u: Array, node: int) -> Array:
-        element = min(node // self.mesh.degree, u.shape[0] - 1)
-        value: Array = u[element, node - element * self.mesh.degree]
+    def node_value(self, u: Array, node: int) -> Array:
+        """What a field (..., M, p + 1, m) is at a node, (..., m)."""
+        element = min(node // self.mesh.degree, u.shape[-3] - 1)
+        value: Array = u[..., element, node - element * self.mesh.degree, :]
         return value
 
     def _remote(self, u: Array, multiplier: Array, number: int, node: int) -> Remote:
         """f changes with the logarithm of mu_1 mu_2 at the junction through lambda_c there."""
-        inside = np.repeat(self.mesh.region == number, self.mesh.degree + 1)
+        inside = self.span == number
         change = np.where(inside, (self.instant.exponent[number] - 1) * multiplier, 0.0)
-        return Remote(node, change.reshape(u.shape[:2])[..., None] / u, 1 / self._node_value(u, node))
+        return Remote(node, change.reshape(u.shape[:2])[..., None] / u, 1 / self.node_value(u, node))
 
     def along(self, u: Array) -> tuple[Array, Array]:
         """mu_3 and lambda_c, shape (M, p + 1) each."""

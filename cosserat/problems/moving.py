@@ -71,12 +71,12 @@ def moving_statics(problem: RodStatics, nearby: Sequence[Nearby], name: str, wan
 
 
 def moves_exactly(problem: Problem) -> bool:
-    """Whether `moving` has a form for the kind of a problem."""
-    return kinds()[problem.kind].moving_function() is not None
+    """Whether `moving` has a form for a problem."""
+    return problem.has_tangent and kinds()[problem.kind].moving_function() is not None
 
 
 def moving(problem: Problem, nearby: Sequence[Nearby], name: str, wanted: Set[str]) -> Motion | None:
-    """The result of a problem, moving with each of several parameters; None for a kind that has no such form.
+    """The result of a problem, moving with each of several parameters; None for one that has no such form.
 
     wanted : names of the fields that move, at least.
 
@@ -84,5 +84,8 @@ def moving(problem: Problem, nearby: Sequence[Nearby], name: str, wanted: Set[st
     ------
     CosseratError : there is no result.
     """
+    if not moves_exactly(problem):
+        return None
     function = kinds()[problem.kind].moving_function()
-    return None if function is None else cast("Motion", function(problem, nearby, name, wanted))
+    assert function is not None  # it moves exactly
+    return cast("Motion", function(problem, nearby, name, wanted))

@@ -123,6 +123,46 @@ def solve(
     raise _failure(name, "the iterations did not converge", settings.max_iterations, size, settings)
 
 
+@dataclass(frozen=True)
+class Change:
+    """How the equation on fixed u changes with J parameters.
+
+    source : (J, M, p + 1, m) of f.  sizes : (J, M) of the lengths of the elements.
+    weight : (J, M, p + 1) of w; None where w is one.
+    """
+
+    source: Array
+    sizes: Array
+    weight: Array | None
+
+
+def moved(
+    mesh: Mesh, equation: Equation, u: Array, weight: Array | None, change: Change
+) -> Array | None:
+    """How a solution u (nodes, m) moves with J parameters, (J, nodes, m); None where the matrix is singular.
+
+    derived: the residual R(u, s) is zero for every s, so du/ds = -R_u^-1 R_s with the matrix R_u of Newton's method.
+    The nodes move with the ends of the elements.  With the length h of an element and the stiffness S for the length
+    two, d(2/h S) = 2/h (dS - dh/h S) and d(h/2 f) = h/2 (df + dh/h f).
+    """
+    stiffness, known = _stiffness(mesh, weight), rule(mesh.degree)
+    source = equation.source(mesh.split(u))
+    assert source is not None  # u is a solution
+    system = _Linear(mesh, stiffness, source, u.shape[1])
+    if system.singular:
+        return None
+    residuals = np.zeros((len(change.source), *u.shape))
+    for j, residual in enumerate(residuals):
+        relative = (change.sizes[j] / mesh.sizes)[:, None, None]
+        stiffer = -relative * stiffness
+        if change.weight is not None:
+            stiffer += _stiffness(mesh, change.weight[j])
+        stronger = change.source[j] + relative * source.value
+        _residual(residual, u, stronger, stiffer, known.weights, mesh.sizes)
+    right = residuals.reshape(len(residuals), -1).T
+    return -system.solve(right).T.reshape(residuals.shape)
+
+
 def _failure(
     name: str, reason: str, iterations: int, size: float, settings: RegionSettings
 ) -> NotConvergedError:
@@ -173,11 +213,15 @@ class _Linear:
             return np.full_like(u, np.inf)
         residual = np.zeros_like(u)
         _residual(residual, u, source.value, self.stiffness, rule(mesh.degree).weights, mesh.sizes)
-        x = -self._substitute(residual.ravel())
+        correction: Array = -self.solve(residual.ravel()).reshape(u.shape)
+        return correction
+
+    def solve(self, right: Array) -> Array:
+        """The solution for one right-hand side (n,), or for some of them (n, J)."""
+        x = self._substitute(right)
         if self.remote:
             x -= self.columns @ np.linalg.solve(self.small, self.rows @ x)
-        correction: Array = x.reshape(u.shape)
-        return correction
+        return x
 
     def _load(self, mesh: Mesh, f: Array) -> Array:
         load = np.zeros((mesh.nodes, f.shape[2]))

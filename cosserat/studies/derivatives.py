@@ -112,7 +112,7 @@ def derivatives(
     ------
     CosseratError : the problem has no result, or none with the read-outs.
     """
-    table = table_of(problem)
+    table = table_of(problem, [one.key.path for one in parameters])
     near = [_nearby(problem, table, one) for one in parameters]
     wanted = {word for one in read_outs for word in one.needs()}
     motion, method = _motion(problem, near, name, wanted), method_of(problem)
@@ -271,7 +271,7 @@ def _extreme(over: str, values: Array, rates: Array, kinks: NDArray[np.bool_]) -
     own = rates[tied]
     if kinks[tied].any():
         raise InputError("its values have a kink there")
-    if np.ptp(own) > _SAME * np.abs(rates).max():
+    if np.ptp(own) > _SAME * np.abs(rates).max() + _TIE * size:
         raise InputError(
             f"{tied.size} values share the {'largest' if sign > 0 else 'smallest'} one and change differently"
         )

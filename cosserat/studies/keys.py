@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from pydantic import BaseModel
@@ -105,12 +105,15 @@ def varied_key(problem: Problem, path: str, name: str) -> VariedKey:
     parts = path.split(".")
     if len(parts) > MOST_PARTS:
         raise InputError(f"{name}: the key {shown(path)} has more than {MOST_PARTS} parts")
-    owner: Any = problem
+    owners: list[Any] = [problem]
     for number, part in enumerate(parts[:-1]):
-        owner = _inside(owner, part, ".".join(parts[: number + 1]), name)
-    general = ".".join("[]" if part.isdecimal() else part for part in parts).replace(".[]", "[]")
-    known = keys(problem.kind)
+        owners.append(_inside(owners[-1], part, ".".join(parts[: number + 1]), name))
+    owner, general, known = owners[-1], _general(parts), keys(problem.kind)
     fitting = [key for key in known if key.path == general and _is_of(key, owner)]
+    item = None if fitting else _item(known, parts, owners)
+    if item is not None:
+        _inside(owner, parts[-1], path, name)
+        return VariedKey(path, item)
     if not fitting:
         parent = path.rpartition(".")[0]
         if isinstance(owner, int | float | str):
@@ -125,6 +128,34 @@ def varied_key(problem: Problem, path: str, name: str) -> VariedKey:
     if general == "kind" or isinstance(owner, Sequence):
         raise InputError(f"{name}: {shown(path)} cannot be varied; vary the keys inside it")
     return VariedKey(path, fitting[0])
+
+
+def _general(parts: Sequence[str]) -> str:
+    """A path as `Key` has it: "forces[].force"."""
+    return ".".join("[]" if part.isdecimal() else part for part in parts).replace(".[]", "[]")
+
+
+def _item(known: Sequence[Key], parts: Sequence[str], owners: Sequence[Any]) -> Key | None:
+    """The key of one value inside a list of values or of rows, such as gait.phases.0; owners : of every part."""
+    named = max((n for n, part in enumerate(parts) if not part.isdecimal()), default=-1) + 1
+    general = _general(parts[:named])
+    lists = [key for key in known if key.path == general and _is_of(key, owners[named - 1])]
+    if not lists or named == len(parts):
+        return None
+    value = lists[0].value
+    for part in parts[named:]:
+        forms = value.items if value.form == "either" else (value,)
+        inner = next((form for form in forms if form.form in ("list", "row")), None)
+        if inner is None or (inner.form == "row" and int(part) >= len(inner.items)):
+            return None
+        value = inner.items[0 if inner.form == "list" else int(part)]
+    place = ".".join(parts[named:])
+    first = lists[0].meaning.split(";")[0].rstrip(".")
+    return (
+        None
+        if value.form in ("table", "list", "row")
+        else replace(lists[0], path=_general(parts), value=value, meaning=f"{first}: item {place}")
+    )
 
 
 def _inside(owner: Any, part: str, path: str, name: str) -> Any:

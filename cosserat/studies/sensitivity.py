@@ -26,15 +26,17 @@ from cosserat.text import shown
 def sensitivity(case: Case | str, keys: Sequence[str] | str, of: Mapping[str, str]) -> xr.Dataset:
     """Read-outs of a case and their exact derivatives by some of its keys.
 
-    keys : dotted paths of quantities, such as "rod.material.young" or "forces.0.force".
+    keys : dotted paths of quantities, such as "rod.material.young", "forces.0.force" or "gait.gamma.0.1.1", which is
+        the place of the second point of the first track of a front gamma.
     of : read-outs by name, such as {"tip": "u.E2 at last"}.
 
     The Dataset has each read-out, 'tip'; its derivative by each key, 'tip_by_young', in its own unit; and on the
     dimension 'key' these times the value of the key, 'tip_scaled', all in the unit of the read-out.  The values of the
     keys are coordinates.  'error' is an attribute of each derivative, an estimate from its last extrapolation.
 
-    Equilibria, natural modes and critical load factors have derivatives by the tangent of the equilibrium, without
-    another solve.  Those of other kinds are differences of whole solves; the attribute 'method' says which.
+    Equilibria, natural modes, critical load factors, postures and crawls have derivatives by the tangent of the
+    equilibrium, of every instant of a crawl, without another solve.  Those of other kinds, and of crawls solved by
+    collocation, are differences of whole solves; the attribute 'method' says which.
 
     Raises
     ------

@@ -543,6 +543,12 @@ def test_a_crawl_that_will_collapse_is_refused_before_its_first_solve(
         cosserat.run(cosserat.case(name).vary("x", **changes))
 
 
+def test_a_copy_of_a_gait_has_times_of_its_own():
+    gait = cosserat.case("worm").problem.gait
+    assert gait.time(1.5) == pytest.approx(3.15 + 1.75 / 2)
+    assert gait.model_copy(update={"phases": (2.0, 1.75)}).time(1.5) == pytest.approx(2 + 1.75 / 2)
+
+
 def test_doubling_the_mesh_changes_no_row_by_a_tenth_of_its_tolerance(solved):
     """The change is below a tenth of the tolerance, and below half of the last digit of another number found.
 

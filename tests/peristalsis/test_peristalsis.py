@@ -197,7 +197,7 @@ def test_the_derivative_with_the_printed_contact(name):
 
 
 def test_the_contact_force_balances_the_muscles():
-    xi = np.linspace(0, 1, 200_001)
+    xi = np.linspace(0, 1, 20_001)
     centres, width = doublets.row(0.2, 0.8, 7)
     force = doublets.load(xi, centres, width, 2.0)
     n = -np.concatenate([[0], np.cumsum((force[1:] + force[:-1]) / 2 * np.diff(xi))])  # (2.2.6)
@@ -218,7 +218,7 @@ def test_rows_of_muscles_tend_to_a_constant_force_with_first_order():
 
 
 def test_a_window_of_muscles_pushes_its_neighbours_with_its_whole_force_at_either_end():
-    xi = np.linspace(0, 1, 200_001)
+    xi = np.linspace(0, 1, 20_001)
     centres, width = doublets.row(0.2, 0.8, 100)
     force = doublets.load(xi, centres, width, 2.0)
     step = xi[1] - xi[0]

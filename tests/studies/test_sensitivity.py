@@ -8,7 +8,7 @@ from cosserat.errors import InputError
 from cosserat.problems import moving_rows
 from cosserat.solvers.slopes import slope
 
-from .gradients import FILE, compared
+from .gradients import FILE, STRIDE, by_other_means, compared
 
 CASES = cosserat.load_cases(FILE)
 
@@ -19,6 +19,9 @@ CASES = cosserat.load_cases(FILE)
         ("followed", ["rod.length", "follower_forces.0.force"]),
         ("published", ["rod.section.height", "gravity.g"]),
         ("moved", ["prescribed_rotations.0.by"]),
+        ("robot_as_printed", ["crawler.material.poisson"]),
+        ("earthworm_as_printed", ["crawler.length", "gait.gamma.0.2.1"]),
+        ("tapered", ["gait.ramp", "loads.advancing"]),
     ],
 )
 def test_derivatives_are_those_of_differenced_solves(name, keys):
@@ -47,6 +50,54 @@ def test_both_critical_loads_are_proportional_to_the_modulus():
     found = cosserat.sensitivity(CASES["column"], "rod.material.young", of)
     for name in of:
         assert found[f"{name}_scaled"].item() == pytest.approx(found[name].item(), rel=1e-8)
+
+
+def test_a_stride_and_its_derivatives_by_other_means():
+    value, errors = by_other_means(96, STRIDE[1:2])
+    assert value < 5e-8
+    assert errors < 3e-7  # both are 1e-9 with polynomials of degree 160
+
+
+def breathing():
+    """The whole robot pushed in one phase and pulled in the other, without weight: bars under uniform stresses."""
+    gait = {
+        "phases": ["1 s", "1 s"],
+        "gamma": [],
+        "eta": [],
+        "anchor": [[[0, 0], [1, 0]], [[1, 1], [2, 1]]],
+        "chambers": [{"begin": 0, "end": 1, "schedule": [[0, 1, "advancing"]]}],
+    }
+    return CASES["robot"].vary("breathing", gait=gait, loads={"gravity": 0.0}, strides=1, step="0.5 s")
+
+
+def test_the_stride_of_a_body_without_fronts_follows_from_hookes_law():
+    """A pressure p round a bar lengthens it by 2 nu p / E, and a force D shortens it by D / (E A)."""
+    case = breathing()
+    body, loads = case.problem.crawler, case.problem.loads
+    young, poisson = body.material.moduli
+    swells = 2 * poisson * loads.advancing / young * body.length
+    shortens = loads.anchoring / (young * body.area) * body.length
+    keys = ["crawler.length", "crawler.radius", "crawler.material.young", "crawler.material.poisson"]
+    found = cosserat.sensitivity(
+        case, [*keys, "loads.anchoring", "loads.advancing"], {"stride": "change along at last"}
+    )
+    stride = swells + shortens
+    assert found["stride"].item() == pytest.approx(stride, rel=1e-12)
+    exact = [stride, -2 * shortens, -stride, swells, shortens, swells]
+    np.testing.assert_allclose(found["stride_scaled"], exact, rtol=0, atol=1e-12 * stride)
+    assert "tangent" in found.attrs["method"]
+
+
+def test_a_crawl_solved_in_the_thesiss_way_is_differenced_and_says_so():
+    case = breathing().vary("collocated", solver="collocation", collocation_tolerance=1e-9)
+    found = cosserat.sensitivity(case, "crawler.length", {"stride": "change along at last"})
+    assert found.attrs["method"] == "differences of whole solves"
+    assert found["stride_scaled"].item() == pytest.approx(found["stride"].item(), rel=1e-8)
+
+
+def on_a_front():
+    """The worm ends a stride with a front on the middle section."""
+    return CASES["earthworm"].vary("front", strides=1, step="10 s", gait={"sudden": 0.1})
 
 
 def test_units_names_and_values():
@@ -81,6 +132,12 @@ def at_euler():
         (unloaded, "forces.0.force", "max |u.E2|", "a kink"),
         (at_euler, "rod.length", "u.E3 at last", "a limit point or a bifurcation"),
         (lambda: CASES["column"], "rod.length", "max linear_u", "only load factors"),
+        (on_a_front, "gait.eta.1.1.1", "final mu_1_slope at 40", "a kink"),
+        (on_a_front, "crawler.length", "max muscle_force", "no variable"),
+        (on_a_front, "crawler.length", "max advancing", "at a section jumps"),
+        (on_a_front, "gait.gamma.0.1.0", "final along at last", "two events of the gait"),
+        (on_a_front, "step", "final along at last", "how many instants"),
+        (on_a_front, "gait.phases", "final along at last", "derivatives are by quantities"),
     ],
 )
 def test_what_has_no_derivative_is_said_in_one_sentence(case, key, read_out, said):

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from cosserat.problem import Problem
-from cosserat.problems.crawl import Crawl, CrawlerProblem
+from cosserat.problems.crawl import Crawl
+from cosserat.problems.crawler import CrawlerProblem
 from cosserat.problems.motion import RodMotion
 from cosserat.publications import kinds
 from cosserat.rods.problem import RodProblem

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import problem_of
 from cosserat.figures.style import BODY, COMPUTED, INK, PAPER, VARIANT, WIDTH, beside, canvas
-from cosserat.problems.crawl import CrawlerProblem
+from cosserat.problems.crawler import CrawlerProblem
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]

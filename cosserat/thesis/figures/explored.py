@@ -16,7 +16,7 @@ from cosserat.figures.animations import ALONG, UP, body_panel, curve
 from cosserat.figures.rod import outline
 from cosserat.figures.stage import Line, Mark, Panel, Slider, Stage
 from cosserat.figures.strokes import strokes
-from cosserat.problems.crawl import CrawlerProblem
+from cosserat.problems.crawler import CrawlerProblem
 from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import RodProblem
 from cosserat.studies.calibration import beam_of

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from cosserat.peristalsis import equations
 from cosserat.peristalsis.crawler import Crawler
 from cosserat.peristalsis.profile import Profile
-from cosserat.problems.crawl import Crawl, CrawlerProblem
+from cosserat.problems.crawl import Crawl
+from cosserat.problems.crawler import CrawlerProblem
 from cosserat.thesis import earthworm
 from cosserat.thesis.table import crawl_readouts
 from cosserat.thesis.table.power import Change, Physics
