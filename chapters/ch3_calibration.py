@@ -35,17 +35,17 @@
 import numpy as np
 
 import cosserat
-from cosserat.data.dataset import statistics_of
 from cosserat.exact import beams
-from cosserat.studies.calibration import beam_of
+from cosserat.studies.calibration import beam_of, condition_number
+from cosserat.studies.door import case_of_study
 from cosserat.thesis.book import page
 
-run = page.data("calibration")
+run = page.study("calibration")
 problems = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
 meshes = [int(n) for n in run.vertices.to_numpy()]
 
 # %% tags=["remove-input"]
-page.excerpt("cosserat.studies.calibration.CalibrationProcedure.fit", "start = np.log")
+page.excerpt("cosserat.studies.calibration.Calibration.least_misfit", "start = np.log")
 
 # %% tags=["remove-input"]
 page.rows("3.4.13")
@@ -90,10 +90,12 @@ page.text(
 # contraction far from the ends and the length over which it decays, and three coefficients to make them.
 
 # %% tags=["remove-input"]
-stated = statistics_of(run)
 page.table(
     [
-        [name.replace("_", " "), page.tens(stated[f"{name}_condition_number"])]
+        [
+            name.replace("_", " "),
+            page.tens(max(map(condition_number, run[f"{name}_singular_values"].to_numpy()))),
+        ]
         for name in (*problems, "beams")
     ],
     ("fit", "condition number [1]"),
@@ -205,7 +207,7 @@ page.table(
 page.excerpt("cosserat.exact.beams.clamped_free_tip_of_published_rod", "weight, length =")
 
 # %% tags=["remove-input"]
-procedure = cosserat.case_of(run).problem
+procedure = case_of_study(run).problem
 free = procedure.clamped_free
 beam, c, g = beam_of(free), free.rod.calibration, free.gravity.g
 tip = beams.clamped_free_tip_of_published_rod(beam, g, c.c3, c.c4, c.c5)

@@ -377,10 +377,10 @@ def test_crawlers_and_paths_are_drawn(capsys, tmp_path, solved):
         code, _, err = call(capsys, "plot", tmp_path / f"{name}.nc")
         assert (code, err) == (0, "")
         assert (tmp_path / f"{name}.svg").stat().st_size > 10_000
-    cosserat.save(solved["convergence"], tmp_path / "c.nc")
+    cosserat.save(solved["errors_of_one_mesh"], tmp_path / "c.nc")
     code, _, err = call(capsys, "plot", tmp_path / "c.nc")
     assert code == 2
-    assert "is of kind 'convergence', which has no picture" in err
+    assert "is of kind 'discretization errors', which has no picture" in err
 
 
 @pytest.mark.usefixtures("untraced")

@@ -12,7 +12,7 @@ from cosserat.thesis.table.reference import accept, compare
 REFERENCES = ROOT / "results/reference"
 
 
-@pytest.mark.parametrize("name", list(cosserat.published()))
+@pytest.mark.parametrize("name", [*cosserat.published(), *published_studies()])
 def test_results_agree_with_their_references(solved, name):
     changes = compare(solved[name], cosserat.load(REFERENCES / f"{name}.nc"))
     assert changes

@@ -16,6 +16,7 @@ from cosserat.rods.energies import hemingway, hemingway_kernel
 from cosserat.rods.energies.hemingway_stiffness import Stiffness, stiffnesses
 from cosserat.rods.rod import Rod
 from cosserat.thesis.table.power import Change, Physics
+from cosserat.thesis.table.printed import number
 
 Array = NDArray[Any]
 BAR = ("hanging_bar",)
@@ -89,15 +90,9 @@ def _calibration(
     unseen: str = "",
 ) -> Change:
     """A change of the fitted problems, at the published number of vertices only."""
-
-    def edited(value: Any) -> Any:
-        if isinstance(value, tuple | list):  # the numbers of vertices
-            return value[:1]
-        assert edit is not None
-        return edit(value)
-
-    places = ["meshes", *(f"{problem}.{place}" for problem in problems if place)]
-    return Change(f"calibration: {what}", ("calibration",), tuple(places), edited, physics, unseen)
+    places = tuple(f"{problem}.{place}" for problem in problems if place)
+    only = {"vertices": (int(number("clamped_free", "rod.vertices")),)}
+    return Change(f"calibration: {what}", ("calibration",), places, edit, only, physics, unseen)
 
 
 def scaled(name: str, factor: float) -> Physics:
