@@ -306,7 +306,11 @@ def test_help_has_the_commands_of_a_user_first_and_the_published_work_last(capsy
 
 
 def test_the_commands_of_the_workflow_run_by_hand(capsys, solved, tmp_path):
-    (tmp_path / "cases").mkdir()
+    for place in ("cases", "studies"):
+        (tmp_path / place).mkdir()
+    for name in ("calibration", "worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"):
+        assert solved[name].attrs["history"] == f"cosserat study {name}"
+        shutil.copy(solved.folder.parent / "studies" / f"{name}.nc", tmp_path / "studies")
     for name in solved:
         target = tmp_path / "cases" / f"{name}.nc"
         if name in ("clamped_free", "worm_at_rest"):

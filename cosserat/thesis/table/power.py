@@ -7,9 +7,9 @@ of our own rod use its own cases, so neither can replace the other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import Any
 
 import xarray as xr
@@ -19,7 +19,7 @@ from cosserat.errors import CosseratError, InputError, OutOfToleranceError
 from cosserat.problem import silent
 from cosserat.runner import run
 from cosserat.studies.answer import check_solved
-from cosserat.studies.door import find_study, published_studies, study
+from cosserat.studies.door import find_study, published_studies, solved
 from cosserat.thesis.table.measure import judge
 from cosserat.thesis.table.tolerances import Judged, Row
 
@@ -34,7 +34,7 @@ class Change:
 
     what : a short description.  cases : the cases and studies whose rows are judged.
     places, edit : the changed inputs of the cases, such as "rod.material.young", and the change.
-    only : values of varied keys of studies to which the trial is limited.
+    first : how many values of each factor of a study are tried, by default all.
     physics : a context with different mechanics.
     unseen : the reason why no printed number depends on the change.
     """
@@ -43,7 +43,7 @@ class Change:
     cases: tuple[str, ...]
     places: tuple[str, ...] = ()
     edit: Edit | None = None
-    only: Mapping[str, Sequence[object]] = field(default_factory=dict)
+    first: int | None = None
     physics: Physics = nullcontext
     unseen: str = ""
 
@@ -121,13 +121,12 @@ def result(name: str, change: Change) -> xr.Dataset:
     if name not in published_studies():
         return run(edited(find(name), change))
     found = find_study(name)
-    varied = {key: values for factor in found.study.vary for key, values in factor.varied.items()}
-    answer = study(
-        edited(found.base, change),
-        {**varied, **change.only},
-        found.study.keep,
-        keep_whole=found.study.keep_whole,
-        progress=silent,
+    factors = (
+        replace(factor, values=tuple(own[: change.first] for own in factor.values))
+        for factor in found.factors
+    )
+    answer = solved(
+        replace(found, base=edited(found.base, change), factors=tuple(factors)), progress=silent
     )
     check_solved(answer, "the answer")
     return answer

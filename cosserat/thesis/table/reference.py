@@ -53,8 +53,10 @@ class Change:
 def thin(dataset: xr.Dataset) -> xr.Dataset:
     """The stored part of a result: about as many values along each dimension as its kind of problem sets.
 
-    What follows from the stored states is left out: its tests compare it with right values.
+    What follows from the stored states is left out: its tests compare it with right values.  Of a study it is all.
     """
+    if "study" in dataset.attrs:
+        return stamped(dataset)
     dataset = without_derived(dataset)
     for dim, count in case_of(dataset).problem.thinned.items():
         if dim in dataset.sizes and not count:
@@ -149,7 +151,7 @@ def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
     history = f"{fresh.attrs['history']}\n{because}"
     if path.exists():
         stored = load(path)
-        history = f"{stored.attrs['history']}\n{because}"
+        history = f"{stored.attrs.get('history', fresh.attrs['history'])}\n{because}"
         try:
             changes = compare(fresh, stored)
             report = [
@@ -158,6 +160,5 @@ def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
             ]
         except InputError as error:
             report = [f"not comparable with the stored reference: {error}"]
-    kept = fresh if "study" in fresh.attrs else thin(fresh)
-    save(kept.assign_attrs(history=history), path)
+    save(thin(fresh).assign_attrs(history=history), path)
     return report
