@@ -29,7 +29,6 @@ import numpy as np
 import cosserat
 from cosserat.studies.door import case_of_study
 from cosserat.thesis.book import page
-from cosserat.thesis.earthworm import resting_length
 
 # %% [markdown]
 # ## Watch it first
@@ -497,7 +496,9 @@ print(f"By hand {1e3 * early:.1f} mm, computed {1e3 * displacement('worm_early')
 # k_I and p pi R^2 grow as E R^2.  Divide a plateau of (2.4.13) by k_I: D / k_I and p pi R^2 / k_I are left.
 # Constant stress keeps both, so the stretches are the same, and the stride grows as the length of the body.
 masses = page.study("worm_masses")
-lengths = np.array([resting_length(mass) for mass in masses.body_mass.to_numpy()])
+worm = case_of_study(masses)
+scaled = [worm.vary("scaled", body_mass=float(mass)).problem.scaled() for mass in masses.body_mass]
+lengths = np.array([crawl.crawler.length for crawl in scaled])
 power = np.polyfit(np.log(masses.body_mass), np.log(masses.stride), 1)[0]
 expected = np.polyfit(np.log(masses.body_mass), np.log(lengths), 1)[0]
 assert abs(power - expected) < 5e-3

@@ -527,8 +527,8 @@ def test_a_gait_is_checked_and_divided_once_for_all_cases_that_share_it(monkeypa
         ),
         (
             "worm_of_one_gram",
-            {"worm": {"loads": {"gravity": 400, "anchoring": 0}}},
-            r"case 'x' at t = 0 s: 'loads.advancing' = 1356.6 Pa and a weight of 4 N/m would collapse",
+            {"body_mass": 0.01, "worm": {"loads": {"gravity": 400, "anchoring": 0}}},
+            r"case 'x' at t = 0 s: 'loads.advancing' = 1356.6 Pa and a weight of 16 N/m would collapse",
         ),
     ],
 )
