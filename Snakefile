@@ -11,6 +11,7 @@ from cosserat.cases.catalogue import published
 from cosserat.data.provenance import computing_sources
 from cosserat.studies import elsewhere
 from cosserat.studies.door import find_study, published_studies
+from cosserat.thesis import PUBLICATION
 from cosserat.thesis.book.edition import edition
 from cosserat.thesis.figures.catalogue import FIGURES
 from cosserat.thesis.table.citations import sources
@@ -152,7 +153,7 @@ rule study:
     input:
         SOLVER,
         package("studies"),
-        ancient("cosserat/thesis/cases/studies.toml"),
+        ancient(expand("cosserat/thesis/cases/{file}", file=PUBLICATION.cases)),
     output:
         "results/studies/{study}.nc",
     params:
@@ -174,6 +175,7 @@ rule measure:
         FORMULAS,
         table="results/tolerances.csv",
         cases=expand("results/cases/{case}.nc", case=CASES),
+        studies=expand("results/studies/{study}.nc", study=STUDIES),
     output:
         report("results/report.csv", caption="results/captions/report.rst", category="Results table"),
     log:

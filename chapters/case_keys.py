@@ -63,10 +63,10 @@ page.keys("critical loads")
 page.keys("calibration")
 
 # %% [markdown]
-# ## convergence
+# ## discretization errors
 
 # %% tags=["remove-input"]
-page.keys("convergence")
+page.keys("discretization errors")
 
 # %% [markdown]
 # ## posture
@@ -81,10 +81,10 @@ page.keys("posture")
 page.keys("crawl")
 
 # %% [markdown]
-# ## body masses
+# ## body mass
 
 # %% tags=["remove-input"]
-page.keys("body masses")
+page.keys("body mass")
 
 # %% [markdown]
 # ## worm calibration

@@ -27,6 +27,7 @@
 import numpy as np
 
 import cosserat
+from cosserat.studies.door import case_of_study
 from cosserat.thesis.book import page
 
 # %% [markdown]
@@ -388,7 +389,7 @@ page.misprint("E2.27")
 # | constant stress | $R^2$ | 1 | the muscle is as thick as its worm is large, and its force per area is the same |
 
 # %% tags=["remove-input"]
-page.excerpt("cosserat.thesis.earthworm.BodyMasses.scaled", "radius = ")
+page.excerpt("cosserat.thesis.earthworm.BodyMass.scaled", "mass = self")
 
 # %% tags=["remove-input"]
 page.figure(
@@ -408,9 +409,9 @@ page.rows("2.8.4-exponent", "2.8-slope", "2.8-strain")
 # so its power of the mass is the sum of the two.
 
 # %%
-small = cosserat.case("worm_masses_strip").vary("one_gram", masses=["1 g"])
+worm = case_of_study(page.study("worm_masses_strip"))
 try:
-    cosserat.run(small)
+    cosserat.run(worm.vary("one_gram", body_mass="1 g"))
 except cosserat.CosseratError as error:
     print(error)
 
@@ -494,9 +495,10 @@ print(f"By hand {1e3 * early:.1f} mm, computed {1e3 * displacement('worm_early')
 # %% tags=["hide-cell"]
 # k_I and p pi R^2 grow as E R^2.  Divide a plateau of (2.4.13) by k_I: D / k_I and p pi R^2 / k_I are left.
 # Constant stress keeps both, so the stretches are the same, and the stride grows as the length of the body.
-masses = page.data("worm_masses")
-scaled = cosserat.case("worm_masses").problem.scaled
-lengths = np.array([scaled(mass).crawler.length for mass in masses.body_mass.to_numpy()])
+masses = page.study("worm_masses")
+worm = case_of_study(masses)
+scaled = [worm.vary("scaled", body_mass=float(mass)).problem.scaled() for mass in masses.body_mass]
+lengths = np.array([crawl.crawler.length for crawl in scaled])
 power = np.polyfit(np.log(masses.body_mass), np.log(masses.stride), 1)[0]
 expected = np.polyfit(np.log(masses.body_mass), np.log(lengths), 1)[0]
 assert abs(power - expected) < 5e-3

@@ -148,16 +148,15 @@ page.figure(
 )
 
 # %% tags=["remove-input"]
-data = page.data("convergence")
+data = page.study("convergence")
 edges = data.vertices.to_numpy().astype(int) - 1
-orders = -np.diff(np.log(data.errors.to_numpy()), axis=1) / np.diff(np.log(edges))
+errors = data.errors.to_numpy().T  # of each measure, by vertices
+orders = -np.diff(np.log(errors), axis=1) / np.diff(np.log(edges))
 assert np.abs(orders[:, 1:] - 2).max() < 0.15
 page.table(
     [
         (name, *(page.tens(value, 2) for value in values[::2]), f"{order[-1]:.2f}")
-        for name, values, order in zip(
-            data.measure.to_numpy(), data.errors.to_numpy(), orders, strict=True
-        )
+        for name, values, order in zip(data.measure.to_numpy(), errors, orders, strict=True)
     ],
     ("relative error [1]", *(f"{n} edges" for n in edges[::2]), "last order"),
 )

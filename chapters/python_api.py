@@ -54,6 +54,8 @@
 # ```{eval-rst}
 # .. autofunction:: cosserat.study
 #
+# .. autofunction:: cosserat.studies.door.case_of_study
+#
 # .. autofunction:: cosserat.indices
 #
 # .. autofunction:: cosserat.bands

@@ -29,6 +29,8 @@
 #
 # The three studies below were solved when the book was built. The same lines with larger numbers run on a cluster, by
 # `cosserat study STUDY --profile profiles/slurm`. One member alone, to the same bits, is `cosserat run STUDY --member 17`.
+# Other pages read studies too: the [calibration](ch3_calibration.ipynb) at five numbers of vertices, the errors of the
+# [consistent rod](ch4_consistent.ipynb), and [worms of every size](ch2_crawlers.ipynb).
 
 # %% tags=["remove-cell"]
 import numpy as np

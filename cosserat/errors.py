@@ -123,3 +123,7 @@ class DivergedError(CosseratError):
 
 class OutOfToleranceError(CosseratError):
     """A claim of the results table, or a comparison with a stored result, does not hold."""
+
+
+class FailedMembersError(CosseratError):
+    """The answer of a study is whole, but some of its members have none."""

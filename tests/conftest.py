@@ -15,6 +15,7 @@ from hypothesis import settings
 
 from cosserat.problems.static import RodStatics
 from cosserat.rods.rod import Rod
+from cosserat.thesis.stored import STUDIES
 
 gc.set_threshold(
     100_000
@@ -40,6 +41,13 @@ def case_of_kind(kind):
     found = [case for case in known if case.problem.kind == kind]
     assert found, f"no case is of kind '{kind}'; add one to a case file or to tests/examples.toml"
     return found[0]
+
+
+def base_of(study):
+    """The case that a published study varies."""
+    from cosserat.studies.door import find_study
+
+    return find_study(study).base
 
 
 def make_rod(**changes):
@@ -102,7 +110,7 @@ def solved(tmp_path_factory):
     """Every published case, example and study by name, solved when first asked for, once for all processes of a run."""
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
-    return Solved(shared / "solved")
+    return Solved(shared / "solved" / "cases")
 
 
 def solution_of(name):
@@ -120,17 +128,23 @@ def silent(fraction, words):
 
 
 class Solved(Mapping):
-    """Results by the name of their case, kept as files that other processes of the same run read."""
+    """Results by the name of their case or study, kept as files that other processes of the same run read.
+
+    folder : of the cases; that of the studies is beside it, as the workflow has them.
+    """
 
     def __init__(self, folder):
         self.folder, self.known = folder, {}
-        folder.mkdir(exist_ok=True)
+        for one in (folder, folder.parent / STUDIES):
+            one.mkdir(parents=True, exist_ok=True)
 
     def __getitem__(self, name):
         import cosserat
+        from cosserat.studies.door import published_studies
 
         if name not in self.known:
-            path = self.folder / f"{name}.nc"
+            place = self.folder.parent / STUDIES if name in published_studies() else self.folder
+            path = place / f"{name}.nc"
             with (self.folder / f"{name}.lock").open("w") as lock:
                 fcntl.flock(lock, fcntl.LOCK_EX)
                 if not path.exists():

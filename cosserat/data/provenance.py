@@ -36,7 +36,7 @@ _COMPUTING = (
         f"studies/{name}.py"
         for name in (
             "calibration",
-            "convergence",
+            "discretization",
             "needs",
             "keys",
             "readouts",

@@ -13,6 +13,7 @@ from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
 from cosserat.data.variables import LABELS, VARIABLES
+from cosserat.errors import FailedMembersError
 from cosserat.studies.factors import Columns
 from cosserat.studies.family import Family, derivative_name
 from cosserat.studies.keys import VariedKey
@@ -63,6 +64,7 @@ def answer(found: Family, solved: Solved) -> xr.Dataset:
             dataset[name].encoding["_FillValue"] = None
     dataset.attrs = {
         **origin(found.title, found.study.source or "a study of the user"),
+        "history": f"cosserat study {found.name}",
         "study": found.asked,
         "environment": json.dumps(environment(), sort_keys=True),
     }
@@ -161,6 +163,14 @@ def failed(data: xr.Dataset) -> int:
     return int((data["status"] >= NOT_CONVERGED).sum())
 
 
+def check_solved(data: xr.Dataset, where: str) -> None:
+    """Raise FailedMembersError if some members have no answer; where : the answer is."""
+    if failed(data):
+        raise FailedMembersError(
+            f"{failed(data)} of {data['status'].size} members have no answer; 'status' and 'reason' in {where} say why"
+        )
+
+
 def counts(data: xr.Dataset) -> str:
     """How many members have which status, in words."""
     status = data["status"].to_numpy()
@@ -173,4 +183,4 @@ def counts(data: xr.Dataset) -> str:
     return ", ".join(parts + [f"{number} {word}" for word, number in total.items() if number])
 
 
-__all__ = ["WARNED", "answer", "counts", "failed"]
+__all__ = ["WARNED", "answer", "check_solved", "counts", "failed"]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 
 from cosserat.exact import beams
-from cosserat.parameters import Count, Items
+from cosserat.parameters import Count
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import RodProblem
@@ -54,14 +54,12 @@ _GROUP = {
 """Name of the group of coefficients of a problem."""
 
 
-class CalibrationProcedure(Problem):
-    """The four problems of section 3.5, and the numbers of vertices at which to calibrate."""
+class Calibration(Problem):
+    """The four problems of section 3.5, fitted at one number of vertices."""
 
     kind: Literal["calibration"] = "calibration"
-    meshes: Annotated[
-        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=10_001)], ...], Items(1, 100)
-    ]
-    """Numbers of vertices at which to calibrate."""
+    vertices: Annotated[int, Count("N", "3.3.1", at_least=5, at_most=10_001)]
+    """Number of vertices at which to calibrate."""
     hanging_bar: RodStatics
     """The bar that hangs under its weight, Fig. 3.8(a)."""
     clamped_free: RodStatics
@@ -82,116 +80,106 @@ class CalibrationProcedure(Problem):
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """Fit every problem at every mesh, and measure the published coefficients there.
+        """Fit every problem, and measure the published coefficients.
 
         Raises
         ------
         NotConvergedError : a solve on the way failed.
         """
-        fits: dict[str, list[OptimizeResult]] = {}
+        fields: dict[str, Field] = {}
         conditions: dict[str, float] = {}
-        for problem in ASSIGNED:
-            fits[problem] = [self.fit(problem, n, name) for n in self.meshes]
-            run.progress(len(fits) / (len(ASSIGNED) + 1), problem.replace("_", " "))
-        mesh = ("mesh",)
-        fields: dict[str, Field] = {"vertices": (mesh, np.array(self.meshes, dtype=np.float64))}
-        for problem, results in fits.items():
-            coefficient = f"{_GROUP[problem]}_coefficient"
+        iterations = 0
+        for number, problem in enumerate(ASSIGNED):
+            fit = self.fit(problem, name)
+            sizes, directions = sensitivities(self.misfit(problem, name), fit.x)
             direction = f"{_GROUP[problem]}_direction"
-            fields[f"{problem}_coefficients"] = (
-                (*mesh, coefficient),
-                np.exp([result.x for result in results]),
-            )
-            fields[f"{problem}_misfit"] = (
-                mesh,
-                np.array([np.sqrt(2 * result.cost) for result in results]),
-            )
-            found = [
-                sensitivities(self.misfit(problem, n, name), result.x)
-                for n, result in zip(self.meshes, results, strict=True)
-            ]
-            conditions[problem] = max(condition_number(size) for size, _ in found)
-            fields[f"{problem}_singular_values"] = (
-                (*mesh, direction),
-                np.array([size for size, _ in found]),
-            )
+            fields |= _fitted(problem, _GROUP[problem], fit, sizes)
             fields[f"{problem}_directions"] = (
-                (*mesh, direction, coefficient),
-                np.array([directions for _, directions in found]),
+                (direction, f"{_GROUP[problem]}_coefficient"),
+                directions,
             )
-            fields[f"{problem}_published"] = (
-                mesh,
-                np.array([self._at_published(problem, n, name) for n in self.meshes]),
-            )
-        both = [self.fit_both_beams(n, name) for n in self.meshes]
-        fields["beams_coefficients"] = (
-            (*mesh, "beam_coefficient"),
-            np.exp([result.x for result in both]),
-        )
-        fields["beams_misfit"] = (mesh, np.array([np.sqrt(2 * result.cost) for result in both]))
-        conditions["beams"] = max(condition_of(result) for result in both)
-        solves = sum(int(result.nfev) for results in (*fits.values(), both) for result in results)
+            fields[f"{problem}_published"] = ((), np.array(self._at_published(problem, name)))
+            conditions[problem] = condition_number(sizes)
+            iterations += int(fit.nfev)
+            run.progress((number + 1) / (len(ASSIGNED) + 1), problem.replace("_", " "))
+        both = self.fit_both_beams(name)
+        run.progress(1.0, "both beams")
+        fields |= _fitted("beams", "beam", both, np.linalg.svd(both.jac, compute_uv=False))
+        conditions["beams"] = condition_of(both)
         labels = {f"{_GROUP[problem]}_coefficient": names for problem, names in ASSIGNED.items()}
         statistics = {
-            "misfit_evaluations": solves,
+            "iterations": iterations + int(both.nfev),
             **{f"{fit}_condition_number": value for fit, value in conditions.items()},
         }
         return Solution(fields, statistics, labels, _undetermined(conditions))
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
-        """Number of misfits."""
-        return f"{statistics['misfit_evaluations']} evaluations of the misfits"
+        """Number of iterations."""
+        return f"{statistics['iterations']} iterations of the fits"
 
-    def fit(self, problem: str, vertices: int, name: str) -> OptimizeResult:
-        """Least squares over the coefficients of one problem at one mesh, from the published ones."""
-        from scipy.optimize import least_squares
+    def fit(self, problem: str, name: str) -> OptimizeResult:
+        """Least squares over the coefficients of one problem, from the published ones."""
+        return self.least_misfit(problem, self.misfit(problem, name))
 
-        rod = getattr(self, problem).rod
-        start = np.log([getattr(rod.calibration, c) for c in ASSIGNED[problem]])
-        misfit = self.misfit(problem, vertices, name)
-        return least_squares(
-            misfit, start, bounds=(start - _LOG_RANGE, start + _LOG_RANGE), xtol=1e-10, ftol=1e-10
-        )
-
-    def fit_both_beams(self, vertices: int, name: str) -> OptimizeResult:
+    def fit_both_beams(self, name: str) -> OptimizeResult:
         """c3, c4, c5 from both beams at once, displacements and directors: "simultaneously", as in section 3.5."""
-        from scipy.optimize import least_squares
-
         parts = [
-            self.misfit(problem, vertices, name, curves)
+            self.misfit(problem, name, curves)
             for problem in ("clamped_free", "clamped_clamped")
             for curves in (_curves, _director_curves)
         ]
-        rod = self.clamped_free.rod
-        start = np.log([getattr(rod.calibration, c) for c in ASSIGNED["clamped_free"]])
 
         def misfit(logarithms: Array) -> Array:
             every: Array = np.concatenate([part(logarithms) for part in parts])
             return every / float(np.sqrt(len(parts)))
 
+        return self.least_misfit("clamped_free", misfit)
+
+    def least_misfit(self, problem: str, misfit: Misfit) -> OptimizeResult:
+        """Least squares of a misfit over the coefficients of a problem, from the published ones."""
+        from scipy.optimize import least_squares
+
+        published = getattr(self, problem).rod.calibration
+        start = np.log([getattr(published, c) for c in ASSIGNED[problem]])
         return least_squares(
             misfit, start, bounds=(start - _LOG_RANGE, start + _LOG_RANGE), xtol=1e-10, ftol=1e-10
         )
 
-    def misfit(self, problem: str, vertices: int, name: str, curves: Curves | None = None) -> Misfit:
-        """Differences of one problem from its closed form at one mesh, by the logarithms of its coefficients."""
-        case, coefficients = getattr(self, problem), ASSIGNED[problem]
+    def misfit(self, problem: str, name: str, curves: Curves | None = None) -> Misfit:
+        """Differences of one problem from its closed form, by the logarithms of its coefficients."""
+        coefficients = ASSIGNED[problem]
 
         def misfit(logarithms: Array) -> Array:
             values = dict(zip(coefficients, np.exp(logarithms), strict=True))
-            computed, exact = (curves or _curves)(problem, _with_vertices(case, vertices, values), name)
+            computed, exact = (curves or _curves)(problem, self._meshed(problem, values), name)
             difference: Array = computed - exact
             relative: Array = difference / (np.abs(exact).max() * np.sqrt(exact.size))
             return relative
 
         return misfit
 
-    def _at_published(self, problem: str, vertices: int, name: str) -> float:
+    def _meshed(self, problem: str, values: Mapping[str, float]) -> RodStatics:
+        """One of the problems on the mesh, with other values of its coefficients."""
+        case: RodStatics = getattr(self, problem)
+        assert case.rod.calibration is not None
+        calibration = case.rod.calibration.replace(**values)
+        return case.replace(rod=case.rod.replace(vertices=self.vertices, calibration=calibration))
+
+    def _at_published(self, problem: str, name: str) -> float:
         """Computed over exact at the tip or at mid-span, with the published coefficients."""
-        computed, exact = _curves(problem, _with_vertices(getattr(self, problem), vertices, {}), name)
+        computed, exact = _curves(problem, self._meshed(problem, {}), name)
         place = -1 if problem in ("hanging_bar", "clamped_free") else (exact.size - 1) // 2
         return float(computed[place] / exact[place])
+
+
+def _fitted(of: str, group: str, fit: OptimizeResult, sizes: Array) -> dict[str, Field]:
+    """Coefficients, misfit and singular values of a fit."""
+    return {
+        f"{of}_coefficients": ((f"{group}_coefficient",), np.exp(fit.x)),
+        f"{of}_misfit": ((), np.array(np.sqrt(2 * fit.cost))),
+        f"{of}_singular_values": ((f"{group}_direction",), sizes),
+    }
 
 
 def sensitivities(misfit: Misfit, logarithms: Array) -> tuple[Array, Array]:
@@ -236,12 +224,6 @@ def _undetermined(conditions: Mapping[str, float]) -> tuple[str, ...]:
         f"{', '.join(loose)}; along it a coefficient follows the start and the round-off, "
         "so use what the others determine, or compare misfits",
     )
-
-
-def _with_vertices(case: RodStatics, vertices: int, values: dict[str, float]) -> RodStatics:
-    assert case.rod.calibration is not None
-    calibration = case.rod.calibration.replace(**values)
-    return case.replace(rod=case.rod.replace(vertices=vertices, calibration=calibration))
 
 
 def _curves(problem: str, case: RodStatics, name: str) -> tuple[Array, Array]:

@@ -32,10 +32,6 @@ _HERE_SECONDS = 30.0
 """Work that one process does here and now, where nothing else is asked for."""
 
 
-class FailedMembersError(CosseratError):
-    """The answer of a study is whole, but some of its members have none."""
-
-
 def study(options: argparse.Namespace) -> None:
     """Solve a study and write its answer, or tell or change how it stands.
 
@@ -195,16 +191,13 @@ def _import_path() -> str:
 def _report(found: Family, folder: Path, path: Path, *, partial: bool, written: bool) -> None:
     """Write the answer, unless Snakemake has, and tell how it went."""
     from cosserat.data.netcdf import load, save
-    from cosserat.studies.answer import answer, counts, failed
+    from cosserat.studies.answer import answer, check_solved, counts
 
     data = load(path, own=True) if written else answer(*gathered(folder, partial=partial))
     if not written:
         save(data, path)
     print(f"{found.name}: {counts(data)}; wrote {path}")
-    if failed(data):
-        raise FailedMembersError(
-            f"{failed(data)} of {found.size} members have no answer; 'status' and 'reason' in {path} say why"
-        )
+    check_solved(data, str(path))
 
 
 def _tell(found: Family, folder: Path, made: Plan) -> None:

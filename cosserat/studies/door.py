@@ -40,6 +40,21 @@ def find_study(name: str, file: str | Path | None = None) -> Family:
     return family(name, read, find_base(read.of, file), folder, unit_required=True)
 
 
+def study_of(answer: xr.Dataset) -> tuple[Case, Study]:
+    """The case that a study varies and the study itself, from its answer.
+
+    Raises
+    ------
+    InputError : the Dataset is no answer of a study.
+    """
+    try:
+        told = json.loads(str(answer.attrs["study"]))
+        case, asked = json.dumps(told["case"]), told["study"]
+    except (KeyError, ValueError, TypeError):
+        raise InputError("the Dataset is no answer of a study; use one that cosserat wrote") from None
+    return parse(case), Study.read(asked, "the study", units_required=False)
+
+
 def case_of_study(answer: xr.Dataset) -> Case:
     """The case that a study varies, from its answer.
 
@@ -47,11 +62,7 @@ def case_of_study(answer: xr.Dataset) -> Case:
     ------
     InputError : the Dataset is no answer of a study.
     """
-    try:
-        told = json.loads(str(answer.attrs["study"]))["case"]
-    except (KeyError, ValueError, TypeError):
-        raise InputError("the Dataset is no answer of a study; use one that cosserat wrote") from None
-    return parse(json.dumps(told))
+    return study_of(answer)[0]
 
 
 def published_studies() -> list[str]:

@@ -13,7 +13,7 @@ PUBLICATION = Publication(
         "E. G. Hemingway, Cosserat Curves: Descriptions of Peristalsis and a Discrete Model, UC Berkeley, 2020"
     ),
     kinds={
-        "body masses": Kind("cosserat.thesis.earthworm:BodyMasses"),
+        "body mass": Kind("cosserat.thesis.earthworm:BodyMass"),
         "worm calibration": Kind("cosserat.thesis.worm_calibration:WormCalibration"),
     },
     folder="cosserat.thesis.cases",

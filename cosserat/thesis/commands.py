@@ -46,8 +46,10 @@ def add_commands(add: AddCommand) -> None:
     )
     sub.add_argument("words", nargs="*", help="only changes whose description has one of these words")
 
-    sub = add("accept", _accept, "store a fresh result as the reference of its case, with the reason")
-    sub.add_argument("case", help="name of a published case")
+    sub = add(
+        "accept", _accept, "store a fresh result as the reference of its case or study, with the reason"
+    )
+    sub.add_argument("case", help="name of a published case or study")
     sub.add_argument(
         "--because", required=True, help="the reason, in a sentence; it is stored in the file"
     )
@@ -183,11 +185,13 @@ def _power(options: argparse.Namespace) -> None:
 def _accept(options: argparse.Namespace) -> None:
     from cosserat.data.files import check_destination
     from cosserat.runner import run
+    from cosserat.studies.door import find_study, published_studies, solved
     from cosserat.thesis.table.reference import accept
 
-    path = options.references / f"{options.case}.nc"
+    name, path = options.case, options.references / f"{options.case}.nc"
     check_destination(path)
-    for line in accept(run(options.case), path, options.because):
+    fresh = solved(find_study(name)) if name in published_studies() else run(name)
+    for line in accept(fresh, path, options.because):
         print(line)
     print(f"wrote {path}")
 

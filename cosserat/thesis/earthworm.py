@@ -1,4 +1,4 @@
-"""Earthworms of every size: the empirical scalings of Table 2.1, and the same gait at many body masses."""
+"""Earthworms of every size: the empirical scalings of Table 2.1, and the same gait at another body mass."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from cosserat.parameters import Items, Quantity
+from cosserat.parameters import Quantity
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.crawl import Crawl
 from cosserat.solution import Field, Solution
@@ -87,27 +87,23 @@ def refuse_segments(worm: Crawl) -> None:
         )
 
 
-class BodyMasses(Problem):
-    """A worm's crawl at many body masses, under one law for its muscles.
+class BodyMass(Problem):
+    """The crawl of a worm of another body mass, under one law for its muscles.
 
-    Table 2.1 replaces length, radius, mass and durations of the worm, and the law replaces its loads.  Each worm makes
-    one stride.
+    Table 2.1 replaces length, radius, mass and durations of the worm, and the law replaces its loads.  It makes one
+    stride.
     """
 
-    kind: Literal["body masses"] = "body masses"
+    kind: Literal["body mass"] = "body mass"
     worm: Crawl
     """The worm that is scaled."""
-    masses: Annotated[
-        tuple[Annotated[float, Quantity("kg", "m", "2.8.4", above=0)], ...], Items(at_most=100)
-    ]
-    """Body masses."""
+    body_mass: Annotated[float, Quantity("kg", "m", "2.8.4", above=0)]
+    """Body mass to which it is scaled."""
     muscles: Muscles = "constant stress"
     """Scaling law of the force and the pressure of the muscles with the body mass."""
 
     @model_validator(mode="after")
-    def _has_masses(self) -> Self:
-        if not self.masses:
-            raise PydanticCustomError("masses", "'masses' is empty; give at least one body mass")
+    def _can_be_scaled(self) -> Self:
         refuse_segments(self.worm)
         if len(self.worm.gait.phases) != 2:
             raise PydanticCustomError(
@@ -118,42 +114,40 @@ class BodyMasses(Problem):
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """Stride, speed, frequency and the extreme stretches of segment 50 of every worm.
+        """Stride, speed, frequency and the extreme stretches of segment 50.
 
         Raises
         ------
         InputError : the loads collapse a section.  NotConvergedError : an instant has no solution.
-        OutOfReachError : the surface of a worm cannot stay on the ground.
+        OutOfReachError : the surface of the worm cannot stay on the ground.
         """
-        worms = [(self.scaled(mass), f"{name}, {1e3 * mass:g} g") for mass in self.masses]
-        for worm, called in worms:
-            worm.check_collapse(called)
-        rows = []
-        for worm, called in worms:
-            rows.append(_measure(worm, called))
-            run.progress(len(rows) / len(worms), called)
-        table = np.array(rows)
-        duration = np.array([stance_time(m) + protrusion_time(m) for m in self.masses])
+        crawl = self.scaled()
+        crawl.check_collapse(name)
+        solved = crawl.solve(name, Run(run.progress))
+        at = int(np.argmin(np.abs(crawl.places - SEGMENT_50)))
+        mu_1, mu_3 = solved["mu_1"][:, at], solved["mu_3"][:, at]
+        stride = float(solved["along"][-1, -1] - solved["along"][0, -1])
+        duration = stance_time(self.body_mass) + protrusion_time(self.body_mass)
         values = {
-            "body_mass": np.array(self.masses),
-            "stride": table[:, 0],
-            "speed": table[:, 0] / duration,
+            "stride": stride,
+            "speed": stride / duration,
             "frequency": 1 / duration,
-            "mu_1_least": table[:, 1],
-            "mu_1_most": table[:, 2],
-            "mu_3_least": table[:, 3],
-            "mu_3_most": table[:, 4],
+            "mu_1_least": mu_1.min(),
+            "mu_1_most": mu_1.max(),
+            "mu_3_least": mu_3.min(),
+            "mu_3_most": mu_3.max(),
         }
-        fields: dict[str, Field] = {key: (("mass",), value) for key, value in values.items()}
-        return Solution(fields, {"crawls": len(self.masses)})
+        fields: dict[str, Field] = {key: ((), np.array(value)) for key, value in values.items()}
+        return Solution(fields, solved.statistics, warnings=solved.warnings)
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
-        """Number of crawls."""
-        return f"{statistics['crawls']} crawls"
+        """That of its crawl."""
+        return Crawl.summary(statistics, sizes)
 
-    def scaled(self, mass: float) -> Crawl:
-        """One stride of the worm of another mass [kg]: Table 2.1 for body and times, `MUSCLE_LAWS` for the loads."""
+    def scaled(self) -> Crawl:
+        """One stride of the worm of that mass: Table 2.1 for body and times, `MUSCLE_LAWS` for the loads."""
+        mass = self.body_mass
         radius = resting_diameter(mass) / 2
         force, pressure = MUSCLE_LAWS[self.muscles]
         grown = radius / self.worm.crawler.radius
@@ -168,12 +162,3 @@ class BodyMasses(Problem):
             gait=self.worm.gait.replace(phases=(protrusion_time(mass), stance_time(mass))),
             strides=1,
         )
-
-
-def _measure(crawl: Crawl, name: str) -> tuple[float, ...]:
-    """Stride [m] and extreme mu_1, mu_3 of segment 50."""
-    fields = crawl.solve(name)
-    at = int(np.argmin(np.abs(crawl.places - SEGMENT_50)))
-    mu_1, mu_3 = fields["mu_1"][:, at], fields["mu_3"][:, at]
-    stride = float(fields["along"][-1, -1] - fields["along"][0, -1])
-    return stride, *(float(v) for v in (mu_1.min(), mu_1.max(), mu_3.min(), mu_3.max()))

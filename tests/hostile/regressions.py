@@ -21,7 +21,7 @@ OverflowError | posture | crawler.segments = [{{ length = "0.25 m", radius = "1e
 OverflowError | modes | rod = {{ material = "none", {_LAYERS} }}
 ZeroDivisionError | rod statics | follower_line_loads = [{{ along = "E3", density = "1e100 N/m" }}]
 ZeroDivisionError | critical loads | rod.stations = [{{ at = "0.1 m", young = 1e-300 }}]
-ZeroDivisionError | body masses | masses = ["1e-300 kg"]
+ZeroDivisionError | body mass | body_mass = "1e-300 kg"
 ZeroDivisionError | crawl | step = "500000000000 s"
 ZeroDivisionError | rod motion | duration = "1e-300 s"
 ZeroDivisionError | rod motion | every = "1e-300 s"
@@ -29,9 +29,8 @@ ValueError | critical loads | line_loads = [{{ along = "E3", density = "1.7e308 
 ValueError | rod motion | start = {{ shape = "reference", mode = 1, spin = "1e300 rad/s" }}
 ValueError | rod motion | rod.stations = [{{ at = "0.1 m", young = 1.7e308 }}]
 ValueError | rod motion | foundations = [{{ rotational_stiffness = "1.7e308 N*m/rad/m" }}]
-ValueError | convergence | slender = {{ rod = {{ section = {{ height = "1e-300 m" }} }} }}
-ValueError | convergence | meshes = []
-IndexError | convergence | necking = {{ forces = [] }}
+ValueError | discretization errors | slender = {{ rod = {{ section = {{ height = "1e-300 m" }} }} }}
+IndexError | discretization errors | necking = {{ forces = [] }}
 AttributeError | calibration | hanging_bar = {{ like = "hanging_bar_consistent" }}
 LinAlgError | worm calibration | worm = {{ crawler = {{ length = "1e-300 m" }} }}
 a warning | crawl | gait.clearance = 5e-324

@@ -306,7 +306,11 @@ def test_help_has_the_commands_of_a_user_first_and_the_published_work_last(capsy
 
 
 def test_the_commands_of_the_workflow_run_by_hand(capsys, solved, tmp_path):
-    (tmp_path / "cases").mkdir()
+    for place in ("cases", "studies"):
+        (tmp_path / place).mkdir()
+    for name in ("calibration", "worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"):
+        assert solved[name].attrs["history"] == f"cosserat study {name}"
+        shutil.copy(solved.folder.parent / "studies" / f"{name}.nc", tmp_path / "studies")
     for name in solved:
         target = tmp_path / "cases" / f"{name}.nc"
         if name in ("clamped_free", "worm_at_rest"):
@@ -377,10 +381,10 @@ def test_crawlers_and_paths_are_drawn(capsys, tmp_path, solved):
         code, _, err = call(capsys, "plot", tmp_path / f"{name}.nc")
         assert (code, err) == (0, "")
         assert (tmp_path / f"{name}.svg").stat().st_size > 10_000
-    cosserat.save(solved["convergence"], tmp_path / "c.nc")
+    cosserat.save(solved["errors_of_one_mesh"], tmp_path / "c.nc")
     code, _, err = call(capsys, "plot", tmp_path / "c.nc")
     assert code == 2
-    assert "is of kind 'convergence', which has no picture" in err
+    assert "is of kind 'discretization errors', which has no picture" in err
 
 
 @pytest.mark.usefixtures("untraced")

@@ -160,8 +160,8 @@ BASES = {
         like = ["vibration_c4_20", "_loads"]
         base_motion = { along = "E2", acceleration = "1 m/s^2" }
     """,
-    "calibration": 'like = "calibration"',
-    "convergence": 'like = "convergence"',
+    "calibration": 'like = "_calibration"',
+    "discretization errors": 'like = "_discretization"',
     "posture": 'like = "worm_at_rest"\ncrawler.segments = [{ length = "250 mm" }]',
     "crawl": """
         like = "soft_robot"
@@ -171,7 +171,7 @@ BASES = {
             { front = "anchor", table = [["12.5 s", "25.4 cm"], ["22.5 s", "25.4 cm"]], length = "25.4 cm" },
         ]
     """,
-    "body masses": 'like = "worm_masses"',
+    "body mass": 'like = "_of_constant_stress"',
     "worm calibration": 'like = "worm_calibration"',
 }
 LOADS = """

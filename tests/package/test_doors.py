@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import ROOT, save_own
+from conftest import ROOT, base_of, case_of_kind, save_own
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -35,7 +35,7 @@ def test_a_case_says_in_one_line_what_it_is(tmp_path):
     assert str(cosserat.case("mine", tmp_path / "my.toml")) == (
         "<Case 'mine': crawl; crawler of 0.254 m, radius 0.0254 m, compressible; a case of the user>"
     )
-    assert repr(cosserat.case("convergence")).startswith("<Case 'convergence': convergence; ")
+    assert repr(base_of("convergence")).startswith("<Case 'discretization': discretization errors; ")
 
 
 @pytest.mark.parametrize("given", [str, Path])
@@ -85,8 +85,10 @@ def test_pictures_and_animations_that_cannot_be_are_one_sentence(solved, tmp_pat
         assert sentence in err, (words, err)
         assert err.count("\n") == 1
     assert [found.name for found in tmp_path.iterdir()] == ["a.nc"]
-    numbers_only = xr.Dataset(attrs={"parameters": cosserat.case("convergence").model_dump_json()})
-    with pytest.raises(InputError, match="this Dataset is of kind 'convergence', which has no picture"):
+    numbers_only = xr.Dataset(attrs={"parameters": base_of("convergence").model_dump_json()})
+    with pytest.raises(
+        InputError, match="this Dataset is of kind 'discretization errors', which has no picture"
+    ):
         cosserat.plot(numbers_only)
 
 
@@ -256,14 +258,10 @@ def test_a_variable_of_the_environment_switches_bars_off(off):
     assert ("half" in done.stderr) != off
 
 
-@pytest.mark.parametrize("name", ["column_path", "convergence", "worm_masses"])
-def test_progress_of_a_path_and_of_studies_grows_to_one(name):
-    case, told = cosserat.case(name), []
-    if name == "convergence":
-        case = case.vary("x", meshes=[11, 21])
-    elif name == "worm_masses":
-        case = case.vary("x", masses=[0.01, 0.005])
-    cosserat.run(case, progress=lambda fraction, words: told.append(fraction))
+@pytest.mark.parametrize("kind", ["rod path", "calibration", "body mass"])
+def test_progress_grows_to_one(kind):
+    told = []
+    cosserat.run(case_of_kind(kind), progress=lambda fraction, words: told.append(fraction))
     assert told == sorted(told)
     assert told[0] < 1
     assert told[-1] == 1

@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from conftest import base_of
 from scipy.integrate import cumulative_simpson, solve_bvp
 
 import cosserat
@@ -423,11 +424,11 @@ def test_a_varying_worm_crawls_from_a_file_and_is_drawn_as_thick_as_it_is(tmp_pa
     tops = 2e2 * radius * data.mu_1[-1].to_numpy()
     assert outline[:, 1].max() == pytest.approx(tops.max())
     assert np.abs(outline[:, 1, None] - tops).min(axis=0).max() < 1e-12
-    for name in ("worm_masses", "worm_calibration"):
+    for other in (base_of("worm_masses"), cosserat.case("worm_calibration")):
         with pytest.raises(
             InputError, match="'worm.crawler.segments' is given; the worms .* are uniform; leave"
         ):
-            cosserat.case(name).vary("x", worm={"crawler": {"segments": [{"length": 0.25}]}})
+            other.vary("x", worm={"crawler": {"segments": [{"length": 0.25}]}})
 
 
 def test_the_mesh_and_the_animation_of_a_tapered_body_are_as_thick_as_it_is():

@@ -19,7 +19,7 @@ from cosserat.rods.energies.compliance import stiffnesses
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.reference import Geometry
 from cosserat.studies.calibration import beam_of
-from cosserat.studies.convergence import MEASURES
+from cosserat.studies.discretization import MEASURES
 from cosserat.thesis.table.readouts import period
 
 SECTIONS = ("free", "plane strain", "incompressible")
@@ -118,11 +118,11 @@ def test_displacements_from_the_reference_give_the_same_energy_and_forces():
 
 
 def test_every_measure_converges_with_second_order(solved):
-    data = solved["convergence"]
-    orders = -np.diff(np.log(data.errors.to_numpy()), axis=1) / np.log(2)
+    every = solved["convergence"].errors.transpose("measure", "vertices").to_numpy()
+    orders = -np.diff(np.log(every), axis=1) / np.log(2)
     for name, order in zip(MEASURES, orders, strict=True):
         assert order[-3:] == pytest.approx(2.0, abs=0.1), name
-    for name, errors in zip(MEASURES, data.errors.to_numpy()[:, 1:4], strict=True):
+    for name, errors in zip(MEASURES, every[:, 1:4], strict=True):
         if name.startswith("elastica displacement"):
             assert (errors < [1e-3, 2.5e-4, 6e-5]).all(), name
 

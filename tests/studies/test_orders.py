@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
+from conftest import base_of
 
 import cosserat
 from cosserat.cli import main
@@ -199,7 +200,7 @@ def test_each_kind_is_refined_by_its_meshes():
         "worm_at_rest": ["mesh.elements"],
     }
     with pytest.raises(InputError, match="'calibration', which has no mesh to refine"):
-        cosserat.estimate_error("calibration")
+        cosserat.estimate_error(base_of("calibration"))
 
 
 def test_the_time_that_is_left_bounds_the_meshes():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from conftest import base_of
 from scipy.optimize import fsolve
 
 import cosserat
@@ -334,10 +335,10 @@ def test_E2_13_the_peak_pressure_does_not_follow_from_hoop_balance_and_its_growt
             )
         ]
         assert measured == pytest.approx(expected, abs=6e-4)
-    strip = cosserat.case("worm_masses_strip")
-    cosserat.run(strip.vary("x", masses=["1.6 g"]))
+    strip = base_of("worm_masses_strip")
+    cosserat.run(strip.vary("x", body_mass="1.6 g"))
     with pytest.raises(OutOfReachError, match="cannot stay on the ground"):
-        cosserat.run(strip.vary("x", masses=["1.5 g"]))
+        cosserat.run(strip.vary("x", body_mass="1.5 g"))
 
 
 EARLY = cosserat.case("worm_early").problem.gait.anchor

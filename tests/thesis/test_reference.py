@@ -12,7 +12,7 @@ from cosserat.thesis.table.reference import accept, compare
 REFERENCES = ROOT / "results/reference"
 
 
-@pytest.mark.parametrize("name", list(cosserat.published()))
+@pytest.mark.parametrize("name", [*cosserat.published(), *published_studies()])
 def test_results_agree_with_their_references(solved, name):
     changes = compare(solved[name], cosserat.load(REFERENCES / f"{name}.nc"))
     assert changes
@@ -23,6 +23,34 @@ def test_results_agree_with_their_references(solved, name):
 def test_every_case_has_a_reference_and_every_reference_a_case():
     stored = {file.stem for file in REFERENCES.glob("*.nc")}
     assert stored == set(cosserat.published()) | set(published_studies())
+
+
+def test_a_study_is_compared_and_accepted_like_a_case(solved, tmp_path):
+    data, path = solved["calibration"], tmp_path / "calibration.nc"
+    assert accept(data, path, "first answer of this study") == ["no reference was stored before"]
+    values = data.necking_misfit.to_numpy().copy()
+    values[2] += 1e-6
+    moved = changed(data, "necking_misfit", values)
+    (held,) = [str(change) for change in compare(moved, data) if not change.held]
+    assert held.startswith("necking_misfit: 1e-06 1 at vertices 2 (allowed 1e-07)")
+    assert accept(moved, path, "the third mesh was wrong")[0] == held
+    history = cosserat.load(path).attrs["history"].split("\n")
+    assert history == [
+        "cosserat study calibration",
+        "first answer of this study",
+        "the third mesh was wrong",
+    ]
+
+
+def test_a_study_lacks_values_at_the_same_places_as_its_reference():
+    """Of members with fewer vertices the ends are filled."""
+    stored = cosserat.load(REFERENCES / "vertices_published.nc")
+    assert np.isnan(stored.x).any()
+    assert [change.largest for change in compare(stored, stored)] == [0.0] * 3
+    with pytest.raises(InputError, match="'x' holds values that are not finite, at other places"):
+        compare(stored.assign(x=stored.x.fillna(0.0)), stored)
+    with pytest.raises(InputError, match="the study differs from the stored one"):
+        compare(cosserat.load(REFERENCES / "vertices_consistent.nc"), stored)
 
 
 def test_references_are_small():

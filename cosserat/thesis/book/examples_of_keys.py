@@ -9,16 +9,20 @@ from collections.abc import Iterator, Mapping
 from importlib import resources
 from typing import Any
 
-from cosserat.cases.catalogue import published
+from cosserat.cases.catalogue import find_base, published, study_tables
 
 _FILES = ("chapter2.toml", "chapter3.toml")
 
 
 @functools.cache
 def examples() -> Mapping[tuple[str, str], list[tuple[str, str]]]:
-    """Cases with the value as their file has it, by kind and path of a key, such as "forces[].at"."""
+    """Cases with the value as their file has it, by kind and path of a key, such as "forces[].at".
+
+    Among them are the cases that studies vary.
+    """
     found: dict[tuple[str, str], list[tuple[str, str]]] = {}
     kinds = {name: case.problem.kind for name, case in published().items()}
+    kinds |= {table["of"]: find_base(table["of"]).problem.kind for table in study_tables().values()}
     for file in _FILES:
         text = (resources.files("cosserat.thesis.cases") / file).read_text(encoding="utf-8")
         for name, table in tomllib.loads(text).items():

@@ -8,16 +8,15 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
 from cosserat.figures.style import COMPUTED, EXACT, FOURTH, INK, VARIANT, WIDTH, canvas
-from cosserat.studies.calibration import CalibrationProcedure, beam_of
+from cosserat.studies.calibration import Calibration, beam_of
+from cosserat.studies.door import case_of_study
 
 
 def limit(data: xr.Dataset) -> float:
     """Limit of the clamped-free tip over Timoshenko's at the published coefficients."""
-    procedure = problem_of(data, CalibrationProcedure)
-    problem = procedure.clamped_free
+    problem = case_of_study(data).problem_as(Calibration).clamped_free
     assert problem.gravity is not None
     beam, c = beam_of(problem), problem.rod.calibration
     assert c is not None

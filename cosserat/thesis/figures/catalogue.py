@@ -45,22 +45,21 @@ def draw(name: str, data: Mapping[str, xr.Dataset], table: Path = TABLE) -> Figu
 
 
 def draw_to(name: str, folder: Path, path: Path, table: Path = TABLE) -> None:
-    """Draw a figure from the files `<case>.nc` of a folder and the results table, and write it as SVG.
+    """Draw a figure from the files of cases and studies and the results table, and write it as SVG.
 
-    Studies are in the folder `studies` beside the one of the cases.
+    folder : of the cases.
 
     Raises
     ------
     InputError : no figure of that name, or a file is missing or unreadable.
     """
     from cosserat.data.files import check_destination
-    from cosserat.data.netcdf import load, load_case
     from cosserat.figures.style import write
+    from cosserat.thesis.stored import stored
 
     check_destination(path, ".svg")
     found = entry(name)
-    data = {case: load_case(folder, case) for case in found.cases}
-    data |= {study: load(folder.parent / "studies" / f"{study}.nc", own=True) for study in found.studies}
+    data = {case: stored(folder, case) for case in (*found.cases, *found.studies)}
     write(draw(name, data, table), path)
 
 

@@ -50,9 +50,9 @@ def fig_convergence(data: Data) -> Figure:
     figure, axes = canvas(WIDTH, 7.0, 2, 1)
     run = data["convergence"]
     edges = run.vertices.to_numpy() - 1
-    for k, name in enumerate(run.measure.to_numpy()):
+    for name in run.measure.to_numpy():
         vibrates = str(name).startswith("frequency")
-        ax, errors = axes[int(vibrates)], run.errors[k].to_numpy()
+        ax, errors = axes[int(vibrates)], run.errors.sel(measure=name).to_numpy()
         ax.loglog(edges, errors, color=EXACT, marker=".", linewidth=1.0)
         text, up = (str(name), 0) if vibrates else _STATIC[str(name)]
         beside(ax, (edges[-1], errors[-1]), text, (6, up), color=INK)

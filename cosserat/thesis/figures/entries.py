@@ -154,7 +154,7 @@ FIGURES: dict[str, Entry] = {
         "constant stress runs along the one of the literature, and only its extreme stretches "
         "stay level.",
         "chapter2",
-        cases=("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
+        studies=("worm_masses", "worm_masses_constant_pressure", "worm_masses_strip"),
     ),
     "fig_3_1": Entry(
         "Fig. 3.1: reference and current configuration",
@@ -287,7 +287,7 @@ FIGURES: dict[str, Entry] = {
         "vertices and settle above one; of the coefficients that fit, the one of shear grows and "
         "grows.",
         "calibration",
-        cases=("calibration",),
+        studies=("calibration",),
     ),
     "fig_3_13": Entry(
         "Fig. 3.13: free vibration",
@@ -308,7 +308,7 @@ FIGURES: dict[str, Entry] = {
         "Grey lines of errors fall with slope minus two as edges are doubled, in statics and in "
         "vibration alike; one orange line, of the published rod, rises instead and levels off.",
         "consistent",
-        cases=("convergence", "calibration"),
+        studies=("convergence", "calibration"),
     ),
     "fig_far": Entry(
         "Large deflections",

@@ -26,13 +26,12 @@ from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
 from cosserat.studies.door import published_studies
 from cosserat.thesis.figures.catalogue import FIGURES
+from cosserat.thesis.stored import STUDIES
 from cosserat.thesis.table.reference import variables_read
 from cosserat.thesis.table.tolerances import Row
 
 NAME = "manifest.csv"
 REPORT, CHECK = "report.csv", "check.txt"
-STUDIES = "studies"
-"""Folder of the answers of studies."""
 
 OF_A_TOLERANCE = 0.1
 """Change of a measured number that is allowed between machines, over the tolerance of its row."""
@@ -68,7 +67,7 @@ COLUMNS = tuple(field.name for field in fields(Output))
 def expected(rows: Sequence[Row]) -> dict[str, tuple[str, str]]:
     """Path of every output, with its floor where it does not depend on the file, and its rows."""
     found = {f"cases/{name}.nc": ("", _rows_of(name, rows)) for name in published()}
-    found |= {f"{STUDIES}/{name}.nc": ("", "") for name in published_studies()}
+    found |= {f"{STUDIES}/{name}.nc": ("", _rows_of(name, rows)) for name in published_studies()}
     for name, entry in FIGURES.items():
         places = "none, it draws round-off" if entry.round_off else f"places {OF_A_POINT:g} pt"
         found[f"figures/{name}.svg"] = (places, "")
@@ -104,15 +103,15 @@ def _output(results: Path, reference: Path, path: str, floor: str, ids: str) -> 
 
 
 def store_copies(results: Path, reference: Path) -> None:
-    """Store the report, its summary and the answers of studies beside the references of the cases.
+    """Store the report and its summary beside the references of cases and studies.
 
     Raises
     ------
     InputError : one is missing or cannot be written.
     """
-    for name in (REPORT, CHECK, *(f"{STUDIES}/{study}.nc" for study in published_studies())):
+    for name in (REPORT, CHECK):
         content = _read(results / name)
-        with whole_or_absent(reference / Path(name).name) as temporary:
+        with whole_or_absent(reference / name) as temporary:
             temporary.write_bytes(content)
 
 
@@ -177,9 +176,9 @@ def structure(svg: str) -> tuple[str, list[float]]:
 
 def floors(data: xr.Dataset) -> str:
     """The floor of every variable of a Dataset with its unit."""
-    known = [(name, VARIABLES[name]) for name in VARIABLES if name in data.variables]
-    known += [(name, VARIABLES[variable]) for name, variable in variables_read(data).items()]
-    return "; ".join(f"{name} {about.floor:g} {about.units}" for name, about in known)
+    known = {name: name for name in VARIABLES if name in data.variables} | variables_read(data)
+    about = {name: VARIABLES[variable] for name, variable in known.items()}
+    return "; ".join(f"{name} {one.floor:g} {one.units}" for name, one in about.items())
 
 
 def write(outputs: Sequence[Output], path: Path) -> None:

@@ -7,22 +7,22 @@ from pathlib import Path
 
 import xarray as xr
 
-from cosserat.data.netcdf import load_case
 from cosserat.errors import OutOfToleranceError
+from cosserat.thesis.stored import stored
 from cosserat.thesis.table.arithmetic import ARITHMETIC
 from cosserat.thesis.table.readouts import READOUTS
 from cosserat.thesis.table.tolerances import Judged, Row
 
 
 def measure(rows: list[Row], folder: Path) -> list[Judged]:
-    """Judge the rows on the files `<case>.nc` of a folder.
+    """Judge the rows on the files of cases and studies; folder : of the cases.
 
     Raises
     ------
     InputError : a file is missing, damaged, changed or of another case.
     """
     cases = sorted({row.case for row in rows if row.case and row.standing != "not attempted"})
-    datasets = {case: load_case(folder, case) for case in cases}
+    datasets = {case: stored(folder, case) for case in cases}
     return [judge(row, datasets) for row in rows]
 
 

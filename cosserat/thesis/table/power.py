@@ -9,12 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
+
+import xarray as xr
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.errors import CosseratError, InputError, OutOfToleranceError
+from cosserat.problem import silent
 from cosserat.runner import run
+from cosserat.studies.answer import check_solved
+from cosserat.studies.door import find_study, published_studies, solved
 from cosserat.thesis.table.measure import judge
 from cosserat.thesis.table.tolerances import Judged, Row
 
@@ -27,8 +32,9 @@ _MAX_SHOWN_ROWS = 3  # rows that a line names
 class Change:
     """One change of some cases.
 
-    what : a short description.  cases : the cases whose rows are judged.
+    what : a short description.  cases : the cases and studies whose rows are judged.
     places, edit : the changed inputs of the cases, such as "rod.material.young", and the change.
+    first : how many values of each factor of a study are tried, by default all.
     physics : a context with different mechanics.
     unseen : the reason why no printed number depends on the change.
     """
@@ -37,6 +43,7 @@ class Change:
     cases: tuple[str, ...]
     places: tuple[str, ...] = ()
     edit: Edit | None = None
+    first: int | None = None
     physics: Physics = nullcontext
     unseen: str = ""
 
@@ -94,7 +101,7 @@ def notices(change: Change, rows: Sequence[Row]) -> Noticed:
         for name in change.cases:
             rows_of_case = [row for row in rows if row.case == name]
             try:
-                data = {name: run(edited(find(name), change))}
+                data = {name: result(name, change)}
             except InputError:
                 raise
             except CosseratError as error:
@@ -102,6 +109,27 @@ def notices(change: Change, rows: Sequence[Row]) -> Noticed:
                 continue
             found += [_named(item) for row in rows_of_case if not (item := judge(row, data)).holds]
     return Noticed(change, tuple(found))
+
+
+def result(name: str, change: Change) -> xr.Dataset:
+    """The result of a changed case, or the answer of a study of it.
+
+    Raises
+    ------
+    CosseratError : the case, or a member of the study, has none.
+    """
+    if name not in published_studies():
+        return run(edited(find(name), change))
+    found = find_study(name)
+    factors = (
+        replace(factor, values=tuple(own[: change.first] for own in factor.values))
+        for factor in found.factors
+    )
+    answer = solved(
+        replace(found, base=edited(found.base, change), factors=tuple(factors)), progress=silent
+    )
+    check_solved(answer, "the answer")
+    return answer
 
 
 def _named(item: Judged) -> str:

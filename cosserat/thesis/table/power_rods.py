@@ -89,15 +89,8 @@ def _calibration(
     unseen: str = "",
 ) -> Change:
     """A change of the fitted problems, at the published number of vertices only."""
-
-    def edited(value: Any) -> Any:
-        if isinstance(value, tuple | list):  # the numbers of vertices
-            return value[:1]
-        assert edit is not None
-        return edit(value)
-
-    places = ["meshes", *(f"{problem}.{place}" for problem in problems if place)]
-    return Change(f"calibration: {what}", ("calibration",), tuple(places), edited, physics, unseen)
+    places = tuple(f"{problem}.{place}" for problem in problems if place)
+    return Change(f"calibration: {what}", ("calibration",), places, edit, 1, physics, unseen)
 
 
 def scaled(name: str, factor: float) -> Physics:

@@ -95,7 +95,7 @@ def _as_worm(worm: Inputs) -> Inputs:
 
 _MASSES: Inputs = {
     **_as_worm(_WORM),
-    "masses": Input(
+    "body_mass": Input(
         [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2], "the range of the thesis's reference [50]"
     ),
     "muscles": Input("constant stress", "section 2.8, 'irrespective of body mass'", assumed="E2.13"),
@@ -132,7 +132,7 @@ CHAPTER_2: Mapping[str, Inputs] = {
     },
     "worm_masses_strip": {
         **_MASSES,
-        "masses": Input([2e-3, 3e-3, 5e-3, 7e-3, 1e-2], "where the worm can stay on the ground"),
+        "body_mass": Input([2e-3, 3e-3, 5e-3, 7e-3, 1e-2], "where the worm can stay on the ground"),
         "muscles": Input("strip tension", "eqs. (2.8.1), (2.8.3)", assumed="E2.13"),
     },
     "worm_calibration": {**_as_worm(_WORM), **_CALIBRATION_TARGETS},

@@ -156,13 +156,13 @@ def _recovered(problem: str, coefficient: str) -> Callable[[xr.Dataset], Measure
     """A coefficient by the calibration at the published number of vertices."""
 
     def read(data: xr.Dataset) -> Measurement:
-        meshes = data.vertices.to_numpy().tolist()
         published = printed.number("clamped_free", "rod.vertices")
-        if published not in meshes:
+        if published not in data.vertices:
             raise InputError(
-                f"the calibration has meshes of {meshes} vertices; add the published {published:g}"
+                f"the calibration has meshes of {data.vertices.to_numpy().tolist()} vertices; "
+                f"add the published {published:g}"
             )
-        fitted = data[f"{problem}_coefficients"].isel(mesh=meshes.index(published))
+        fitted = data[f"{problem}_coefficients"].sel(vertices=published)
         (dim,) = fitted.dims
         return Measurement(float(fitted.sel({dim: coefficient})))
 

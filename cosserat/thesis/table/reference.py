@@ -1,4 +1,4 @@
-"""Stored results of every case: their comparison with fresh ones, and their replacement."""
+"""Stored results of every case and study: their comparison with fresh ones, and their replacement."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from cosserat.data.dataset import case_of, without_derived
 from cosserat.data.netcdf import load, save
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
+from cosserat.studies.door import study_of
 from cosserat.studies.readouts import read_out
 
 RELATIVE = 1e-9
@@ -52,8 +53,10 @@ class Change:
 def thin(dataset: xr.Dataset) -> xr.Dataset:
     """The stored part of a result: about as many values along each dimension as its kind of problem sets.
 
-    What follows from the stored states is left out: its tests compare it with right values.
+    What follows from the stored states is left out: its tests compare it with right values.  Of a study it is all.
     """
+    if "study" in dataset.attrs:
+        return stamped(dataset)
     dataset = without_derived(dataset)
     for dim, count in case_of(dataset).problem.thinned.items():
         if dim in dataset.sizes and not count:
@@ -89,23 +92,27 @@ def compare(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
 
 
 def _compare_answers(fresh: xr.Dataset, stored: xr.Dataset) -> list[Change]:
-    """Changes of every read-out of a study.
+    """Changes of every variable of a study.
 
     Raises
     ------
     InputError : it is another study, or other members have an answer.
     """
-    if fresh.attrs.get("study") != stored.attrs["study"]:
-        raise InputError("the study differs from the stored one; run 'cosserat manifest'")
+    if study_of(fresh) != study_of(stored):
+        raise InputError("the study differs from the stored one; run 'cosserat accept'")
     if not (fresh["status"].to_numpy() == stored["status"].to_numpy()).all():
         raise InputError("other members have an answer than in the stored study")
     return [_change(name, fresh, stored, variable) for name, variable in variables_read(stored).items()]
 
 
 def variables_read(answer: xr.Dataset) -> dict[str, str]:
-    """The variable of a result that each read-out of a study reads, by the name of the read-out."""
-    texts = {str(name): one.attrs.get("read_out") for name, one in answer.data_vars.items()}
-    return {name: read_out(name, text, "the study").variable for name, text in texts.items() if text}
+    """The variable of a result that each read-out or whole variable of a study reads, by the name in the answer."""
+    texts = {str(name): one.attrs.get("read_out", "") for name, one in answer.data_vars.items()}
+    return {
+        name: read_out(name, text, "the study").variable if text else name
+        for name, text in texts.items()
+        if text or name in VARIABLES
+    }
 
 
 def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset, variable: str = "") -> Change:
@@ -114,9 +121,11 @@ def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset, variable: str = ""
         raise InputError(f"variable '{name}' has shape {new.shape}, stored {old.shape}")
     if new.attrs != old.attrs:
         raise InputError(f"variable '{name}' has attributes {new.attrs}, stored {old.attrs}")
-    if not (np.isfinite(new).all() and np.isfinite(old).all()):
-        raise InputError(f"variable '{name}' holds values that are not finite")
-    difference = np.abs(new.to_numpy() - old.to_numpy())
+    if not (np.isfinite(new) == np.isfinite(old)).all():
+        raise InputError(
+            f"variable '{name}' holds values that are not finite, at other places than stored"
+        )
+    difference = np.where(np.isfinite(old), np.abs(new.to_numpy() - old.to_numpy()), 0.0)
     place = np.unravel_index(int(difference.argmax()), difference.shape)
     return Change(
         variable=name,
@@ -128,7 +137,7 @@ def _change(name: str, fresh: xr.Dataset, stored: xr.Dataset, variable: str = ""
 
 
 def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
-    """Store a Dataset as the reference of its case, with the reason; returns the changes, largest first.
+    """Store a Dataset as the reference of its case or study, with the reason; returns the changes, largest first.
 
     Raises
     ------
@@ -142,7 +151,7 @@ def accept(fresh: xr.Dataset, path: Path, because: str) -> list[str]:
     history = f"{fresh.attrs['history']}\n{because}"
     if path.exists():
         stored = load(path)
-        history = f"{stored.attrs['history']}\n{because}"
+        history = f"{stored.attrs.get('history', fresh.attrs['history'])}\n{because}"
         try:
             changes = compare(fresh, stored)
             report = [

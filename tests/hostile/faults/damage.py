@@ -26,7 +26,7 @@ RESULTS = (
     "crawl",
     "posture",
     "calibration",
-    "worm_masses",
+    "mass",
 )
 REFUSED_OR_SAME = (
     "Refused in one sentence that names the file, or read with the same content or a warning, "

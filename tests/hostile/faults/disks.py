@@ -42,7 +42,7 @@ CASES = (
     "crawl",
     "posture",
     "calibration",
-    "convergence",
+    "errors",
 )
 FULL = (
     "One sentence with path, need and free space, exit 2; nothing invalid is left; where there is space, the "

@@ -1,4 +1,4 @@
-"""Convergence of the consistent rod to exact answers under mesh refinement."""
+"""Errors of the consistent rod against exact answers at one mesh."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.exact import beams, elastica
-from cosserat.parameters import Count, Items
+from cosserat.parameters import Count
 from cosserat.problem import ALONE, Problem, Run
 from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.dead import PointForce
-from cosserat.solution import Field, Solution
+from cosserat.solution import Solution
 from cosserat.studies.calibration import beam_of
 from cosserat.studies.needs import check_pulled, check_slender, check_weighed
 
@@ -43,14 +43,12 @@ _WEIGHT_FRACTION = 1e-4  # fraction of the weights: exact answers are linear
 _TIP_FORCES = (1.0, 5.0, 10.0)  # of the elastica, in EI / L^2
 
 
-class Convergence(Problem):
-    """Problems with exact answers, and the numbers of vertices at which to solve them."""
+class DiscretizationErrors(Problem):
+    """Problems with exact answers, compared with them at one number of vertices."""
 
-    kind: Literal["convergence"] = "convergence"
-    meshes: Annotated[
-        tuple[Annotated[int, Count("N", "3.3.1", at_least=5, at_most=10_001)], ...], Items(1, 100)
-    ]
-    """Numbers of vertices; odd, so that a vertex is at mid-span."""
+    kind: Literal["discretization errors"] = "discretization errors"
+    vertices: Annotated[int, Count("N", "3.3.1", at_least=5, at_most=10_001)]
+    """Number of vertices; odd, so that a vertex is at mid-span."""
     clamped_free: RodStatics
     """A beam clamped at its first vertex, under its weight."""
     clamped_clamped: RodStatics
@@ -62,8 +60,11 @@ class Convergence(Problem):
 
     @model_validator(mode="after")
     def _odd(self) -> Self:
-        if any(n % 2 == 0 for n in self.meshes):
-            raise PydanticCustomError("odd", "'meshes' must be odd, so that a vertex is at mid-span")
+        if self.vertices % 2 == 0:
+            raise PydanticCustomError(
+                "odd",
+                f"'vertices' is {self.vertices}; it must be odd, so that a vertex is at mid-span",
+            )
         return self
 
     @model_validator(mode="after")
@@ -75,42 +76,38 @@ class Convergence(Problem):
         return self
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
-        """Every measure at every mesh.
+        """Every measure.
 
         Raises
         ------
         NotConvergedError : a solve on the way failed.
         """
-        table: list[list[float]] = []
-        for n in self.meshes:
-            table.append(self.errors(n, name))
-            run.progress(len(table) / len(self.meshes), f"{n} vertices")
-        errors = np.array(table).T
-        fields: dict[str, Field] = {
-            "vertices": (("mesh",), np.array(self.meshes, dtype=np.float64)),
-            "errors": (("measure", "mesh"), errors),
-        }
-        return Solution(fields, {"meshes": len(self.meshes)}, {"measure": MEASURES})
-
-    @classmethod
-    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
-        """Number of meshes."""
-        return f"{statistics['meshes']} meshes"
-
-    def errors(self, vertices: int, name: str) -> list[float]:
-        """The measures at one mesh, in the order of `MEASURES`."""
-        under_weight = (self.clamped_free, self.clamped_clamped)
-        free, both = (_with_vertices(p, vertices, _WEIGHT_FRACTION) for p in under_weight)
-        necking, slender = (_with_vertices(p, vertices, 1.0) for p in (self.necking, self.slender))
+        free, both = (
+            self._meshed(p, _WEIGHT_FRACTION) for p in (self.clamped_free, self.clamped_clamped)
+        )
+        necking, slender = (self._meshed(p, 1.0) for p in (self.necking, self.slender))
         exact = elastica.timoshenko_frequencies(beam_of(slender), 5)
         displacement, director = beams.clamped_clamped_displacement, beams.clamped_clamped_director
-        return [
+        errors = [
             *_beam_errors(free, beams.clamped_free_displacement, beams.clamped_free_director, name),
             _beam_errors(both, displacement, director, name)[0],
             _necking_error(necking, name),
             *_large_deflection(slender, name),
             *np.abs(slender.modes(5).angular_frequency / exact - 1),
         ]
+        return Solution({"errors": (("measure",), np.array(errors))}, {}, {"measure": MEASURES})
+
+    @classmethod
+    def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:
+        """Number of measures."""
+        return f"{sizes['measure']} errors"
+
+    def _meshed(self, problem: RodStatics, fraction: float) -> RodStatics:
+        """One of the problems on the mesh, with a fraction of its weight."""
+        weight = problem.gravity
+        if weight is not None:
+            weight = weight.replace(g=fraction * weight.g)
+        return problem.replace(rod=problem.rod.replace(vertices=self.vertices), gravity=weight)
 
 
 def _beam_errors(
@@ -148,13 +145,6 @@ def _large_deflection(problem: RodStatics, name: str) -> list[float]:
         found.append(_relative_error(fields["u"], place - fields["x_ref"]))
     upright = problem.rod.height / 2 * np.column_stack([-np.sin(shape[:, 2]), np.cos(shape[:, 2])])
     return [*found, _relative_error(fields["delta"], upright - fields["d_ref"])]
-
-
-def _with_vertices(problem: RodStatics, vertices: int, fraction: float) -> RodStatics:
-    weight = problem.gravity
-    if weight is not None:
-        weight = weight.replace(g=fraction * weight.g)
-    return problem.replace(rod=problem.rod.replace(vertices=vertices), gravity=weight)
 
 
 def _relative_error(computed: Array, exact: Array) -> float:
