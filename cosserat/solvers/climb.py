@@ -23,6 +23,7 @@ from cosserat.solvers.members import (
     FACTOR,
     FRACTION,
     LEFT,
+    LENGTH,
     NEGATIVE,
     PREDICTED,
     RATES,
@@ -30,10 +31,13 @@ from cosserat.solvers.members import (
     RESIDUAL,
     ROUNDING,
     SINGULAR,
+    SLOPE,
     SPACE_KERNEL,
+    SPENT,
     STATE,
     STEPS,
     TOLERANCE,
+    TRIED,
     UNDEFINED,
     Answers,
     Arcs,
@@ -441,7 +445,7 @@ def _respond_indefinite(
 ) -> None:
     """Overwrite the rate and the step, right-hand sides; where the forces are balanced, count in place of the step.
 
-    With a skew part the negative eigenvalues are one if the determinant is negative, see `Tangent.negative`.
+    With a skew part the negative eigenvalues are one if the determinant is negative, as in `solvers.system`.
     """
     n = step.size
     sign = decompose(around.band, around.skew, around.held, around.lu, around.pivots)
@@ -600,7 +604,9 @@ def follow(
         found.lost[0] = lost
         if not good:
             return k
-        _keep(body, found, k, (first, ds, slope, lost), state)
+        state[TRIED], state[LENGTH], state[SLOPE], state[SPENT] = first, ds, slope, lost
+        _react(body, found.reaction[k])
+        _copy(state, found.state[k])
         turned = negative != state[NEGATIVE] or slope * rise < 0.0
         ended = abs(state[FACTOR]) > arcs.limit
         if turned or ended or (state[FACTOR] - arcs.until) * (factor - arcs.until) <= 0.0:
@@ -608,18 +614,6 @@ def follow(
         q, way, factor, rise = found.q[k], found.direction[k], state[FACTOR], slope
         ds, lost = next_arc(ds, int(lost), arcs.longest), 0.0
     return most
-
-
-@njit(cache=True, inline="always")
-def _keep(
-    body: Body, found: Found, k: int, arc: tuple[float, float, float, float], state: Vector
-) -> None:
-    """Keep the point in a state at the end of an arc: the length tried first, the length, the slope, and the steps."""
-    _react(body, found.reaction[k])
-    for i in range(STATE):
-        found.state[k, i] = state[i]
-    for i in range(len(arc)):
-        found.arc[k, i] = arc[i]
 
 
 @njit(cache=True, inline="always")
