@@ -233,7 +233,7 @@ def rotations(d: Array, D: Array, sense: tuple[int, Array] | None) -> Array:
     """Angles of directors (S, N, 2) from those of the reference (N, 2), counted through whole turns: (S, N) [rad].
 
     Neighbouring sections are within half a turn of each other, and so are those of one vertex in neighbouring states.
-    sense : what `States.sense` gives; without it the first section of the first state is within half a turn of its
+    sense : what that of `States` gives; without it the first section of the first state is within half a turn of its
         reference.
     """
     own = rotated_back(d, D)

@@ -23,6 +23,7 @@ from cosserat.solvers.members import (
     FACTOR,
     FRACTION,
     LEFT,
+    LENGTH,
     NEGATIVE,
     PREDICTED,
     RATES,
@@ -30,10 +31,13 @@ from cosserat.solvers.members import (
     RESIDUAL,
     ROUNDING,
     SINGULAR,
+    SLOPE,
     SPACE_KERNEL,
+    SPENT,
     STATE,
     STEPS,
     TOLERANCE,
+    TRIED,
     UNDEFINED,
     Answers,
     Arcs,
@@ -76,6 +80,22 @@ _SMALLEST_SHIFT = (
 )  # of the largest diagonal entry, a power of two that is doubled until a band is positive
 _TARGET_STEPS, MAX_TARGET_STEPS = 4, 8
 """Steps of corrections up to which the next arc is longer, and above which it is shorter."""
+
+
+@njit(cache=True)
+def _copy(values: Vector, into: Vector) -> None:
+    """Overwrite the first numbers of a vector; with a slice Numba would compile texts of errors for seconds."""
+    for i in range(values.size):
+        into[i] = values[i]
+
+
+@njit(cache=True)
+def _begin(band: Fields, factor: Fields) -> None:
+    """Overwrite a factor (n + w, w) by a band (n, w), and by zeros beyond it."""
+    n = band.shape[0]
+    for j in range(n):
+        _copy(band[j], factor[j])
+    factor[n:] = 0.0
 
 
 @njit(cache=True)
@@ -164,12 +184,12 @@ def _eliminate(band: Fields, n: int, width: Any) -> bool:
 @njit(cache=True)
 def substitute(factor: Fields, x: Vector, room: Vector) -> None:
     """Overwrite a right-hand side (n,) with the solution; room : (n + w,) is overwritten."""
-    room[: x.size] = x
+    _copy(x, room)
     if factor.shape[1] == len(_UNROLLED):
         _solve(factor, x.size, _UNROLLED, room)
     else:
         _solve(factor, x.size, range(factor.shape[1]), room)
-    x[:] = room[: x.size]
+    _copy(room[: x.size], x)
 
 
 @njit(cache=True)
@@ -191,12 +211,14 @@ def _solve(factor: Fields, n: int, width: Any, room: Vector) -> None:
 @njit(cache=True)
 def substitute_both(factor: Fields, x: Vector, y: Vector, rooms: Fields) -> None:
     """Overwrite two right-hand sides (n,) with the solutions; rooms : (2, n + w) is overwritten."""
-    rooms[0, : x.size], rooms[1, : x.size] = x, y
+    _copy(x, rooms[0])
+    _copy(y, rooms[1])
     if factor.shape[1] == len(_UNROLLED):
         _solve_both(factor, x.size, _UNROLLED, rooms[0], rooms[1])
     else:
         _solve_both(factor, x.size, range(factor.shape[1]), rooms[0], rooms[1])
-    x[:], y[:] = rooms[0, : x.size], rooms[1, : x.size]
+    _copy(rooms[0, : x.size], x)
+    _copy(rooms[1, : x.size], y)
 
 
 @njit(cache=True)
@@ -332,7 +354,7 @@ def iterate_inverse(lu: Fields, pivots: NDArray[np.int64], x: Vector) -> float:
     """The eigenvalue nearest zero, by inverse iteration from x, which its vector of unit length overwrites."""
     y, value = np.empty_like(x), np.inf
     for _ in range(_INVERSE_ITERATIONS):
-        y[:] = x
+        _copy(x, y)
         resolve(lu, pivots, y)
         along = across = square = 0.0
         for i in range(x.size):
@@ -357,8 +379,7 @@ def lowest_motion(band: Fields, x: Vector) -> None:
     factor, room = np.empty((n + width, width)), np.empty(n + width)
     nothing, largest = np.zeros(n, dtype=np.bool_), np.abs(band[:, 0]).max()
     for k in range(_SMALLEST_SHIFT, -_SMALLEST_SHIFT):
-        factor[:n] = band
-        factor[n:] = 0.0
+        _begin(band, factor)
         factor[:n, 0] += 2.0**k * (largest if largest > 0.0 else 1.0)
         if factorise(factor, nothing):
             break
@@ -402,8 +423,7 @@ def respond(around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector,
     state[RESIDUAL], state[TOLERANCE], state[ROUNDING] = residual, tolerance, rounding
     balanced = residual <= tolerance or stalled(residual, last, rounding)
     state[NEGATIVE] = state[SINGULAR] = 0.0
-    around.factor[:n] = around.band
-    around.factor[n:] = 0.0
+    _begin(around.band, around.factor)
     if not around.skew.shape[0] and factorise(around.factor, around.held):
         if balanced:
             substitute(around.factor, rate, around.rooms[0])
@@ -419,13 +439,13 @@ def respond(around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector,
     return STEPS
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _respond_indefinite(
     around: Around, step: Vector, rate: Vector, state: Vector, balanced: bool
 ) -> None:
     """Overwrite the rate and the step, right-hand sides; where the forces are balanced, count in place of the step.
 
-    With a skew part the negative eigenvalues are one if the determinant is negative, see `Tangent.negative`.
+    With a skew part the negative eigenvalues are one if the determinant is negative, as in `solvers.system`.
     """
     n = step.size
     sign = decompose(around.band, around.skew, around.held, around.lu, around.pivots)
@@ -441,8 +461,7 @@ def _respond_indefinite(
     if around.skew.shape[0]:
         state[NEGATIVE] = 1.0 if sign < 0.0 else 0.0
         return
-    around.factor[:n] = around.band
-    around.factor[n:] = 0.0
+    _begin(around.band, around.factor)
     _hold_apart(around.factor, around.held)
     state[NEGATIVE] = negative_pivots(around.factor, n)
 
@@ -483,7 +502,7 @@ def move_on(q: Vector, step: Vector, state: Vector, fraction: float) -> None:
     state[COUNT] += 1.0
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _correct(
     body: Body, around: Around, plane: Plane, answer: tuple[Vector, Vector, Vector, Vector]
 ) -> bool:
@@ -521,7 +540,7 @@ def _product(one: Vector, rise: float, other: Vector, slope: float, weight: floa
     return float(total + weight * rise * slope)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", inline="always")
 def _next_point(
     body: Body, around: Around, plane: Plane, stray: float, answer: tuple[Vector, Vector, Vector, Vector]
 ) -> tuple[bool, float, float]:
@@ -544,7 +563,8 @@ def _next_point(
     product = _product(ahead, slope, plane.direction, plane.slope, plane.weight)
     if product < 0:
         slope, product = -slope, -product
-        ahead[:] = -ahead
+        for i in range(q.size):
+            ahead[i] = -ahead[i]
     own = _product(ahead, slope, ahead, slope, plane.weight)
     before = _product(plane.direction, plane.slope, plane.direction, plane.slope, plane.weight)
     return True, slope, product / np.sqrt(own * before)
@@ -584,7 +604,9 @@ def follow(
         found.lost[0] = lost
         if not good:
             return k
-        _keep(body, found, k, (first, ds, slope, lost), state)
+        state[TRIED], state[LENGTH], state[SLOPE], state[SPENT] = first, ds, slope, lost
+        _react(body, found.reaction[k])
+        _copy(state, found.state[k])
         turned = negative != state[NEGATIVE] or slope * rise < 0.0
         ended = abs(state[FACTOR]) > arcs.limit
         if turned or ended or (state[FACTOR] - arcs.until) * (factor - arcs.until) <= 0.0:
@@ -594,19 +616,7 @@ def follow(
     return most
 
 
-@njit(cache=True)
-def _keep(
-    body: Body, found: Found, k: int, arc: tuple[float, float, float, float], state: Vector
-) -> None:
-    """Keep the point in a state at the end of an arc: the length tried first, the length, the slope, and the steps."""
-    _react(body, found.reaction[k])
-    for i in range(STATE):
-        found.state[k, i] = state[i]
-    for i in range(len(arc)):
-        found.arc[k, i] = arc[i]
-
-
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _of_address(
     kernel_address: int, space_address: int, numbers: Numbers, around: Around, arcs: Arcs
 ) -> Body:
@@ -700,7 +710,7 @@ def _polish(body: Body, q: Vector, step: Vector, reaction: Vector, forces: Vecto
     nearer, _ = balance(body.gradient, body.held, body.at)
     if nearer <= max(forces[0], forces[-1]):
         forces[0] = nearer
-        q[:] = step
+        _copy(step, q)
         _react(body, reaction)
 
 
@@ -722,9 +732,9 @@ def _move(body: Body, q: Vector, step: Vector, rates: Fields, fastest: float) ->
     for row in rates:
         for k in range(row.size):
             row[k] *= share
-    step[:] = q
+    _copy(q, step)
     body.space(PREDICTED, body.placed, q, step, body.held, rates)
-    q[:] = step
+    _copy(step, q)
 
 
 @njit(cache=True)
@@ -822,7 +832,7 @@ def _climb(
             increment = (1.0 - point) / 2
         goal = point + increment if point + 1.001 * increment < 1.0 else 1.0
         _extrapolate(rates, earlier, before, point, goal, moved)
-        new[:] = q
+        _copy(q, new)
         body.space(PREDICTED, body.placed, q, new, body.held, moved)
         size = max(largest_of(moved), NEGLIGIBLE_ROTATION)
         good, steps = reach(body, limits, new, goal, size, step, turned, ahead, answer)
@@ -835,9 +845,10 @@ def _climb(
             increment = (goal - point) / 2
             continue
         before, point = point, goal
-        earlier[:, :] = rates
-        rates[:, :] = ahead
-        q[:] = new
+        for i in range(limits.parts):
+            _copy(rates[i], earlier[i])
+            _copy(ahead[i], rates[i])
+        _copy(new, q)
         increment *= min(2.0, max(0.5, np.sqrt(PREDICTION_TOLERANCE / 2 / max(off, 1e-3))))
     return REACHED
 
@@ -879,7 +890,7 @@ def climb_all(
             terms,
             none,
         )
-        answers.q[m] = members.start[m]
+        _copy(members.start[m], answers.q[m])
         answers.counts[m] = 0
         answers.status[m] = _climb(
             body,

@@ -18,10 +18,13 @@ from cosserat.solvers.members import (
     BALANCED,
     COUNT,
     FACTOR,
+    LENGTH,
     NEGATIVE,
     RESIDUAL,
     ROUNDING,
     SINGULAR,
+    SLOPE,
+    SPENT,
     STATE,
     STEPS,
     TOLERANCE,
@@ -106,13 +109,12 @@ class _Ahead:
     def __init__(self, found: Found, count: int) -> None:
         self.found, self.next = found, 0
         self.states: list[list[float]] = found.state[:count].tolist()
-        self.arcs: list[list[float]] = found.arc[:count].tolist()
         self.last: Equilibrium | None = None
 
     def goes_on(self, point: Equilibrium, ds: float) -> bool:
         """Whether the next arc goes from this point with this length."""
-        known = self.last is point and self.next < len(self.arcs)
-        return known and self.arcs[self.next][TRIED] == ds
+        known = self.last is point and self.next < len(self.states)
+        return known and self.states[self.next][TRIED] == ds
 
 
 _NOTHING_AHEAD = _Ahead(Found.empty(0, 0), 0)
@@ -186,15 +188,14 @@ class Corrector:
         ahead = self._ahead
         if not ahead.goes_on(point, ds):
             ahead = self._look_ahead(point, direction, ds, bounds, most)
-            if not ahead.arcs:
+            if not ahead.states:
                 self.solver.iterations += int(ahead.found.lost[0])
                 return None
-        k = ahead.next
-        _, length, slope, steps = ahead.arcs[k]
-        self.solver.iterations += int(steps)
-        end = self._end(ahead.found, k, ahead.states[k], point.history)
+        k, state = ahead.next, ahead.states[ahead.next]
+        self.solver.iterations += int(state[SPENT])
+        end = self._end(ahead.found, k, state, point.history)
         ahead.last, ahead.next = end, k + 1
-        return end, (ahead.found.direction[k], slope), length
+        return end, (ahead.found.direction[k], state[SLOPE]), state[LENGTH]
 
     def _look_ahead(
         self,

@@ -110,12 +110,13 @@ class Body(NamedTuple):
 
 STEPS, BALANCED, UNDEFINED = range(3)
 """What comes of a correction: a step, a balance, no energy there or no step."""
-STATE = 8
-FACTOR, RESIDUAL, TOLERANCE, ROUNDING, CHANGE, COUNT, NEGATIVE, SINGULAR = range(STATE)
+STATE = 12
+FACTOR, RESIDUAL, TOLERANCE, ROUNDING, CHANGE, COUNT, NEGATIVE, SINGULAR, TRIED, LENGTH, SLOPE, SPENT = (
+    range(STATE)
+)
 """Numbers of the state of corrections: load factor, forces as in `Answers`, change of the factor, steps taken, and, of
-a balance, how many eigenvalues of the Hessian are negative and whether it is singular."""
-TRIED, LENGTH, SLOPE, STEPS_TAKEN = range(4)
-"""Numbers of an arc: the length tried first, the length, change of the load factor along the path, and steps."""
+a balance, how many eigenvalues of the Hessian are negative and whether it is singular.  Of the end of an arc the length
+that was tried first, the length, change of the load factor along the path, and steps of all tries."""
 
 
 class Plane(NamedTuple):
@@ -164,7 +165,7 @@ class Found(NamedTuple):
     """The ends of K arcs.
 
     q, direction, rate, reaction : (K, n) DOFs, direction of the path, rate of the DOFs with the load factor, and forces
-    of the constrained DOFs [N].  state : (K, STATE).  arc : (K, 4).  lost : (1,) steps of an arc that has no end.
+    of the constrained DOFs [N].  state : (K, STATE).  lost : (1,) steps of an arc that has no end.
     """
 
     q: Fields
@@ -172,24 +173,22 @@ class Found(NamedTuple):
     rate: Fields
     reaction: Fields
     state: Fields
-    arc: Fields
     lost: Vector
 
     @classmethod
     def empty(cls, arcs: int, dofs: int) -> Found:
         """Nothing found yet."""
-        q, direction, rate, reaction = np.empty((4, arcs, dofs))
-        return cls(
-            q, direction, rate, reaction, np.empty((arcs, STATE)), np.empty((arcs, 4)), np.empty(1)
-        )
+        q, direction, rate = np.empty((3, arcs, dofs))
+        reaction, state = np.empty((arcs, dofs)), np.empty((arcs, STATE))
+        return cls(q, direction, rate, reaction, state, np.empty(1))
 
 
 class Around(NamedTuple):
     """Work space of corrections.
 
     gradient, rate : (n,) assembled last, and its derivative by the load factor [N].  band, skew : (n, w) the Hessian,
-    as in `Tangent`.  scale, held : (n,) as in `Body`.  factor, rooms : (n + w, w) and (2, n + w).  lu, pivots : as of
-    `solvers.climb.decompose`.
+    as in `solvers.system`.  scale, held : (n,) as in `Body`.  factor, rooms : (n + w, w) and (2, n + w).
+    lu, pivots : as of `solvers.climb.decompose`.
     """
 
     gradient: Vector
