@@ -1,5 +1,6 @@
 """Every case of the thesis has the inputs that the thesis prints."""
 
+import functools
 import re
 from typing import get_args
 
@@ -57,6 +58,7 @@ def at(table, place):
     return table
 
 
+@functools.cache
 def inputs_of(name):
     """The inputs of a case, or of the one that a study varies with the values of its keys."""
     if name not in published_studies():

@@ -90,7 +90,8 @@ def _calibration(
 ) -> Change:
     """A change of the fitted problems, at the published number of vertices only."""
     places = tuple(f"{problem}.{place}" for problem in problems if place)
-    return Change(f"calibration: {what}", ("calibration",), places, edit, 1, physics, unseen)
+    name = "calibration"
+    return Change(f"{name}: {what}", (name,), places, edit, first=1, physics=physics, unseen=unseen)
 
 
 def scaled(name: str, factor: float) -> Physics:
