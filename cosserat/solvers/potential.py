@@ -8,7 +8,7 @@ replaces by the means of its two ends.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
@@ -62,6 +62,10 @@ _NO_STRAINS = np.empty((0, 0))
 class Level(Protocol):
     """How a load depends on time: a factor."""
 
+    @property
+    def before_zero(self) -> float:
+        """The factor just before time zero."""
+
     def value(self, t: Vector) -> Vector:
         """The factor at times (n,) [s]."""
 
@@ -83,6 +87,7 @@ class Potential:
     origin : (n,) added to q; None for zero.
     level : the factor of a load that depends on time; None for a constant load.
     frame : frames of their own of some pairs of DOFs, which the kernel does not know; None for none.
+    sizes : names of the constants to which it is proportional, of a load.
     """
 
     evaluate: Callable[..., float]
@@ -95,6 +100,20 @@ class Potential:
     origin: Vector | None = None
     level: Level | None = None
     frame: Frame | None = None
+    sizes: tuple[str, ...] = ()
+
+    def times(self, factor: float) -> Potential:
+        """The potential times a factor, which does not depend on time."""
+        assert self.sizes  # every load names them
+        constants = self.constants.copy()
+        for name in self.sizes:
+            constants[name] *= factor
+        return replace(self, constants=constants, level=None)
+
+    @property
+    def idle(self) -> bool:
+        """Whether it is a load of no size."""
+        return bool(self.sizes) and not any(self.constants[name].any() for name in self.sizes)
 
     @property
     def linear(self) -> bool:

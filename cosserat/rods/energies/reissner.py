@@ -191,6 +191,7 @@ def stressed(
         constants=stress,
         terms=STRESSES,
         half_bandwidth=energy.half_bandwidth,
+        sizes=(*measures, "k_section"),
     )
 
 
