@@ -131,6 +131,16 @@ class Potential:
         """The energy [J] at q; adds the gradient (n,) [N] and the Hessian, its skew part if `skew` has rows."""
         return self._called(q, history, HESSIAN, gradient, band, skew)
 
+    def add_stressed(
+        self, q: Vector, elsewhere: Vector, history: Vector, gradient: Vector, band: Band, skew: Band
+    ) -> float:
+        """As `add` at q, but with the stresses of elsewhere; a potential without strains is taken elsewhere whole."""
+        if not self.strains[0]:
+            return self.add(elsewhere, history, gradient, band, skew)
+        strains = np.zeros(self.strains)
+        self._called(elsewhere, history, STRAINS, NOTHING, NO_BAND, NO_BAND, strains=strains)
+        return self._called(q, history, HESSIAN, gradient, band, skew, after=elsewhere, strains=strains)
+
     def add_gradient(self, q: Vector, history: Vector, gradient: Vector) -> float:
         """The energy [J] at q; adds the gradient (n,) [N]."""
         return self._called(q, history, GRADIENT, gradient, NO_BAND, NO_BAND)
@@ -168,14 +178,17 @@ class Potential:
         band: Band,
         skew: Band,
         terms: Vector | None = None,
+        after: Vector = NOTHING,
+        strains: NDArray[np.float64] = _NO_STRAINS,
     ) -> float:
         if self.frame is not None:
-            q = self.frame.out(q)
+            q, after = self.frame.out(q), self.frame.out(after) if after.size else after
             self.frame.rotate(gradient, band, skew, -1.0)
-        q = q if self.origin is None else q + self.origin
+        if self.origin is not None:
+            q, after = q + self.origin, after + self.origin if after.size else after
         terms = np.empty(len(self.terms)) if terms is None else terms
         energy = float(
-            self.evaluate(q, NOTHING, self.data, history, _NO_STRAINS, task, gradient, band, skew, terms)
+            self.evaluate(q, after, self.data, history, strains, task, gradient, band, skew, terms)
         )
         if self.frame is not None:
             self.frame.rotate(gradient, band, skew, 1.0)
