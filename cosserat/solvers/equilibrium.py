@@ -24,6 +24,7 @@ from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 if TYPE_CHECKING:
     from cosserat.solvers.corrector import Corrector
+    from cosserat.solvers.hidden import Watch
 
 _EPS = float(np.finfo(float).eps)
 SMALLEST = 2.0**-24  # fraction of the first arc below which halving stops
@@ -88,6 +89,7 @@ class EquilibriumSolver:
     def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
         self.system, self.settings, self.name = system, settings, name
         self.corrector: Corrector | None = None  # once there are arcs
+        self.watch: Watch | None = None  # the same
         self._rate: tuple[Equilibrium, Vector] | None = None  # at the last point, if it is known
         self.iterations = self.cutbacks = self.branch_switches = 0
         self.undecided_factors: list[float] = []

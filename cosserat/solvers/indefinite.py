@@ -39,6 +39,12 @@ class Factors:
         negative = np.count_nonzero(self.factors[2 * self.width] < 0)
         self.sign = 0.0 if info else (-1.0) ** (exchanges + negative)
 
+    @property
+    def log(self) -> float:
+        """The logarithm of the size of the determinant."""
+        with np.errstate(divide="ignore"):
+            return float(np.log(np.abs(self.factors[2 * self.width])).sum())
+
     def solve(self, right: Vector) -> Vector | None:
         """The solution for one or, as columns, several right-hand sides; None where the matrix is singular."""
         if self.sign == 0.0:
