@@ -48,9 +48,10 @@ class SearchSettings(Parameters):
 class RodCriticalLoads(GrownProblem):
     """Critical loads as multiples of the given loads, which grow together from zero.
 
-    The linear criterion (linear buckling) adds to the stiffness where they begin its first derivative by the load,
-    the geometric stiffness.  The true criterion follows the equilibria themselves to the first that is singular, a
-    bifurcation or a limit point.  The largest displacement of a mode is one.
+    The linear criterion (linear buckling) adds to the stiffness where they begin the geometric one, of the loads and
+    of the stresses that they cause, in the shape there: it is for rods that hardly bend before they buckle.  The true
+    criterion follows the equilibria themselves to the first that is singular, a bifurcation or a limit point.  The
+    largest displacement of a mode is one.
     """
 
     kind: Literal["critical loads"] = "critical loads"

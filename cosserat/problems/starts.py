@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,13 @@ from numpy.typing import NDArray
 from cosserat.errors import InputError
 from cosserat.exact import beams
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.problems.static import RodStatics
+from cosserat.problems.posed import PosedProblem
+from cosserat.problems.static import RodStatics, modes_about
+from cosserat.rods.constraints import RodConstraints
 from cosserat.rods.naming import Direction, unit_vector
 from cosserat.rods.problem import LOADS, RodProblem
+from cosserat.rods.reference import Geometry
+from cosserat.solvers.banded import Mask
 from cosserat.solvers.integrate import State
 from cosserat.solvers.modes import Modes
 from cosserat.solvers.system import MechanicalSystem
@@ -31,7 +36,10 @@ class Start(Parameters):
 
     shape: Literal["reference", "first beam mode", "equilibrium"] = "reference"
     """Shape: "first beam mode" bends the rod by eq. (3.5.16) and rotates the directors with it; "equilibrium" is that
-    of `start_from`, or else under the loads of the motion that do not depend on time."""
+    of `start_from`, or else under the loads of the motion as they are just before time zero.
+
+    There a table has its first value; a ramp, a pulse or a sine that begins at zero is not yet there.
+    """
     mode: Annotated[int, Count(at_least=1, at_most=100_000)] | None = None
     """Number of a natural mode about that shape, which is added to it; the lowest that deforms the rod is 1."""
     amplitude: Annotated[float, Quantity("m")] = 0.0
@@ -109,13 +117,22 @@ def begin(problem: RodMotion) -> State:
         moved += _along_the_rod(start.velocities, geometry.arc_length, kinematics.split(q))
     rate = np.where(free, frame.into(v + moved.ravel() + start.spin * rotation), 0.0)
     place, given, _ = system.constraints.at_time(0.0)
-    q = frame.into(q) + place
+    q = np.where(_moved(system, problem, geometry), system.space.reference + place, frame.into(q))
     return State(q, rate + given, system.committed(q, system.history))
+
+
+def _moved(system: MechanicalSystem, problem: RodMotion, geometry: Geometry) -> Mask:
+    """Which DOFs (n,) the motion itself moves, from their reference values."""
+    moved = np.zeros_like(system.constrained)
+    for part in problem.moves(geometry):
+        size = part.place(0.0)[0].size
+        moved[part.index : part.index + size] = True
+    return moved
 
 
 def warnings(problem: RodMotion) -> tuple[str, ...]:
     """Warnings of the equilibrium from which a motion starts."""
-    return _equilibrium(_static(problem))[1] if problem.start.shape == "equilibrium" else ()
+    return _equilibrium(problem).warnings if problem.start.shape == "equilibrium" else ()
 
 
 def _shape(problem: RodMotion, system: MechanicalSystem) -> tuple[Array, Callable[[int], Array]]:
@@ -126,13 +143,13 @@ def _shape(problem: RodMotion, system: MechanicalSystem) -> tuple[Array, Callabl
     geometry, kinematics, shape = problem.geometry, problem.rod.kinematics, problem.start.shape
     rest = system.unframed.space.reference
     if shape == "equilibrium":
-        static = _static(problem)
-        if not np.array_equal(static.arc_length, problem.arc_length):
+        start = _equilibrium(problem)
+        if not np.array_equal(start.arc, problem.arc_length):
             raise InputError(
                 "'start_from' has other vertices than the motion; give both the same rod, and supports at the same "
                 "places"
             )
-        return _equilibrium(static)[0], lambda number: static.modes(number).shape[-1]
+        return start.q, lambda number: start.modes(number)[-1]
 
     def lowest(number: int) -> Array:
         found: Modes = problem.vibrations().lowest(number)
@@ -156,10 +173,11 @@ def _shape(problem: RodMotion, system: MechanicalSystem) -> tuple[Array, Callabl
     return frame.out(np.where(free, frame.into(vectors.ravel()), system.space.reference)), lowest
 
 
-def _static(problem: RodMotion) -> RodStatics:
-    """The static problem whose equilibrium is the start."""
+def _static(problem: RodMotion) -> tuple[RodStatics, MechanicalSystem]:
+    """The static problem whose equilibrium is the start, and its system."""
     if problem.start_from is not None:
-        return problem.start_from
+        static = problem.start_from
+        return static, static.system(static.geometry)
     fields = {name: getattr(problem, name) for name in RodStatics.model_fields if hasattr(problem, name)}
     for key in LOADS:
         if key in fields and isinstance(fields[key], tuple):
@@ -167,16 +185,54 @@ def _static(problem: RodMotion) -> RodStatics:
         elif key in fields and fields[key] is not None and fields[key].level is not None:
             fields[key] = None
     moved = {"prescribed_displacements": (), "prescribed_rotations": (), "kind": "rod statics"}
-    return RodStatics.read({**fields, **moved}, "start", units_required=False)
+    static = RodStatics.read({**fields, **moved}, "start", units_required=False)
+    geometry = problem.geometry
+    parts = [
+        part.times(part.time_function.before_zero)
+        for part in problem.moves(geometry)
+        if part.time_function is not None and part.time_function.before_zero
+    ]
+    loaded = PosedProblem.system(problem, geometry)
+    return static, _before_zero(loaded, RodConstraints(loaded.constrained, tuple(parts)))
+
+
+def _before_zero(system: MechanicalSystem, constraints: RodConstraints) -> MechanicalSystem:
+    """A system of a motion with its loads as they are just before time zero."""
+    loads = [
+        load if load.level is None else load.times(load.level.before_zero)
+        for load in system.external
+        if not load.idle and (load.level is None or load.level.before_zero)
+    ]
+    plain = None if system.plain is None else _before_zero(system.plain, constraints)
+    return replace(system, external=tuple(loads), constraints=constraints, plain=plain)
+
+
+class _Equilibrium(NamedTuple):
+    """The static answer from which a motion starts.
+
+    q : (n,) DOFs, positions and directors.  modes : a number of them about it.
+    """
+
+    arc: Array
+    q: Array
+    warnings: tuple[str, ...]
+    modes: Callable[[int], Array]
 
 
 @functools.lru_cache(maxsize=4)
-def _equilibrium(static: RodStatics) -> tuple[Array, tuple[str, ...]]:
-    """The DOFs (n,) of a static answer, positions and directors, and its warnings."""
+def _equilibrium(problem: RodMotion) -> _Equilibrium:
+    """The equilibrium in which a motion starts."""
+    static, system = _static(problem)
     geometry = static.geometry
-    point, solver = static.equilibrium(geometry, static.system(geometry), "the start")
-    placed: Array = static.rod.strain_energy.reference(geometry) + point.unframed(solver.system).q
-    return placed, tuple(f"{words} (of the start)" for words in solver.warnings())
+    point, solver = static.equilibrium(geometry, system, "the start")
+    placed: Array = static.rod.strain_energy.reference(geometry) + point.unframed(system).q
+    words = tuple(f"{words} (of the start)" for words in solver.warnings())
+    return _Equilibrium(
+        geometry.arc_length,
+        placed,
+        words,
+        lambda number: modes_about(system, point, number, "the start").shape,
+    )
 
 
 def _scaled(mode: Array) -> Array:

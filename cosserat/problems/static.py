@@ -76,8 +76,7 @@ class RodStatics(PosedProblem):
         geometry = self.geometry
         system = self.system(geometry)
         point, _ = self.equilibrium(geometry, system, name)
-        found = modes(system, point.q, count, name, supported=True, history=point.history)
-        return replace(found, shape=system.frame.out(found.shape))
+        return modes_about(system, point, count, name)
 
     def equilibrium(
         self, geometry: Geometry, system: MechanicalSystem, name: str
@@ -94,6 +93,17 @@ class RodStatics(PosedProblem):
                 reached = {"load_factor_reached": last.factor}
                 error.reached = replace(found, statistics=dict(found.statistics) | reached)
             raise
+
+
+def modes_about(system: MechanicalSystem, point: Equilibrium, count: int, name: str) -> Modes:
+    """The lowest natural frequencies and shapes of small motions about an equilibrium.
+
+    Raises
+    ------
+    UnstableError : small motions about it grow.
+    """
+    found = modes(system, point.q, count, name, supported=True, history=point.history)
+    return replace(found, shape=system.frame.out(found.shape))
 
 
 class State:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Protocol
 
 import numpy as np
@@ -38,6 +38,9 @@ class PrescribedPart(Protocol):
     def rotation(self) -> float:
         """Largest angle by which it rotates a section [rad]."""
 
+    def times(self, factor: float) -> PrescribedPart:
+        """A part of the motion, or more of it, that does not depend on time."""
+
     def place(self, fraction: float) -> tuple[Array, Array, Array]:
         """Displacement at a fraction of the full motion, and two derivatives by it, each (number of DOFs,)."""
 
@@ -50,6 +53,10 @@ class DisplacedDof:
     by: float
     time_function: TimeFunction | None = None
     rotation: float = 0.0
+
+    def times(self, factor: float) -> DisplacedDof:
+        """Proportional displacement."""
+        return replace(self, by=factor * self.by, time_function=None)
 
     def place(self, fraction: float) -> tuple[Array, Array, Array]:
         """Proportional displacement."""
@@ -69,6 +76,10 @@ class RotatedDirector:
     def rotation(self) -> float:
         """The angle [rad]."""
         return abs(self.by)
+
+    def times(self, factor: float) -> RotatedDirector:
+        """A rotation by the angle times the factor."""
+        return replace(self, by=factor * self.by, time_function=None)
 
     def place(self, fraction: float) -> tuple[Array, Array, Array]:
         """Displacement along a circle."""

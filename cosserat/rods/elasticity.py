@@ -60,23 +60,24 @@ Along = Callable[[Scales], Elastic]
 
 
 def of_one_material(
-    area: float,
-    second_moment: float,
+    area: Callable[[Scales], Array],
+    second_moment: Callable[[Scales], Array],
     young: float,
     poisson: float,
-    shear_factor: Callable[[Array], Array | float],
+    shear_factor: Callable[[Scales, Array], Array | float],
     lateral_constraint: LateralConstraint,
 ) -> Along:
     """Of a section of one material.
 
-    second_moment : about E1 through the area centre [m^4].  shear_factor : k from Poisson's ratio.
+    area [m^2], second_moment : about E1 through the area centre [m^4], at places.
+    shear_factor : k at places, from Poisson's ratio there.
     """
 
     def along(s: Scales) -> Elastic:
-        here, bending = area * s.width * s.height, second_moment * s.width * s.height**3
+        here, bending = area(s), second_moment(s)
         nu = poisson * s.poisson
         mu, first, plane = moduli(young * s.young, nu, lateral_constraint)
-        shear = shear_factor(nu) * mu * here
+        shear = shear_factor(s, nu) * mu * here
         return Elastic(2 * mu * here, first * here, 2 * mu * here, shear, plane * bending, mu * bending)
 
     return along

@@ -29,7 +29,7 @@ from cosserat.rods.reference import Geometry
 from cosserat.rods.sections import AnySection
 from cosserat.rods.sections.section import Homogeneous
 from cosserat.rods.shapes import AnyShape, Points, Shape, Straight
-from cosserat.rods.variation import NOMINAL, Station, mass_scale, mean, scale_at, vertex_cuts
+from cosserat.rods.variation import NOMINAL, Scales, Station, mean, scale_at, vertex_cuts
 
 Array = NDArray[np.float64]
 
@@ -265,8 +265,17 @@ class Rod(Parameters):
         return (
             self.line_density
             * np.diff(cuts)
-            * mean(self.stations, lambda scale, _: mass_scale(scale), cuts)
+            * mean(self.stations, lambda scale, _: self.section.mass_along(scale), cuts)
         )
+
+    def inertia_along(self, s: Scales) -> Array:
+        """Mass per length, and its products with Y02 |D| and Y22 |D|^2, over the nominal ones, (3, points) [1]."""
+        inertia = self.section.mass_along(s) * s.height ** np.arange(3)[:, None]
+        if s.wall is not None:  # the section keeps its centre, but not its proportions
+            away = (self.section.mass_centre - self.centreline) ** 2
+            nominal = self.section.mass_spread + away
+            inertia[2] *= (self.section.mass_spread_along(s) + away) / nominal
+        return inertia
 
     def mass(self, geometry: Geometry) -> Array:
         """Mass matrix as a symmetric band, (n, w), eq. (3.3.43)."""

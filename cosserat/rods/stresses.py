@@ -16,7 +16,7 @@ from cosserat.rods.elasticity import moduli
 from cosserat.rods.resultants import Resultants
 from cosserat.rods.rod import Rod
 from cosserat.rods.sections.section import Homogeneous
-from cosserat.rods.variation import Scales, scale_at
+from cosserat.rods.variation import scales_at
 
 Array = NDArray[np.float64]
 SURFACES = ("upper", "lower")
@@ -46,14 +46,14 @@ def edge_sections(rod: Rod, xi: Array) -> Sections | None:
     """The sections at arc lengths xi; at a step those after it.  None if a section has no single material."""
     if not isinstance(rod.section, Homogeneous):
         return None
-    scale = Scales(*(scale_at(rod.stations, name, xi, before=False) for name in Scales._fields))
+    scale = scales_at(rod.stations, xi)
     elastic = rod.section.along(rod.material, rod.lateral_constraint)(scale)
     height, centre = rod.height * scale.height, rod.section.centre
     young = area = None
     if isinstance(rod.section, Homogeneous):
         nu = rod.poisson * scale.poisson
         _, _, young = moduli(rod.young * scale.young, nu, rod.lateral_constraint)
-        area = rod.area * scale.width * scale.height
+        area = rod.section.area_along(scale)
     return Sections(
         elastic.pulled,
         elastic.bending,

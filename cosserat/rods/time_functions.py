@@ -39,6 +39,11 @@ class TimeFunction(Parameters):
         """The factor at times (n,) [s]."""
         return self.derivatives(t)[0]
 
+    @property
+    def before_zero(self) -> float:
+        """The factor just before time zero: that of a function which begins there is zero, a table has its own."""
+        return float(self.value(np.array([-np.finfo(float).tiny]))[0])
+
     def means(self, times: Array) -> Array:
         """Means of the factor between neighbouring times, (n,) [s] -> (n - 1,).
 

@@ -33,16 +33,30 @@ class Station(Parameters):
     """Poisson's ratio over that of the rod."""
     density: Annotated[float, Quantity("1", above=0)] = 1.0
     """Mass per volume over that of the rod; the line density scales with this times the area."""
+    wall: Annotated[float, Quantity("1", above=0)] | None = None
+    """Thickness of the walls over that of the rod: of a tube, a hollow rectangle, or flanges and web of an I.
+
+    Height and width are then those of the outline.  By default walls scale with them.
+    """
+
+    @property
+    def thickness(self) -> float:
+        """Factor of the walls; that of the height if none is given."""
+        return self.height if self.wall is None else self.wall
 
 
 class Scales(NamedTuple):
-    """Scale factors at some places, arrays of one shape."""
+    """Scale factors at some places, arrays of one shape; wall : None if walls scale with width and height."""
 
     width: Array
     height: Array
     young: Array
     poisson: Array
     density: Array
+    wall: Array | None = None
+
+
+_FACTORS = ("width", "height", "young", "poisson", "density")
 
 
 def _gauss(cuts: Array) -> tuple[Array, Array]:
@@ -52,18 +66,18 @@ def _gauss(cuts: Array) -> tuple[Array, Array]:
 
 
 _ONE = _gauss(np.array([0.0, 1.0]))
-_NOMINAL = Scales(*(np.ones_like(_ONE[0]) for _ in Scales._fields))
+_NOMINAL = Scales(*(np.ones_like(_ONE[0]) for _ in _FACTORS))
 """Of a uniform rod: nodes and weights of one interval, and the scale factors there."""
 
-NOMINAL = Scales(*(np.ones(()) for _ in Scales._fields))
+NOMINAL = Scales(*(np.ones(()) for _ in _FACTORS))
 """Scale factors of the nominal section, at one place."""
 
 Property = Callable[[Scales, Array], Array]
 
 
-def mass_scale(s: Scales) -> Array:
-    """Mass per length over the nominal one."""
-    return s.density * s.width * s.height
+def walls_vary(stations: Sequence[Station]) -> bool:
+    """Whether walls have a factor of their own."""
+    return any(station.wall is not None for station in stations)
 
 
 def scale_at(stations: Sequence[Station], name: str, xi: Array, *, before: bool) -> Array:
@@ -78,6 +92,14 @@ def scale_at(stations: Sequence[Station], name: str, xi: Array, *, before: bool)
     weight = np.clip((xi - at[low]) / span, 0.0, 1.0)
     result: Array = (1 - weight) * values[low] + weight * values[high]
     return result
+
+
+def scales_at(stations: Sequence[Station], xi: Array) -> Scales:
+    """All scale factors at xi, each of the shape of xi; at a step those after it."""
+    scales = Scales(*(scale_at(stations, name, xi, before=False) for name in _FACTORS))
+    if walls_vary(stations):
+        return scales._replace(wall=scale_at(stations, "thickness", xi, before=False))
+    return scales
 
 
 def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
@@ -98,8 +120,7 @@ def mean(stations: Sequence[Station], value: Property, cuts: Array) -> Array:
     )
     owner = np.clip(np.searchsorted(cuts, nodes, side="right") - 1, 0, count - 1)
     span = (cuts[1:] - cuts[:-1])[owner]
-    scales = Scales(*(scale_at(stations, name, nodes, before=False) for name in Scales._fields))
-    parts = value(scales, (nodes - cuts[owner]) / span) * (weights / span)
+    parts = value(scales_at(stations, nodes), (nodes - cuts[owner]) / span) * (weights / span)
     first = np.searchsorted(owner, np.arange(count))
     means: Array = np.add.reduceat(parts, first, axis=-1)
     return means
@@ -120,7 +141,7 @@ def overlap(cuts: Array, start: float, end: float) -> Array:
 class EdgeMasses(NamedTuple):
     """Masses of the edges between their two vertices a and b, each (3, ..., N - 1) [kg]: of a, shared by both, of b.
 
-    The rows have masses times the powers 0, 1 and 2 of the scale factor of the height.
+    The rows have the mass and its first and second moment across the rod, the moments over their nominal arms.
     """
 
     before: Array
@@ -128,8 +149,15 @@ class EdgeMasses(NamedTuple):
     after: Array
 
 
-def edge_masses(stations: Sequence[Station], line_density: float | Array, arc: Array) -> EdgeMasses:
+def edge_masses(
+    stations: Sequence[Station],
+    line_density: float | Array,
+    arc: Array,
+    inertia: Callable[[Scales], Array],
+) -> EdgeMasses:
     """The mean of the lumped and the consistent mass of every edge.
+
+    inertia : mass per length and its two moments over the nominal ones, (3, points), from the scale factors there.
 
     derived: with s from 0 to 1 along an edge and M_k the integral of s^k over its mass, linear interpolation gives
     M_0 - 2 M_1 + M_2, M_1 - M_2 and M_2; the two masses at the ends that keep M_0 and M_1 are M_0 - M_1 and M_1.  Both
@@ -138,7 +166,7 @@ def edge_masses(stations: Sequence[Station], line_density: float | Array, arc: A
     powers = np.arange(3)[:, None]
 
     def moments(scale: Scales, s: Array) -> Array:
-        return mass_scale(scale) * scale.height ** powers[..., None] * s**powers
+        return inertia(scale)[:, None] * s**powers
 
     edge = np.diff(arc) * line_density
     means = mean(stations, moments, arc)

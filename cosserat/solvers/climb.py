@@ -24,6 +24,7 @@ from cosserat.solvers.members import (
     FRACTION,
     LEFT,
     LENGTH,
+    LOG,
     NEGATIVE,
     PREDICTED,
     RATES,
@@ -426,6 +427,7 @@ def respond(around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector,
     _begin(around.band, around.factor)
     if not around.skew.shape[0] and factorise(around.factor, around.held):
         if balanced:
+            state[LOG] = _log_of_factor(around.factor, n)
             substitute(around.factor, rate, around.rooms[0])
         else:
             substitute_both(around.factor, step, rate, around.rooms)
@@ -437,6 +439,24 @@ def respond(around: Around, q: Vector, plane: Plane, step: Vector, rate: Vector,
         return UNDEFINED
     keep_on_plane(q, plane, step, rate, state)
     return STEPS
+
+
+@njit(cache=True, error_model="numpy")
+def _log_of_factor(factor: Fields, n: int) -> float:
+    """The logarithm of the determinant, from the factor of `factorise`."""
+    total = 0.0
+    for j in range(n):
+        total -= 2 * np.log(factor[j, 0])
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def log_of_pivots(lu: Fields) -> float:
+    """The logarithm of the size of the determinant, from the factors of `decompose`; -inf if it is zero."""
+    total, diagonal = 0.0, 2 * (lu.shape[1] // 3)
+    for j in range(lu.shape[0]):
+        total += np.log(abs(lu[j, diagonal]))
+    return total
 
 
 @njit(cache=True, inline="always")
@@ -458,6 +478,7 @@ def _respond_indefinite(
             resolve(around.lu, around.pivots, step)
     if not balanced:
         return
+    state[LOG] = log_of_pivots(around.lu)
     if around.skew.shape[0]:
         state[NEGATIVE] = 1.0 if sign < 0.0 else 0.0
         return

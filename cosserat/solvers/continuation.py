@@ -17,6 +17,7 @@ from cosserat.solvers.banded import Vector
 from cosserat.solvers.climb import MAX_TARGET_STEPS, next_arc
 from cosserat.solvers.corrector import LEAST_COSINE, TANGENT_TOLERANCE, Corrector
 from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver
+from cosserat.solvers.hidden import Stop, Watch, Way
 from cosserat.solvers.members import Plane
 from cosserat.solvers.system import ConfigurationSpace
 
@@ -149,6 +150,13 @@ def _next_or_bifurcation(
             raise solver.failure(point.factor, point.factor + direction[1] * ds, point)
         return (across[1], direction, ds), across
     found, ahead, ds = further
+    watch = solver.watch = solver.watch or Watch(solver)
+    between = watch.between(
+        Stop(point, direction), Stop(found, ahead), ds, lambda s: _stop(solver, point, direction, s, ds)
+    )
+    if between is not None:
+        further = _next(solver, point, direction, between, arc, most) or further
+        found, ahead, ds = further
     crosses = found.negative != point.negative and ahead[1] * direction[1] > 0
     if not crosses:
         return further, None
@@ -158,6 +166,14 @@ def _next_or_bifurcation(
     ) < 0:  # the path ends before the crossing
         return (across[0], ahead, ds), None
     return further, across
+
+
+def _stop(
+    solver: EquilibriumSolver, point: Equilibrium, direction: Way, s: float, ds: float
+) -> Stop | None:
+    """The path at a distance along an arc of length ds; None if there is none near it."""
+    found = corrected(solver, point, *direction, s, TANGENT_TOLERANCE * ds)
+    return None if found is None else Stop(found, path_tangent(solver, found, direction))
 
 
 def _at_end(
@@ -226,9 +242,11 @@ def _passes_limit_point(
 
 def _cosine(one: tuple[Vector, float], other: tuple[Vector, float]) -> float:
     """Cosine of the angle between two tangents."""
-    weight = _weight(one[0])
-    product = float(one[0] @ other[0]) + weight * one[1] * other[1]
-    first, second = (float(t @ t) + weight * slope**2 for t, slope in (one, other))
+    (a, rise), (b, climb) = one, other
+    square = float(a @ a)
+    weight = square or 1.0
+    product = float(a @ b) + weight * rise * climb
+    first, second = square + weight * rise**2, float(b @ b) + weight * climb**2
     return product / sqrt(first * second)
 
 
@@ -351,7 +369,8 @@ def corrected(
     if strayed > stray:
         return None  # an equilibrium of another path
     end = solver.accepted(found.q, found.factor, point.history, found.rounding, negative=found.negative)
-    return replace(end, rate=found.rate) if end.history is point.history else end
+    known = end.history is point.history  # else the Hessian is another
+    return replace(end, rate=found.rate, log_determinant=found.log) if known else end
 
 
 def _switch_branch(

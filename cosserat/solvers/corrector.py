@@ -19,6 +19,7 @@ from cosserat.solvers.members import (
     COUNT,
     FACTOR,
     LENGTH,
+    LOG,
     NEGATIVE,
     RESIDUAL,
     ROUNDING,
@@ -93,7 +94,8 @@ def _compiled() -> Callable[..., int]:
 class Balance:
     """Balanced forces at q and a load factor.
 
-    rounding, negative : as in `Equilibrium`.  rate : (n,) of the DOFs with the factor; None if the Hessian is singular.
+    rounding, negative, log : as in `Equilibrium`, log of the determinant.  rate : (n,) of the DOFs with the factor; None
+    if the Hessian is singular.
     """
 
     q: Vector
@@ -101,6 +103,7 @@ class Balance:
     rounding: float
     negative: int
     rate: Vector | None
+    log: float
 
 
 class _Ahead:
@@ -249,6 +252,7 @@ class Corrector:
             state[ROUNDING],
             int(state[NEGATIVE]),
             None if state[SINGULAR] else found.rate[k],
+            state[LOG],
         )
 
     def balanced(self, q: Vector, plane: Plane, history: History) -> Balance | None:
@@ -272,4 +276,5 @@ class Corrector:
             return None
         solver.residual, solver.tolerance = float(state[RESIDUAL]), float(state[TOLERANCE])
         known = None if state[SINGULAR] else rate
-        return Balance(q, float(state[FACTOR]), float(state[ROUNDING]), int(state[NEGATIVE]), known)
+        about = float(state[FACTOR]), float(state[ROUNDING]), int(state[NEGATIVE])
+        return Balance(q, *about, known, float(state[LOG]))

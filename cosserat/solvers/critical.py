@@ -1,8 +1,10 @@
 """Critical loads: by the linear criterion where the loads begin, and by the true one along the path of equilibria.
 
-Linear: with K(f) the Hessian on the path of equilibria and f the load factor, K(0) + f K'(0) is singular at f.  K'(0),
-the geometric stiffness, is the derivative of K along the first-order answer to the load, that of the loads included.
-True: K(f) itself is singular, at the first bifurcation or limit point of the path.
+Linear: with K the Hessian where the loads begin and f the load factor, K + f G is singular at f.  G, the geometric
+stiffness, is that of the stresses of the first-order answer to the load, and that of the loads.  As everywhere in
+linear buckling, the shape is the one where the loads begin.  Its change would turn the stiff directions of a thin
+curved rod: to first order alone, without the square of that turn, the stiffness falls without bound.
+True: the Hessian on the path of equilibria is singular, at the first bifurcation or limit point of the path.
 """
 
 from __future__ import annotations
@@ -45,10 +47,10 @@ class LinearCriterion:
 
 
 def linear_criterion(solver: EquilibriumSolver, count: int) -> LinearCriterion:
-    """The lowest positive factors at which K(0) + f K'(0) is singular, at most `count`.
+    """The lowest positive factors at which K + f G is singular, at most `count`.
 
-    derived: K(f) on the path is K at the q without load plus f times its rate, up to second order in f.  Differences
-    of K at f and -f along that straight line have errors in even powers of f, which the extrapolation removes.
+    derived: the stresses on the path are those at q + f times its rate, up to second order in f.  Differences of the
+    Hessian under them at f and -f have errors in even powers of f, which the extrapolation removes.
     Without a potential K is not symmetric; real factors are those of divergence, and flutter has none.
 
     Raises
@@ -69,7 +71,7 @@ def linear_criterion(solver: EquilibriumSolver, count: int) -> LinearCriterion:
 
 
 def criterion_matrices(solver: EquilibriumSolver) -> tuple[dia_array, dia_array]:
-    """K(0) and K'(0) of the free DOFs, sparse.
+    """K and G of the free DOFs, sparse.
 
     Raises
     ------
@@ -83,7 +85,7 @@ def criterion_matrices(solver: EquilibriumSolver) -> tuple[dia_array, dia_array]
             f"{solver.name}: the body is unstable before its loads grow, so they do not make it so; fix more DOFs in "
             "'supports'"
         )
-    return _hessian(system, start.q, start.history, 0.0), _slope(system, start, rate)
+    return _hessian(system, start, start.q, 0.0), _slope(system, start, rate)
 
 
 def _inverse_factors(
@@ -107,7 +109,7 @@ def _inverse_factors(
 
 
 def _crosses(geometric: dia_array, stiffness: dia_array, inverse: float) -> bool:
-    """Whether the determinant of K(0) + f K'(0) changes its sign at a factor, as it does where it is a single root.
+    """Whether the determinant of K + f G changes its sign at a factor, as it does where it is a single root.
 
     Under a load without a potential a multiple root of none, as of Beck's column, splits into many by round-off.
     """
@@ -118,21 +120,21 @@ def _crosses(geometric: dia_array, stiffness: dia_array, inverse: float) -> bool
     return bool(signs[0] != signs[1])
 
 
-def _hessian(system: MechanicalSystem, q: Vector, history: History, factor: float) -> dia_array:
-    """The Hessian of the free DOFs, sparse."""
+def _hessian(system: MechanicalSystem, start: Equilibrium, q: Vector, factor: float) -> dia_array:
+    """The Hessian of the free DOFs, sparse, in the shape of the start and under the stresses at q."""
     tangent = Tangent(system)
-    system.assemble(q, history, factor, tangent)
+    system.assemble(q, start.history, factor, tangent, about=start.q)
     free = ~system.constrained
     return to_sparse(tangent.band, tangent.skew)[free][:, free].tocsc()
 
 
 def _slope(system: MechanicalSystem, start: Equilibrium, rate: Vector) -> dia_array:
-    """Derivative of the Hessian of the free DOFs by the load factor, along the rate of the DOFs."""
+    """Derivative of that Hessian by the load factor, along the rate of the DOFs."""
     fastest = float(np.abs(system.space.rates(start.q, rate)).max())
     step = _LARGEST_RATE / fastest if fastest > 0 else 1.0
 
     def difference(f: float) -> dia_array:
-        ahead, behind = (_hessian(system, start.q + g * rate, start.history, g) for g in (f, -f))
+        ahead, behind = (_hessian(system, start, start.q + g * rate, g) for g in (f, -f))
         return (ahead - behind) / (2 * f)
 
     table = [difference(step / 2**level) for level in range(_LEVELS)]
@@ -159,9 +161,17 @@ class ScaledSystem(MechanicalSystem):
         size = self.scale * self._reference_loads[1]
         return float(size.max()), float(size.sum())
 
-    def assemble(self, q: Vector, history: History, factor: float, tangent: Tangent) -> bool:
+    def assemble(
+        self,
+        q: Vector,
+        history: History,
+        factor: float,
+        tangent: Tangent,
+        *,
+        about: Vector | None = None,
+    ) -> bool:
         """As of any system, at the scaled factor."""
-        return super().assemble(q, history, self.scale * factor, tangent)
+        return super().assemble(q, history, self.scale * factor, tangent, about=about)
 
     def prescribe(self, q: Vector, factor: float) -> Vector:
         """q with its constrained DOFs as prescribed at a load factor."""

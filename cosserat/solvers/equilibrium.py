@@ -24,6 +24,7 @@ from cosserat.solvers.system import History, MechanicalSystem, Tangent
 
 if TYPE_CHECKING:
     from cosserat.solvers.corrector import Corrector
+    from cosserat.solvers.hidden import Watch
 
 _EPS = float(np.finfo(float).eps)
 SMALLEST = 2.0**-24  # fraction of the first arc below which halving stops
@@ -52,6 +53,7 @@ class Equilibrium:
     rounding : largest force that round-off can cause, a lower bound of any residual [N].
     negative : how many eigenvalues of the Hessian are negative, as `Tangent` counts them.
     rate : (n,) of the free DOFs with the load factor, with the internal variables there; None if it is not known.
+    log_determinant : logarithm of the size of the determinant of the Hessian of the free DOFs; None if it is not known.
     """
 
     q: Vector
@@ -64,6 +66,7 @@ class Equilibrium:
     rounding: float
     negative: int
     rate: Vector | None = None
+    log_determinant: float | None = None
 
     @property
     def stable(self) -> bool:
@@ -90,6 +93,7 @@ class EquilibriumSolver:
     def __init__(self, system: MechanicalSystem, settings: NewtonSettings, name: str) -> None:
         self.system, self.settings, self.name = system, settings, name
         self.corrector: Corrector | None = None  # once there are arcs
+        self.watch: Watch | None = None  # the same
         self.iterations = self.cutbacks = self.branch_switches = 0
         self.undecided_factors: list[float] = []
         self.passed_limit_load = False

@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from cosserat.solvers.banded import NO_BAND, Band, Mask, Vector
-from cosserat.solvers.climb import decompose, iterate_inverse, lowest_motion, negative_pivots, resolve
+from cosserat.solvers.climb import (
+    decompose,
+    iterate_inverse,
+    log_of_pivots,
+    lowest_motion,
+    negative_pivots,
+    resolve,
+)
 
 
 class Factors:
@@ -19,6 +26,11 @@ class Factors:
         n, width = band.shape
         self.factors, self.pivots = np.empty((n, 3 * width - 2)), np.empty(n, dtype=np.int64)
         self.sign = decompose(band, skew, np.zeros(n, dtype=np.bool_), self.factors, self.pivots)
+
+    @property
+    def log(self) -> float:
+        """The logarithm of the size of the determinant."""
+        return float(log_of_pivots(self.factors))
 
     def solve(self, right: Vector) -> Vector | None:
         """The solution for one or, as columns, several right-hand sides; None where the matrix is singular."""

@@ -110,13 +110,26 @@ class Body(NamedTuple):
 
 STEPS, BALANCED, UNDEFINED = range(3)
 """What comes of a correction: a step, a balance, no energy there or no step."""
-STATE = 12
-FACTOR, RESIDUAL, TOLERANCE, ROUNDING, CHANGE, COUNT, NEGATIVE, SINGULAR, TRIED, LENGTH, SLOPE, SPENT = (
-    range(STATE)
-)
+STATE = 13
+(
+    FACTOR,
+    RESIDUAL,
+    TOLERANCE,
+    ROUNDING,
+    CHANGE,
+    COUNT,
+    NEGATIVE,
+    SINGULAR,
+    LOG,
+    TRIED,
+    LENGTH,
+    SLOPE,
+    SPENT,
+) = range(STATE)
 """Numbers of the state of corrections: load factor, forces as in `Answers`, change of the factor, steps taken, and, of
-a balance, how many eigenvalues of the Hessian are negative and whether it is singular.  Of the end of an arc the length
-that was tried first, the length, change of the load factor along the path, and steps of all tries."""
+a balance, how many eigenvalues of the Hessian are negative, whether it is singular, and the logarithm of the size of
+its determinant; constrained DOFs do not count.  Of the end of an arc the length that was tried first, the length,
+change of the load factor along the path, and steps of all tries."""
 
 
 class Plane(NamedTuple):

@@ -8,7 +8,7 @@ replaces by the means of its two ends.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
@@ -62,6 +62,10 @@ _NO_STRAINS = np.empty((0, 0))
 class Level(Protocol):
     """How a load depends on time: a factor."""
 
+    @property
+    def before_zero(self) -> float:
+        """The factor just before time zero."""
+
     def value(self, t: Vector) -> Vector:
         """The factor at times (n,) [s]."""
 
@@ -83,6 +87,7 @@ class Potential:
     origin : (n,) added to q; None for zero.
     level : the factor of a load that depends on time; None for a constant load.
     frame : frames of their own of some pairs of DOFs, which the kernel does not know; None for none.
+    sizes : names of the constants to which it is proportional, of a load.
     """
 
     evaluate: Callable[..., float]
@@ -95,6 +100,20 @@ class Potential:
     origin: Vector | None = None
     level: Level | None = None
     frame: Frame | None = None
+    sizes: tuple[str, ...] = ()
+
+    def times(self, factor: float) -> Potential:
+        """The potential times a factor, which does not depend on time."""
+        assert self.sizes  # every load names them
+        constants = self.constants.copy()
+        for name in self.sizes:
+            constants[name] *= factor
+        return replace(self, constants=constants, level=None)
+
+    @property
+    def idle(self) -> bool:
+        """Whether it is a load of no size."""
+        return bool(self.sizes) and not any(self.constants[name].any() for name in self.sizes)
 
     @property
     def linear(self) -> bool:
@@ -111,6 +130,16 @@ class Potential:
     ) -> float:
         """The energy [J] at q; adds the gradient (n,) [N] and the Hessian, its skew part if `skew` has rows."""
         return self._called(q, history, HESSIAN, gradient, band, skew)
+
+    def add_stressed(
+        self, q: Vector, elsewhere: Vector, history: Vector, gradient: Vector, band: Band, skew: Band
+    ) -> float:
+        """As `add` at q, but with the stresses of elsewhere; a potential without strains is taken elsewhere whole."""
+        if not self.strains[0]:
+            return self.add(elsewhere, history, gradient, band, skew)
+        strains = np.zeros(self.strains)
+        self._called(elsewhere, history, STRAINS, NOTHING, NO_BAND, NO_BAND, strains=strains)
+        return self._called(q, history, HESSIAN, gradient, band, skew, after=elsewhere, strains=strains)
 
     def add_gradient(self, q: Vector, history: Vector, gradient: Vector) -> float:
         """The energy [J] at q; adds the gradient (n,) [N]."""
@@ -149,14 +178,17 @@ class Potential:
         band: Band,
         skew: Band,
         terms: Vector | None = None,
+        after: Vector = NOTHING,
+        strains: NDArray[np.float64] = _NO_STRAINS,
     ) -> float:
         if self.frame is not None:
-            q = self.frame.out(q)
+            q, after = self.frame.out(q), self.frame.out(after) if after.size else after
             self.frame.rotate(gradient, band, skew, -1.0)
-        q = q if self.origin is None else q + self.origin
+        if self.origin is not None:
+            q, after = q + self.origin, after + self.origin if after.size else after
         terms = np.empty(len(self.terms)) if terms is None else terms
         energy = float(
-            self.evaluate(q, NOTHING, self.data, history, _NO_STRAINS, task, gradient, band, skew, terms)
+            self.evaluate(q, after, self.data, history, strains, task, gradient, band, skew, terms)
         )
         if self.frame is not None:
             self.frame.rotate(gradient, band, skew, 1.0)

@@ -22,6 +22,7 @@ _SPLIT = (
     0.4871  # where an interval is divided: not at its middle, where symmetry may put the special point
 )
 _WIDTH = 2.0**-16  # length of an arc [rad, or fraction of the load] below which the secant method begins
+_FINEST = 2.0**-36  # the same, below which several crossings are one
 _STRAY = 0.5  # largest distance of the path from the chord, as a fraction of it
 _SECANTS = 24  # most steps of the secant method
 _ROOT = 1e-3  # of the eigenvalues at its start, below which the last one is zero
@@ -94,7 +95,8 @@ class _Chord:
         if not low.differs(high):
             return []
         middle = self.at(low.s + _SPLIT * (high.s - low.s))
-        if high.s - low.s <= _WIDTH or middle is None:
+        several = abs(high.point.negative - low.point.negative) > 1
+        if high.s - low.s <= (_FINEST if several else _WIDTH) or middle is None:
             return [(low, high)]
         return self.separated(low, middle) + self.separated(middle, high)
 
@@ -137,7 +139,8 @@ class _Chord:
             halve = abs(value) >= best  # round-off may move a point near the root along the other path
             if not halve:
                 best, point, mode = abs(value), found.point, y
-            if np.sign(value) == np.sign(a):
+            passed = found.differs(low) if a * b > 0 else np.sign(value) != np.sign(a)
+            if not passed:
                 left, a = found, value
             else:
                 right, b = found, value
@@ -160,7 +163,7 @@ def special_points(
 ) -> list[SpecialPoint]:
     """The special points between two neighbouring points of a path, in its order.
 
-    None where another path only comes near, as in an imperfect body, and where two of them cancel within the arc.
+    None where another path only comes near, as in an imperfect body.  Several whose distance is round-off are one.
     """
     chord, found = _Chord(system, name, before, after), []
     for low, high in chord.separated(*chord.ends):

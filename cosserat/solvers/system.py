@@ -307,13 +307,26 @@ class MechanicalSystem:
             if not potential.linear and potential.level is None and potential.symmetric:
                 potential.add_gradient(q, own, gradient)
 
-    def assemble(self, q: Vector, history: History, factor: float, tangent: Tangent) -> bool:
+    def assemble(
+        self,
+        q: Vector,
+        history: History,
+        factor: float,
+        tangent: Tangent,
+        *,
+        about: Vector | None = None,
+    ) -> bool:
         """Overwrite the tangent at q and a load factor, without loads that depend on time.
 
+        about : (n,) the place where the body has its stiffness, under its stresses at q; q by default.
         False if a potential is not defined there.
         """
         tangent.clear()
-        energy = self.internal.add(q, history[0], tangent.gradient, tangent.band, tangent.skew)
+        matrices = tangent.gradient, tangent.band, tangent.skew
+        if about is None:
+            energy = self.internal.add(q, history[0], *matrices)
+        else:
+            energy = self.internal.add_stressed(about, q, history[0], *matrices)
         if len(self.own) > 1:
             for potential, known in zip(self.own[1:], history[1:], strict=False):
                 energy += potential.add(q, known, tangent.gradient, tangent.band, tangent.skew)

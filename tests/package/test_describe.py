@@ -333,6 +333,7 @@ JOINED = {
     "gait.eta": "gamma and eta cross",
     "gait.phases": "times run from 0 to",
     "gait.measured[].length": "places from 0 to",
+    "rod.stations[].wall": "has no wall",
     "damping": "just one of them|give two|needs 'modes'|leave one of them out|would feed energy",
     "base_motion": "just one of them|leave one of them out",
     "start": "leave one of them out|give the number of the mode",

@@ -1,11 +1,12 @@
 """Critical loads and special points of paths: closed forms of the discrete column, other codes, orders."""
 
 import functools
+import re
 
 import numpy as np
 import pytest
 from outside import reissner
-from scipy.linalg import eigvalsh
+from scipy.linalg import eigh, eigvalsh
 from scipy.optimize import brentq, minimize_scalar
 
 import cosserat
@@ -57,13 +58,11 @@ def true_load(bent):
 
 
 def linear_load(bent):
-    """P of P + P^2 (1 - GA / EA)^2 / GA = EI k^2.
+    """P of P + P^2 / GA = EI k^2, Haringx's column: it bends and shears, but is not shortened before.
 
-    derived: the second variation GA (w' - a t)^2 + EI t'^2 - P (2 w' t - a t^2), a = 1 - P / EA, less its terms of
-    second order in P: with w' - t = P t (1 / GA - 1 / EA) it is EI t'^2 less that many times t^2.
+    derived: the second variation GA (w' - t)^2 + EI t'^2 - P (2 w' t - t^2) is least for w' - t = P t / GA.
     """
-    part = (1 - ROD.GA / ROD.EA) ** 2 / ROD.GA
-    return brentq(lambda P: P + part * P**2 - bent, 0, 2 * bent, xtol=1e-12 * bent)
+    return brentq(lambda P: P + P**2 / ROD.GA - bent, 0, 2 * bent, xtol=1e-12 * bent)
 
 
 @pytest.mark.parametrize("ends", ["clamped-free", "hinged-hinged", "clamped-clamped"])
@@ -126,14 +125,56 @@ def test_the_published_rod_has_critical_loads_too():
 
 
 def test_a_column_that_is_pulled_has_none():
-    """With GA = EA it has none however hard it is pulled; with GA < EA shear makes one where strains exceed one."""
+    """None however hard it is pulled, with GA = EA; Haringx's formula alone has one, where strains exceed one."""
     rod = {"vertices": 11, "section": {"height": THICKNESS, "width": THICKNESS, "shear_factor": 2.0}}
     found = critical(column(11, force=-1e5, rod=rod), 2)
-    assert not {"linear_load_factor", "special_load_factor"} & set(found.fields)
-    named = [warning.partition(":")[0] for warning in found.warnings]
-    assert named == ["no linear critical load", "no critical load"]
+    assert "special_load_factor" not in found.fields
+    bent, EA = discrete_column(10, 1 / 2), ROD.EA
+    right = (EA + np.sqrt(EA**2 + 4 * EA * bent)) / 2e5
+    assert found["linear_load_factor"][0] == pytest.approx(right, rel=1e-9)
+    assert [warning.partition(":")[0] for warning in found.warnings] == ["no critical load"]
     words = RodCriticalLoads.summary(found.statistics, {})
-    assert words == "no instability up to 3 of the loads; none by the linear criterion"
+    assert re.fullmatch(r"no instability up to 30\d\.\d+ of the loads; linear criterion 100\.\d+", words)
+
+
+def pinched():
+    """F R^2 / EI of a quarter of an inextensible ring whose ends do not turn.
+
+    derived: the force is F all along, so that N = -F sin x at the angle x.  The second variation of a rod that keeps
+    its length is EI t'^2 + N t^2, and so t'' + F R^2 / EI sin x t = 0.  By Ritz's method with sines.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    x, weights = np.pi / 4 * (nodes + 1), np.pi / 4 * weights
+    sines = np.sin(2 * np.arange(1, 21)[:, None] * x)
+    rates = 2 * np.arange(1, 21)[:, None] * np.cos(2 * np.arange(1, 21)[:, None] * x)
+    return eigh((rates * weights) @ rates.T, (sines * weights * np.sin(x)) @ sines.T)[0][0]
+
+
+@pytest.mark.parametrize("thickness", [2e-3, 5e-4])
+def test_the_linear_criterion_of_a_ring_does_not_depend_on_its_thickness(thickness):
+    """A quarter of one between two forces: the bending before, to first order, would soften thin ones without bound."""
+    R = 0.1
+    problem = (
+        cosserat.case("elastica")
+        .vary(
+            "ring",
+            rod={
+                "vertices": 81,
+                "length": np.pi * R / 2,
+                "rest": {"kind": "arc", "curvature": -1 / R},
+                "section": {"height": thickness, "width": 0.01},
+            },
+            supports=[
+                {"at": "first", "fixed": ["x3", "d3"]},
+                {"at": "last", "fixed": ["x2", "d2", "d3"]},
+            ],
+            forces=[{"at": "first", "along": "-E2", "force": 1.0}],
+        )
+        .problem
+    )
+    EI = problem.rod.young * problem.rod.second_moment
+    found = critical(problem, 1)["linear_load_factor"][0] * R**2 / EI
+    assert found == pytest.approx(pinched(), rel=2e-3)
 
 
 def test_a_load_without_a_potential_is_said_to_flutter_perhaps():

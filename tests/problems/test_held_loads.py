@@ -52,7 +52,7 @@ def test_a_held_push_lowers_the_critical_load_of_a_column_by_its_size(share):
     start = static(forces=[push(share * right)])
     found = grown(start, RodCriticalLoads, forces=[push(right)]).solve("it")
     assert found["special_load_factor"] == pytest.approx([1 - share], rel=1e-10)
-    assert found["linear_load_factor"][0] == pytest.approx(1 - share, rel=0.04 * (1 - share))
+    assert found["linear_load_factor"][0] == pytest.approx(1 - share, rel=0.1 * (1 - share))
     path = grown(start, forces=[push(1.5 * (1 - share) * right)]).solve("it")
     assert path["special_load_factor"] == pytest.approx([1 / 1.5], rel=1e-10)
 

@@ -5,6 +5,7 @@ import pytest
 
 import cosserat
 from cosserat.errors import InputError, UnsupportedRodError
+from cosserat.rods.problem import LOADS
 from cosserat.solvers.banded import band_product
 
 CLAMP = {"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}
@@ -173,6 +174,89 @@ def test_loads_that_depend_on_time_are_not_in_the_equilibrium_of_a_start():
     still = static(forces=[constant])
     moving = motion({"shape": "equilibrium"}, None, still, forces=[constant, later]).problem.begin()
     np.testing.assert_array_equal(moving.q, motion({"shape": "equilibrium"}, still).problem.begin().q)
+
+
+KEPT = {"kind": "table", "rows": [[0.0, 0.4], [0.05, 0.4], [0.06, 1.0]]}
+"""A load that is there before the motion, at 0.4 of its size, until 0.05 s."""
+BEFORE = {
+    "gravity": {"g": 1.0, "along": "-E2"},
+    "forces": [{"at": "30 %", "along": "E2", "force": 3.0}],
+    "line_loads": [{"along": "E3", "density": 2.0, "start": 0.1, "end": 0.6}],
+    "couples": [{"at": "last", "moment": 4.0}],
+    "line_couples": [{"density": 2.0}],
+    "follower_forces": [{"at": "last", "along": "-E3", "force": 5.0}],
+    "follower_line_loads": [{"along": "E2", "density": 3.0}],
+    "pressures": [{"side": "upper", "pressure": 50.0}],
+    "prestrains": [{"extension": 0.02, "section": 0.01, "curvature": 0.3}],
+    "temperatures": [{"change": 50.0, "expansion": 1e-4}],
+}
+"""A load of every kind that a motion may start with."""
+TURN = {"prescribed_rotations": [{"at": "first", "by": 0.8}]}
+
+
+def over_time(given, function):
+    """Loads or moved supports with a function of time."""
+    if isinstance(given, dict):
+        return given | {"time_function": function}
+    return [item | {"time_function": function} for item in given]
+
+
+@pytest.mark.parametrize("constraint", ["free", "incompressible"])
+def test_loads_that_are_there_before_a_motion_hold_its_start(constraint):
+    """All kinds of loads and a clamp that turns, each a table: the start is the equilibrium under its first values.
+
+    Nothing moves before the tables rise.
+    """
+    assert set(BEFORE) == set(LOADS) - {"base_motion"}
+    plain = static()
+    soft = {"lateral_constraint": constraint, "material": {"poisson": 0.49, "young": 1e8}}
+    still = plain.vary("still", rod=soft)
+    every = {key: over_time(given, KEPT) for key, given in {**BEFORE, **TURN}.items()}
+    moving = motion({"shape": "equilibrium"}, None, still, **every, duration=0.04)
+    run = cosserat.run(moving)
+    assert np.abs(run.x[0] - run.x_ref).max() > 0.5
+    np.testing.assert_allclose(run.x, run.x[0].broadcast_like(run.x), atol=1e-8)
+    np.testing.assert_allclose(run.d, run.d[0].broadcast_like(run.d), atol=1e-8)
+    first, rest = run.d[0, 0].to_numpy(), run.d_ref[0].to_numpy()
+    assert np.arctan2(-first[0], first[1]) == pytest.approx(0.4 * 0.8, rel=1e-9)
+    assert np.hypot(*first) == pytest.approx(np.hypot(*rest), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("function", "before"),
+    [
+        ({"kind": "table", "rows": [[-1.0, 0.0], [1.0, 1.0]]}, 0.5),
+        ({"kind": "table", "rows": [[0.2, 0.3], [1.0, 1.0]]}, 0.3),
+        ({"kind": "sine", "frequency": 3.0, "phase": 1.0}, 0.0),
+        ({"kind": "ramp", "duration": 1.0}, 0.0),
+    ],
+)
+def test_what_a_load_is_before_time_zero(function, before):
+    """Against a static problem under that part of the force."""
+    force = {"at": "last", "along": "E2", "force": 5.0}
+    own = motion({"shape": "equilibrium"}, forces=[force | {"time_function": function}]).problem.begin()
+    held = static(forces=[force | {"force": 5.0 * before}])
+    given = motion({"shape": "equilibrium"}, held).problem.begin()
+    np.testing.assert_allclose(own.q, given.q, atol=1e-9)
+
+
+def test_a_motion_takes_over_a_clamp_that_was_turned():
+    """From a static answer with a turned clamp: the motion turns it further, from its reference, without a stretch."""
+    turned = {"at": "first", "by": 0.8}
+    table = {"kind": "table", "rows": [[0.0, 1.0], [0.02, 1.0], [0.04, 1.5]]}
+    still = static(prescribed_rotations=[turned])
+    moving = motion(
+        {"shape": "equilibrium"},
+        still,
+        prescribed_rotations=[turned | {"time_function": table}],
+        duration=0.06,
+    )
+    run = cosserat.run(moving)
+    first = run.d[:, 0].to_numpy()
+    angles = np.arctan2(-first[:, 0], first[:, 1])
+    np.testing.assert_allclose(angles[[0, 1, 4, 6]], [0.8, 0.8, 1.2, 1.2], atol=1e-9)
+    np.testing.assert_allclose(np.hypot(*first.T), 0.01, rtol=1e-9)
+    np.testing.assert_allclose(run.x[1], run.x[0], atol=1e-9)
 
 
 def test_velocities_along_the_rod():

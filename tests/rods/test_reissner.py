@@ -33,7 +33,7 @@ def small_rod(section="free", barrier=False, poisson=0.3, offset=0.0, displaceme
     stiffness = stiffnesses(
         (),
         geometry.arc_length,
-        of_one_material(0.01, 8e-6, 1e6, poisson, lambda _: 5 / 6, section),
+        of_one_material(lambda _: 0.01, lambda _: 8e-6, 1e6, poisson, lambda _, nu: 5 / 6, section),
     )
     return geometry, reissner.potential(
         geometry,

@@ -13,7 +13,7 @@ from cosserat.rods.energies.energy import Energy
 from cosserat.rods.energies.hemingway_kernel import TERMS, VERTEX
 from cosserat.rods.energies.hemingway_stiffness import Stiffness, stiffnesses
 from cosserat.rods.reference import Geometry, normals, signed_angle
-from cosserat.rods.variation import lump
+from cosserat.rods.variation import lump, walls_vary
 from cosserat.solution import Field
 from cosserat.solvers.potential import Potential
 
@@ -36,6 +36,12 @@ class Hemingway(Energy):
                 "section",
                 f"has shape = '{rod.section.shape}', whose stiffnesses energy = 'published' cannot take; take "
                 "energy = 'consistent' (with calibration = 'none')",
+            )
+        if walls_vary(rod.stations):
+            raise PydanticCustomError(
+                "stations",
+                "has 'stations' with 'wall', which energy = 'published' does not take; take energy = 'consistent' "
+                "(with calibration = 'none'), or leave 'wall' out",
             )
         if rod.calibration is None:
             raise PydanticCustomError(

@@ -73,7 +73,7 @@ class Reissner(Energy):
         Y02 and Y22 are those of the sections along an edge, in units of the directors of the vertices.
         """
         heights = rod.height_fractions(geometry.arc_length)
-        edges = edge_masses(rod.stations, rod.line_density, geometry.arc_length)
+        edges = edge_masses(rod.stations, rod.line_density, geometry.arc_length, rod.inertia_along)
         own = np.zeros((3, *heights.shape))
         own[..., :-1] += edges.before
         own[..., 1:] += edges.after
@@ -191,6 +191,7 @@ def stressed(
         constants=stress,
         terms=STRESSES,
         half_bandwidth=energy.half_bandwidth,
+        sizes=(*measures, "k_section"),
     )
 
 

@@ -97,6 +97,7 @@ def couples(
         half_bandwidth=half_bandwidth,
         history=angles[:1].copy(),
         origin=origin,
+        sizes=("moment",),
     )
 
 

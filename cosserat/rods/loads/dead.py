@@ -103,7 +103,7 @@ def dead(force: Vector, reference: Vector) -> Potential:
     """The potential of constant forces (n,) [N] on the DOFs, zero at the reference (n,)."""
     constants = np.empty(force.size, _DOF)
     constants["force"], constants["reference"] = force, reference
-    return Potential(_work, constants, ("dead loads",), half_bandwidth=-1)
+    return Potential(_work, constants, ("dead loads",), half_bandwidth=-1, sizes=("force",))
 
 
 @njit(cache=True)

@@ -63,6 +63,7 @@ class Following(Load):
             half_bandwidth=3,
             symmetric=False,
             origin=body.origin,
+            sizes=("across", "along"),
         )
 
 

@@ -61,6 +61,7 @@ class Pressure(Stretch):
             half_bandwidth=body.rod.kinematics.per_vertex + 3,
             symmetric=conserves,
             origin=body.origin,
+            sizes=("load",),
         )
 
     def _edges(self, body: LoadedRod) -> NDArray[np.void]:

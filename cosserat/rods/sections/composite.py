@@ -57,6 +57,7 @@ class Composite(Section):
 
     def check_stations(self, stations: Sequence[Station]) -> None:
         """Require one set of Poisson's ratios."""
+        super().check_stations(stations)
         for station in stations:
             if station.poisson != 1:
                 raise PydanticCustomError(

@@ -7,24 +7,110 @@ tube that ovalises, whose walls bend, is another mechanism, and much softer; no 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, ClassVar, Literal, Self
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Quantity
 from cosserat.rods.sections.section import Homogeneous
+from cosserat.rods.variation import Scales, Station, scales_at, walls_vary
+
+Array = NDArray[np.float64]
 
 
-def _check_wall(key: str, wall: float, whole: float, of: str) -> None:
-    """Raise PydanticCustomError if two walls are thicker than the whole."""
-    if 2 * wall >= whole:
-        raise PydanticCustomError(
-            "range", f"'{key}' is {wall:g} m; it must be below half the {of}, {whole / 2:g} m"
-        )
+class _Limit(NamedTuple):
+    """A wall and what it must be below, or at most [m]."""
+
+    key: str
+    wall: float
+    most: float
+    said: str
+    allowed: bool = False
+    """Whether the limit itself is allowed."""
+
+    @property
+    def kept(self) -> bool:
+        return bool(self.wall < self.most or (self.allowed and self.wall <= self.most))
 
 
-class Tube(Homogeneous):
+class Walled(Homogeneous):
+    """A section whose walls may be thicker or thinner along a rod, whatever its outline does."""
+
+    @property
+    @abstractmethod
+    def _limits(self) -> tuple[_Limit, ...]:
+        """What its walls must keep."""
+
+    @abstractmethod
+    def _here(self, s: Scales, wall: Any) -> Self:
+        """The section with its lengths at places, arrays in place of numbers; wall : factor of its walls."""
+
+    def _at(self, s: Scales) -> Self | None:
+        """The section at places; None if all its lengths along E1 and along E2 scale alike."""
+        return None if s.wall is None else self._here(s, s.wall)
+
+    @model_validator(mode="after")
+    def _has_a_hole(self) -> Self:
+        for limit in self._limits:
+            if not limit.kept:
+                raise PydanticCustomError(
+                    "range",
+                    f"'{limit.key}' is {limit.wall:g} m; it must be {limit.said}, {limit.most:g} m",
+                )
+        return self
+
+    def check_stations(self, stations: Sequence[Station]) -> None:
+        """Require walls that the outline holds at every station; between them both are linear."""
+        self._check_proportions(stations)
+        if not walls_vary(stations):
+            return
+        for station in stations:
+            if station.wall is None and station.height != station.width:
+                raise PydanticCustomError(
+                    "stations",
+                    f"'stations' has height = {station.height:g} and width = {station.width:g} at {station.at:g} m "
+                    "without 'wall', which others have; give it there too",
+                )
+            scales = scales_at([station], np.array(station.at))
+            for limit in self._here(scales, station.thickness)._limits:
+                if not limit.kept:
+                    raise PydanticCustomError(
+                        "stations",
+                        f"'stations' makes '{limit.key}' {limit.wall:g} m at {station.at:g} m; it must be "
+                        f"{limit.said}, {limit.most:g} m there",
+                    )
+
+    def area_along(self, s: Scales) -> Array:
+        """Area at places [m^2]."""
+        here = self._at(s)
+        return super().area_along(s) if here is None else np.asarray(here.area)
+
+    def second_moment_along(self, s: Scales) -> Array:
+        """Second moment of area about E1 through the area centre, at places [m^4]."""
+        here = self._at(s)
+        return super().second_moment_along(s) if here is None else np.asarray(here.second_moment)
+
+    def shear_factor_along(self, s: Scales, poisson: Array) -> Any:
+        """The shear factor at places with a Poisson's ratio [1]."""
+        here = self._at(s)
+        return (self if here is None else here).shear_factor_for(poisson)
+
+    def mass_along(self, s: Scales) -> Array:
+        """Mass per length at places over the nominal one [1]."""
+        return super().mass_along(s) if s.wall is None else s.density * self.area_along(s) / self.area
+
+    def mass_spread_along(self, s: Scales) -> Array:
+        """`mass_spread` at places [1]."""
+        here = self._at(s)
+        return super().mass_spread_along(s) if here is None else np.asarray(here.mass_spread)
+
+
+class Tube(Walled):
     """A round tube."""
 
     stays_in_proportion: ClassVar[bool] = True
@@ -34,10 +120,12 @@ class Tube(Homogeneous):
     wall: Annotated[float, Quantity("m", above=0)]
     """Thickness of the wall, below half the diameter."""
 
-    @model_validator(mode="after")
-    def _has_a_hole(self) -> Self:
-        _check_wall("wall", self.wall, self.diameter, "diameter")
-        return self
+    @property
+    def _limits(self) -> tuple[_Limit, ...]:
+        return (_Limit("wall", self.wall, self.diameter / 2, "below half the diameter"),)
+
+    def _here(self, s: Scales, wall: Any) -> Self:
+        return self.model_copy(update={"diameter": self.diameter * s.height, "wall": self.wall * wall})
 
     @property
     def inner(self) -> float:
@@ -71,13 +159,13 @@ class Tube(Homogeneous):
         return 6 * (1 + poisson) * both / ((7 + 6 * poisson) * both + (20 + 12 * poisson) * m)
 
 
-def _thin_walled(poisson: Any, m: float, across: Any) -> Any:
+def _thin_walled(poisson: Any, m: Any, across: Any) -> Any:
     """Cowper's factor of flanges and webs that are thin; across : the part of the flanges in the denominator."""
     webs = 12 + 72 * m + 150 * m**2 + 90 * m**3 + poisson * (11 + 66 * m + 135 * m**2 + 90 * m**3)
     return 10 * (1 + poisson) * (1 + 3 * m) ** 2 / (webs + across)
 
 
-class HollowRectangle(Homogeneous):
+class HollowRectangle(Walled):
     """A rectangle with a hollow inside and one thickness of wall."""
 
     shape: Literal["hollow rectangle"] = "hollow rectangle"
@@ -88,11 +176,16 @@ class HollowRectangle(Homogeneous):
     wall: Annotated[float, Quantity("m", above=0)]
     """Thickness of the wall, below half the height and half the width."""
 
-    @model_validator(mode="after")
-    def _has_a_hole(self) -> Self:
-        _check_wall("wall", self.wall, self.height, "height")
-        _check_wall("wall", self.wall, self.width, "width")
-        return self
+    @property
+    def _limits(self) -> tuple[_Limit, ...]:
+        return (
+            _Limit("wall", self.wall, self.height / 2, "below half the height"),
+            _Limit("wall", self.wall, self.width / 2, "below half the width"),
+        )
+
+    def _here(self, s: Scales, wall: Any) -> Self:
+        outline = {"height": self.height * s.height, "width": self.width * s.width}
+        return self.model_copy(update={**outline, "wall": self.wall * wall})
 
     @property
     def area(self) -> float:
@@ -115,7 +208,7 @@ class HollowRectangle(Homogeneous):
         return _thin_walled(poisson, n, 10 * n**2 * ((3 + poisson) * n + 3 * n**2))
 
 
-class ISection(Homogeneous):
+class ISection(Walled):
     """An I: two flanges across the plane of motion, and a web between them in this plane."""
 
     shape: Literal["I"] = "I"
@@ -128,14 +221,16 @@ class ISection(Homogeneous):
     web: Annotated[float, Quantity("m", above=0)]
     """Thickness of the web, at most the width."""
 
-    @model_validator(mode="after")
-    def _has_a_web(self) -> Self:
-        _check_wall("flange", self.flange, self.height, "height")
-        if self.web > self.width:
-            raise PydanticCustomError(
-                "range", f"'web' is {self.web:g} m; it must be at most the width, {self.width:g} m"
-            )
-        return self
+    @property
+    def _limits(self) -> tuple[_Limit, ...]:
+        return (
+            _Limit("flange", self.flange, self.height / 2, "below half the height"),
+            _Limit("web", self.web, self.width, "at most the width", allowed=True),
+        )
+
+    def _here(self, s: Scales, wall: Any) -> Self:
+        outline = {"height": self.height * s.height, "width": self.width * s.width}
+        return self.model_copy(update={**outline, "flange": self.flange * wall, "web": self.web * wall})
 
     @property
     def area(self) -> float:

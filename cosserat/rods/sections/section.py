@@ -14,7 +14,7 @@ from pydantic_core import PydanticCustomError, core_schema
 from cosserat.parameters import Parameters, Quantity, Reader
 from cosserat.rods.elasticity import Along, LateralConstraint, of_one_material
 from cosserat.rods.material import Material
-from cosserat.rods.variation import Station
+from cosserat.rods.variation import Scales, Station, walls_vary
 from cosserat.text import shown
 
 Array = NDArray[np.float64]
@@ -62,6 +62,13 @@ class Section(Parameters):
 
     def check_stations(self, stations: Sequence[Station]) -> None:
         """Raise PydanticCustomError if it cannot vary like this along a rod."""
+        for station in stations:
+            if station.wall is not None:
+                raise PydanticCustomError(
+                    "stations",
+                    f"'stations' has wall = {station.wall:g} at {station.at:g} m, but a section with shape = "
+                    f"'{self.shape}' has no wall; leave it out",
+                )
 
     @abstractmethod
     def along(self, material: Material | None, lateral_constraint: LateralConstraint) -> Along:
@@ -99,6 +106,14 @@ class Section(Parameters):
     @abstractmethod
     def mass_spread(self) -> float:
         """Mean over the mass of the squared distance from its centre along E2, over the squared height [1]."""
+
+    def mass_along(self, s: Scales) -> Array:
+        """Mass per length at places over the nominal one [1]."""
+        return s.density * s.width * s.height
+
+    def mass_spread_along(self, s: Scales) -> Array:
+        """`mass_spread` at places [1]."""
+        return np.full(s.height.shape, self.mass_spread)
 
 
 @dataclass(frozen=True)
@@ -179,6 +194,19 @@ class Homogeneous(Section):
         """The shear factor k for Poisson's ratio, a number or an array [1]."""
         return self.cowper(poisson) if isinstance(self.shear_factor, str) else self.shear_factor
 
+    def area_along(self, s: Scales) -> Array:
+        """Area at places [m^2]."""
+        return self.area * s.width * s.height
+
+    def second_moment_along(self, s: Scales) -> Array:
+        """Second moment of area about E1 through the area centre, at places [m^4]."""
+        nominal = self.area * self.height * self.height / self.thinness
+        return nominal * s.width * s.height**3
+
+    def shear_factor_along(self, s: Scales, poisson: Array) -> Any:
+        """The shear factor at places with a Poisson's ratio [1]."""
+        return self.shear_factor_for(poisson)
+
     def check(self, material: Material | None, lateral_constraint: LateralConstraint) -> None:
         """Require a material with moduli and a mass."""
         if material is None:
@@ -191,7 +219,12 @@ class Homogeneous(Section):
 
     def check_stations(self, stations: Sequence[Station]) -> None:
         """Require that shapes keep their proportions where they must."""
-        by_cowper = self.shear_factor == "cowper" and self.proportions_in_cowper
+        super().check_stations(stations)
+        self._check_proportions(stations)
+
+    def _check_proportions(self, stations: Sequence[Station]) -> None:
+        own = walls_vary(stations)
+        by_cowper = self.shear_factor == "cowper" and self.proportions_in_cowper and not own
         for station in stations:
             if station.height != station.width and (self.stays_in_proportion or by_cowper):
                 why = f"a {self.shape}" if self.stays_in_proportion else "a shear_factor of 'cowper'"
@@ -204,10 +237,12 @@ class Homogeneous(Section):
     def along(self, material: Material | None, lateral_constraint: LateralConstraint) -> Along:
         """2 mu A, Lambda A, k mu A, EI and mu I."""
         assert material is not None
-        second_moment = self.area * self.height * self.height / self.thinness
-        young, poisson = material.moduli
         return of_one_material(
-            self.area, second_moment, young, poisson, self.shear_factor_for, lateral_constraint
+            self.area_along,
+            self.second_moment_along,
+            *material.moduli,
+            self.shear_factor_along,
+            lateral_constraint,
         )
 
     def line_density(self, material: Material | None) -> float:

@@ -1,0 +1,156 @@
+"""Crossings of eigenvalues that are close to each other: two bars by closed forms, rods by scans of dense matrices."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from bodies import body, dead, springs
+from scipy.linalg import eigvalsh
+from scipy.optimize import brentq
+
+import cosserat
+from cosserat.solvers import hidden
+from cosserat.solvers.banded import to_dense
+from cosserat.solvers.continuation import ArcLengthSettings, trace_path
+from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
+from cosserat.solvers.incremental import unloaded
+from cosserat.solvers.special import special_points
+from cosserat.solvers.system import Tangent
+
+STEEPEST = 0.41702882811414952
+"""Half span of two bars over their height, beyond which the apex does not sway; `swaying` has no root from here on."""
+
+
+def swaying(b):
+    """Heights y at which the apex of two bars of height one begins and ends to sway, and its load per stiffness there.
+
+    derived: the apex has the stiffness b^2 / l^2 - (l0 - l) y^2 / l^3 across, times 2 k, with l^2 = b^2 + y^2; it is
+    zero where b^2 l = (l0 - l) y^2, and P = 2 k (l0 - l) y / l.
+    """
+    l0 = np.hypot(b, 1)
+
+    def soft(y):
+        return (l0 - np.hypot(b, y)) * y**2 - b**2 * np.hypot(b, y)
+
+    def slope(y):
+        return 2 * (l0 - np.hypot(b, y)) * y - (y**2 + b**2) * y / np.hypot(b, y)
+
+    top = brentq(slope, 0.4, 0.9, xtol=1e-15)
+    at = np.array([brentq(soft, top, 1, xtol=1e-15), brentq(soft, 0.1, top, xtol=1e-15)])
+    return at, 2 * (l0 - np.hypot(b, at)) * at / np.hypot(b, at)
+
+
+@pytest.mark.parametrize("longest", [0.2, 0.5])
+@pytest.mark.parametrize("below", [1e-4, 1e-7, 1e-8])
+def test_an_apex_that_sways_within_one_arc_is_found(below, longest):
+    b, k = STEEPEST * (1 - below), 7.0
+    _, loads = swaying(b)
+    at = np.array([[-b, 0, 0], [0, 1, 0], [b, 0, 0]])
+    bars = springs([(0, 1, k, np.hypot(b, 1)), (1, 2, k, np.hypot(b, 1))])
+    push = np.zeros(9)
+    push[4] = -k
+    system = body(replace(bars, origin=at.ravel()), dead(push), held=(0, 1, 2, 5, 6, 7, 8), n=9)
+    solver = EquilibriumSolver(system, NewtonSettings(), "bars")
+    arc = ArcLengthSettings(first=0.05, longest=longest, count=100, until=0.65, limit=9, branches=0)
+    list(trace_path(solver, unloaded(solver), arc))
+    found = [
+        point for pair in solver.crossings for point in special_points(solver.system, "bars", *pair)
+    ]
+    assert [(point.label, point.first) for point in found] == [
+        ("bifurcation", True),
+        ("bifurcation", False),
+    ]
+    np.testing.assert_allclose([point.point.factor for point in found], loads, rtol=1e-8)
+
+
+def negative(system, q, history, factor):
+    """How many eigenvalues of the dense Hessian of the free DOFs are negative."""
+    tangent, free = Tangent(system), ~system.constrained
+    system.assemble(q, history, factor, tangent)
+    return int((eigvalsh(to_dense(tangent.band)[np.ix_(free, free)]) < 0).sum())
+
+
+def arch():
+    """An arch pressed on its axis of symmetry, whose sway hardly begins before it ends."""
+    edges, curvature = 20, 0.37314
+    middle = edges * np.arcsin(curvature / edges / 2)
+    return cosserat.case("arch_path").vary(
+        "arch",
+        rod={
+            "vertices": edges + 1,
+            "length": 1.0,
+            "rest": {"kind": "arc", "curvature": curvature},
+            "section": {"height": 0.02, "width": 0.02},
+        },
+        forces=[{"at": edges // 2, "along": (-np.sin(middle), np.cos(middle)), "force": 800.0}],
+        arc={"branch": "stay"},
+    )
+
+
+def test_an_arch_that_sways_within_one_arc_is_found():
+    """Against a scan of that arc in steps of a hundredth: dense matrices at their ends."""
+    problem = arch().problem
+    system, _ = problem.grown(problem.geometry, "arch")
+    solver = EquilibriumSolver(system, problem.newton, "arch")
+    coarse = ArcLengthSettings(0.05, 0.3, 100, until=1.0, limit=3.0, branches=0)
+    points = list(trace_path(solver, unloaded(solver), coarse))
+    lowest = int(np.argmin([p.factor for p in points]))
+    before = list(itertools.takewhile(lambda p: p.factor < -0.005, points[lowest:]))[-1]
+    fine = trace_path(solver, before, replace(coarse, first=0.002, longest=0.002, count=500))
+    points = list(itertools.takewhile(lambda p: p.factor < 0.01, fine))
+    counts = np.array([negative(system, p.q, p.history, p.factor) for p in points])
+    steps = np.flatnonzero(np.diff(counts))
+    assert np.diff(counts)[steps].tolist() == [1, -1]
+    found = cosserat.run(arch())
+    assert found.sizes["point"] < 100
+    loads = found.special_load_factor.to_numpy()
+    assert [kind.partition(",")[0] for kind in found.special.to_numpy()[3:5]] == 2 * ["bifurcation"]
+    for load, k in zip(loads[3:5], steps, strict=True):
+        assert points[k].factor < load < points[k + 1].factor
+    assert (np.abs(np.delete(loads, [3, 4])) > 0.05).all()
+
+
+@pytest.mark.parametrize("nearly", [1.00504, 1.00506])
+def test_two_modes_of_a_column_on_a_foundation_that_nearly_meet_are_two(nearly):
+    """Loads by bisection of counts of negative eigenvalues of dense matrices; one mode is even, the other is odd."""
+    base = cosserat.case("column_path")
+    rod = base.problem.rod
+    euler = np.pi**2 * rod.young * rod.second_moment / rod.length**2
+    stiffness = 4 * nearly * np.pi**2 * euler / rod.length**2
+    column = base.vary(
+        "column",
+        rod={"vertices": 41},
+        supports=[{"at": "first", "fixed": "pinned"}, {"at": "last", "fixed": "roller"}],
+        foundations=[{"stiffness": stiffness, "along": "E2"}],
+        forces=[{"at": "last", "along": "-E3", "force": 6.5 * euler}],
+        arc={"branch": "stay"},
+    )
+    problem = column.problem
+    system, _ = problem.grown(problem.geometry, "column")
+    solver = EquilibriumSolver(system, NewtonSettings(), "column")
+
+    def load_of(number):
+        low, high = 0.7, 0.8
+        while high - low > 1e-10:
+            middle = (low + high) / 2
+            point = solver.correct(np.zeros_like(system.start), middle, system.history)
+            many = negative(system, point.q, point.history, middle) >= number
+            low, high = (low, middle) if many else (middle, high)
+        return low
+
+    found = cosserat.run(column)
+    right = [load_of(1), load_of(2)]
+    assert 1e-7 < right[1] - right[0] < 2e-5
+    np.testing.assert_allclose(found.special_load_factor, right, atol=1e-9)
+    assert list(found.special.to_numpy()) == ["bifurcation, first instability", "bifurcation"]
+    middle = np.abs(found.special_u.sel(axis="E2").isel(vertex=20))
+    assert sorted(middle.to_numpy() > 0.5) == [False, True]
+
+
+def test_the_determinant_is_that_of_the_dense_matrix():
+    rng, held = np.random.default_rng(3), np.zeros(12, dtype=bool)
+    held[[0, 5, 6]] = True
+    band = rng.uniform(-1, 1, (12, 4))
+    dense = to_dense(band)[np.ix_(~held, ~held)]
+    assert hidden.log_determinant(band, held) == pytest.approx(np.linalg.slogdet(dense)[1], rel=1e-12)
