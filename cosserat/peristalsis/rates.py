@@ -30,7 +30,7 @@ from cosserat.solvers.slopes import slope
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
-_ROUGH = 1e-8  # of the largest derivative of a number, above which its error says that there is none
+_ROUGH = 1e-6  # of the largest derivative of a number, above which its error says that there is none
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def numbers_rate(at: Callable[[float], Numbers]) -> Numbers:
 
     found = slope(values, float(np.finfo(float).eps))
     if found.relative > _ROUGH or found.kink.any():
-        raise InputError("its fronts or loads do not change smoothly with the parameter")
+        raise InputError("its body, fronts or loads do not change smoothly with the parameter")
     cuts = np.cumsum([own.size for own in base])[:-1]
     parts = zip(np.split(found.value, cuts), base, sizes, strict=True)
     return Numbers(*((rate * size).reshape(own.shape) for rate, own, size in parts))

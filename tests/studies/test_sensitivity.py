@@ -138,6 +138,8 @@ def at_euler():
         (on_a_front, "gait.gamma.0.1.0", "final along at last", "two events of the gait"),
         (on_a_front, "step", "final along at last", "how many instants"),
         (on_a_front, "gait.phases", "final along at last", "derivatives are by quantities"),
+        (on_a_front, "gait.phases.7", "final along at last", "names no item of a list of 2"),
+        (on_a_front, "gait.gamma.0.1", "final along at last", "has no key 'gait.gamma.0.1'"),
     ],
 )
 def test_what_has_no_derivative_is_said_in_one_sentence(case, key, read_out, said):
