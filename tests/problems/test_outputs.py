@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 import cosserat
 from cosserat.data.dataset import to_dataset, without_derived
-from cosserat.problem import ALONE
+from cosserat.problem import ALONE, Run
 from cosserat.problems.outputs import rotations
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.integrate import State
@@ -514,3 +514,19 @@ def test_a_solver_computes_no_outputs():
     assert "bending_moment" not in found
     assert found.derive is not None
     assert "bending_moment" in to_dataset(cosserat.case("clamped_free"), found)
+
+
+def test_a_path_gives_what_is_read_and_leaves_out_what_costs_time():
+    problem = cosserat.case("column_path").problem
+    whole, part = problem.solve("column", ALONE), problem.solve("column", Run(wanted={"u", "x"}))
+    assert {"potential", "special_load_factor"} <= set(whole.fields) - set(part.fields)
+    assert set(part.fields) < set(whole.fields)
+    assert whole.statistics["iterations"] == part.statistics["iterations"]
+    assert (part["x"] == whole["x"]).all()
+    derived = part.derive({"u"})
+    assert set(derived.fields) == {"u"}
+    every = whole.derive()
+    assert (derived["u"] == every["u"]).all()
+    assert set(whole.derive({"strain_energy"}).fields) < set(every.fields)
+    for name in every.fields:
+        assert name in whole.derive({name})
