@@ -90,7 +90,9 @@ def main(arguments: list[str] | None = None) -> int:
     except CosseratError as error:
         _complain(str(error))
         return 2 if isinstance(error, InputError) else 1
-    except MemoryError:
+    except (MemoryError, ImportError) as error:
+        if isinstance(error, ImportError) and "failed to map" not in str(error):
+            raise
         _complain(NO_MEMORY)
         return 2
     except KeyboardInterrupt as interrupt:

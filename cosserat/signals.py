@@ -46,6 +46,10 @@ def end_by_signals() -> None:
     for number in SIGNALS:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _stop)
+    if hasattr(
+        signal, "pthread_sigmask"
+    ):  # a parent may have blocked them until there is somebody to mind them
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
     with contextlib.suppress(RuntimeError):  # no thread can be started where memory is short
         threading.Thread(target=_watch, args=(heard,), daemon=True).start()
 
@@ -83,7 +87,8 @@ def uninterrupted() -> Iterator[None]:
 
 def _stop(number: int, frame: FrameType | None) -> None:
     received.append(number)
-    raise Stopped(number)
+    if len(received) == 1:  # a second one would come amid the end of the run
+        raise Stopped(number)
 
 
 def _watch(heard: int) -> None:

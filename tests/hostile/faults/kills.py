@@ -217,7 +217,10 @@ def _killed_workflow(
 
 
 def _made(copy: Path, targets: list[str]) -> dict[str, bytes]:
-    """All files below `results` after the workflow has run to its end, without its times and words."""
+    """All files below `results` after the workflow has run to its end, without its times and words.
+
+    The folders of studies are left out: their plans depend on how fast the machine was.
+    """
     running = _snakemake(copy, targets)
     running.wait(3600)
     told = (copy / ".snakemake/told").read_text()
@@ -226,7 +229,9 @@ def _made(copy: Path, targets: list[str]) -> dict[str, bytes]:
     return {
         str(name): path.read_bytes()
         for name, path in files.items()
-        if path.is_file() and name.parts[0] not in ("logs", "benchmarks")
+        if path.is_file()
+        and name.parts[0] not in ("logs", "benchmarks")
+        and not any(part.endswith(".study") for part in name.parts)
     }
 
 
