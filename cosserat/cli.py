@@ -277,6 +277,7 @@ def _add_study(add: AddCommand) -> None:
     )
     sub.add_argument(
         "--profile",
+        type=Path,
         metavar="FOLDER",
         help="let Snakemake solve it by this profile, such as profiles/slurm",
     )

@@ -39,10 +39,12 @@ _VALUES: tuple[Any, ...] = (
     ["9" * 400 + " m"], [CONTROL], ["none"], ["1 m"] * 3000, ["1 m^(9^9^9^9)"], [["1 m"]],
 )  # fmt: skip
 _FACTORS: tuple[Any, ...] = (
-    [], [{}], [{"name": "a"}], [{"table": "t.csv"}], [{"table": "none.csv"}], [{"table": "/dev/zero"}], [{"table": "."}],
-    [{"sobol": 3, "rod": {"length": {"uniform": ["1 m", "2 m"]}}}], [{"sobol": 4, "saltelli": 4, "rod": {"length": []}}],
+    [], [{}], [{"name": "a"}], [{"table": "t.csv"}], [{"table": "none.csv"}], [{"table": "/dev/zero"}],
+    [{"table": "."}], [{"sobol": 4, "saltelli": 4, "rod": {"length": []}}],
+    [{"sobol": 3, "rod": {"length": {"uniform": ["1 m", "2 m"]}}}],
     [{"sobol": 2**23, "rod": {"length": {"uniform": ["1 m", "2 m"]}}}], [{"rod": {"length": ["1 m"]}}] * 2,
-    [{"rod": {"length": [f"1.{n:03d} m" for n in range(300)]}}, {"forces": {"0": {"force": [f"{n} N" for n in range(1, 300)]}}}],
+    [{"rod": {"length": [f"1.{n} m" for n in range(300)]}},
+     {"rod": {"section": {"height": [f"{n} mm" for n in range(300)]}}}],
     [{"rod": {"length": ["1 m"], "vertices": [5, 6]}}], [{"rod": {"length": ["1 m"], "vertices": [5]}}],
     [{"name": "status", "rod": {"length": ["1 m"]}}], [{"name": "tip", "rod": {"length": ["1 m"]}}],
     [{"name": "a b", "rod": {"length": ["1 m"]}}], [{"names": ["a"], "rod": {"length": ["1 m", "2 m"]}}],

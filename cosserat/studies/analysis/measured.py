@@ -18,7 +18,7 @@ from cosserat.problem import Problem
 from cosserat.studies.factors import TITLE, cell, rows_of
 from cosserat.studies.keys import VariedKey, read_value, varied_key
 from cosserat.studies.readouts import ReadOut, unit_to_read
-from cosserat.text import shown
+from cosserat.text import shortened, shown
 from cosserat.units import to_si
 
 Array = NDArray[np.float64]
@@ -78,11 +78,11 @@ def measured(
     other = set(deviations) - set(by_name)
     if other:
         raise InputError(
-            f"{name}: 'deviations' names '{min(other)}', which is not fitted{nearest(min(other), list(by_name))}"
+            f"{name}: 'deviations' names {shown(min(other))}, which is not fitted{nearest(min(other), list(by_name))}"
         )
     own = [title for title in titles if title in by_name]
     if set(own) != set(by_name):
-        lacking = ", ".join(sorted(set(by_name) - set(own)))
+        lacking = shortened(", ".join(sorted(set(by_name) - set(own))))
         raise InputError(
             f"{where} has no column {lacking}; name one for each read-out, such as 'tip [mm]'"
         )
