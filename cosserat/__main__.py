@@ -2,28 +2,15 @@
 
 import sys
 
+from cosserat.memory import limit_of_memory, watched
 from cosserat.signals import Stopped, end_by_signals, ignore_signals, received, uninterrupted
 
 
 def main() -> int:
     """Run the command of the command line; returns its exit status."""
-    if (limit := _limit_of_memory()) is not None:
-        from cosserat.memory import watched
-
-        status = watched(limit)
-        if status is not None:
-            return status
+    if (limit := limit_of_memory()) is not None and (status := watched(limit)) is not None:
+        return status
     return _main()
-
-
-def _limit_of_memory() -> int | None:
-    """Most address space of this process [bytes]; None where there is no limit."""
-    if sys.platform != "linux":
-        return None
-    import resource
-
-    found = resource.getrlimit(resource.RLIMIT_AS)[0]
-    return None if found == resource.RLIM_INFINITY else found
 
 
 def _main() -> int:

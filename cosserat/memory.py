@@ -7,13 +7,14 @@ and its parent says what became of it.  Without a limit there is one process.
 
 from __future__ import annotations
 
-import ctypes
+import contextlib
+import math
 import os
 import signal
 import sys
+from pathlib import Path
 from types import FrameType
 
-from cosserat.progress import size
 from cosserat.signals import SIGNALS, Stopped
 
 LEAST = 1_000_000_000
@@ -21,6 +22,7 @@ LEAST = 1_000_000_000
 _LATEST = 5  # seconds in which a child ends after a signal
 _DEATHS = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 _WITH_PARENT = 1  # of <sys/prctl.h>: the signal when the parent ends
+_MACHINE, _OWN = Path("/proc/meminfo"), Path("/proc/self/statm")
 
 
 def watched(limit: int) -> int | None:
@@ -28,6 +30,8 @@ def watched(limit: int) -> int | None:
 
     Signals to end are blocked in the child, which minds them first.
     """
+    from cosserat.progress import size  # the process without a limit starts without it
+
     if limit < LEAST:
         return _failed(
             f"the limit of {size(limit)} of address space is too small, cosserat needs {size(LEAST)}; "
@@ -37,7 +41,7 @@ def watched(limit: int) -> int | None:
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     child = os.fork()
     if child == 0:
-        ctypes.CDLL(None).prctl(_WITH_PARENT, signal.SIGKILL)
+        _end_with_parent()
         _keep_words_of_libraries(words)
         _reserve()
         return None
@@ -55,14 +59,44 @@ def watched(limit: int) -> int | None:
     os.lseek(words, 0, os.SEEK_SET)
     os.write(2, os.read(words, 1 << 20))
     if code < 0:
-        signal.signal(-code, signal.SIG_DFL)
+        with contextlib.suppress(OSError):  # of SIGKILL
+            signal.signal(-code, signal.SIG_DFL)
         os.kill(os.getpid(), -code)
     return code
+
+
+def free() -> float:
+    """Memory that this process can still get [bytes]: of the machine, and under its limit; all there is elsewhere."""
+    found = [math.inf]
+    with contextlib.suppress(OSError, ValueError):
+        lines = dict(line.split(":", 1) for line in _MACHINE.read_text().splitlines())
+        found.append(1024.0 * int(lines["MemAvailable"].split()[0]))
+    if (limit := limit_of_memory()) is not None:
+        with contextlib.suppress(OSError):
+            pages = int(_OWN.read_text().split()[0])
+            found.append(float(limit - pages * os.sysconf("SC_PAGE_SIZE")))
+    return min(found)
+
+
+def limit_of_memory() -> int | None:
+    """Most address space of this process [bytes]; None where there is no limit."""
+    if sys.platform != "linux":
+        return None
+    import resource
+
+    found = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return None if found == resource.RLIM_INFINITY else found
 
 
 def _failed(sentence: str) -> int:
     print(f"cosserat: {sentence}", file=sys.stderr)
     return 2
+
+
+def _end_with_parent() -> None:
+    import ctypes
+
+    ctypes.CDLL(None).prctl(_WITH_PARENT, signal.SIGKILL)
 
 
 def _keep_words_of_libraries(file: int) -> None:
