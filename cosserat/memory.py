@@ -135,4 +135,4 @@ def _end_of(child: int) -> tuple[int | None, int]:
     signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
     _, status = os.waitpid(child, 0)
     signal.alarm(0)
-    return (heard or [None])[0], status
+    return heard[0] if heard else None, status
