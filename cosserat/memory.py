@@ -8,11 +8,11 @@ and its parent says what became of it.  Without a limit there is one process.
 from __future__ import annotations
 
 import contextlib
+import io
 import math
 import os
 import signal
 import sys
-from pathlib import Path
 from types import FrameType
 
 from cosserat.signals import SIGNALS, Stopped
@@ -22,7 +22,7 @@ LEAST = 1_000_000_000
 _LATEST = 5  # seconds in which a child ends after a signal
 _DEATHS = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 _WITH_PARENT = 1  # of <sys/prctl.h>: the signal when the parent ends
-_MACHINE, _OWN = Path("/proc/meminfo"), Path("/proc/self/statm")
+_MACHINE, _OWN = "/proc/meminfo", "/proc/self/statm"
 
 
 def watched(limit: int) -> int | None:
@@ -57,7 +57,8 @@ def watched(limit: int) -> int | None:
             "use fewer vertices, sections, elements or frames, or raise the limit by 'ulimit -v'"
         )
     os.lseek(words, 0, os.SEEK_SET)
-    os.write(2, os.read(words, 1 << 20))
+    with contextlib.suppress(OSError):  # nobody may read them any more
+        os.write(2, os.read(words, 1 << 20))
     if code < 0:
         with contextlib.suppress(OSError):  # of SIGKILL
             signal.signal(-code, signal.SIG_DFL)
@@ -69,11 +70,13 @@ def free() -> float:
     """Memory that this process can still get [bytes]: of the machine, and under its limit; all there is elsewhere."""
     found = [math.inf]
     with contextlib.suppress(OSError, ValueError):
-        lines = dict(line.split(":", 1) for line in _MACHINE.read_text().splitlines())
+        with open(_MACHINE) as file:
+            lines = dict(line.split(":", 1) for line in file)
         found.append(1024.0 * int(lines["MemAvailable"].split()[0]))
     if (limit := limit_of_memory()) is not None:
         with contextlib.suppress(OSError):
-            pages = int(_OWN.read_text().split()[0])
+            with open(_OWN) as file:
+                pages = int(file.read().split()[0])
             found.append(float(limit - pages * os.sysconf("SC_PAGE_SIZE")))
     return min(found)
 
@@ -104,7 +107,8 @@ def _keep_words_of_libraries(file: int) -> None:
     if sys.stderr is None:
         return
     usual = sys.stderr
-    sys.stderr = open(os.dup(2), "w", 1, usual.encoding, usual.errors)  # noqa: SIM115
+    kept = open(os.dup(2), "wb", 0)  # noqa: SIM115 - for as long as the process lives
+    sys.stderr = io.TextIOWrapper(kept, usual.encoding, usual.errors, write_through=True)
     os.dup2(file, 2)
 
 

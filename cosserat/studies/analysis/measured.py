@@ -22,6 +22,8 @@ from cosserat.text import shortened, shown
 from cosserat.units import to_si
 
 Array = NDArray[np.float64]
+MOST_ROWS = 50_000
+"""Most rows of the data of a fit."""
 Columns = Mapping[str, Sequence[object]]
 _DEVIATION = "_deviation"
 
@@ -71,6 +73,10 @@ def measured(
             )
     else:
         titles, units, columns, where = _from_file(path_of(data), name)
+    if len(columns[0]) > MOST_ROWS:
+        raise InputError(
+            f"{where} has {len(columns[0])} rows; a fit takes up to {MOST_ROWS}: give every second one, or their means"
+        )
     for title, times in Counter(titles).items():
         if times > 1:
             raise InputError(f"{where} has the column {shown(title)} {times} times; give it once")
