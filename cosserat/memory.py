@@ -30,15 +30,13 @@ def watched(limit: int) -> int | None:
 
     Signals to end are blocked in the child, which minds them first.
     """
-    from cosserat.progress import size  # the process without a limit starts without it
-
+    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     if limit < LEAST:
         return _failed(
-            f"the limit of {size(limit)} of address space is too small, cosserat needs {size(LEAST)}; "
+            f"the limit of {limit / 1e6:.0f} MB of address space is too small, cosserat needs {LEAST / 1e6:.0f} MB; "
             "raise it by 'ulimit -v', or ask the batch system for more memory"
         )
     words = os.memfd_create("words")
-    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     child = os.fork()
     if child == 0:
         _end_with_parent()
@@ -53,7 +51,7 @@ def watched(limit: int) -> int | None:
         return stopped.status
     if -code in _DEATHS:
         return _failed(
-            f"there is not enough memory: a library gave up under the limit of {size(limit)} of address space; "
+            f"there is not enough memory: a library gave up under the limit of {limit / 1e6:.0f} MB of address space; "
             "use fewer vertices, sections, elements or frames, or raise the limit by 'ulimit -v'"
         )
     os.lseek(words, 0, os.SEEK_SET)

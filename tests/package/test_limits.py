@@ -119,7 +119,7 @@ exec(sys.argv[2])
             10**8,
             "",
             2,
-            "cosserat: the limit of 100 MB of address space is too small, cosserat needs 1 GB; raise",
+            "cosserat: the limit of 100 MB of address space is too small, cosserat needs 1000 MB; raise",
         ),
         (
             2 * 10**9,
