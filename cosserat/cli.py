@@ -276,10 +276,7 @@ def _add_study(add: AddCommand) -> None:
         help="members that one job solves, when a study is first planned (default: what takes about a minute)",
     )
     sub.add_argument(
-        "--profile",
-        type=Path,
-        metavar="FOLDER",
-        help="let Snakemake solve it by this profile, such as profiles/slurm",
+        "--profile", type=Path, metavar="FOLDER", help="let Snakemake solve it by this profile"
     )
     sub.add_argument(
         "--hours",
