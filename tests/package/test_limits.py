@@ -12,7 +12,7 @@ import pytest
 from conftest import ROOT
 
 import cosserat
-from cosserat import memory
+from cosserat import memory, signals
 from cosserat.cli import main
 from cosserat.errors import InputError, NotConvergedError, OverLimitError
 from cosserat.limits import Limits, Watched
@@ -286,8 +286,11 @@ def test_linear_algebra_has_one_thread_in_a_run(monkeypatch):
     cosserat.run("clamped_free")
 
 
-def test_most_problems_foresee_nothing():
+def test_statics_foresee_nothing_and_a_path_only_what_it_needs_at_least():
     assert cosserat.case("elastica").problem.forecast == Forecast()
+    path = cosserat.case("column_path").problem
+    assert path.arc.longest == 0.3
+    assert path.forecast.work == f"4 points of {path.rod.vertices} vertices"
 
 
 SLOW = "import sys, time, cosserat.cli, cosserat.__main__ as m\n"
@@ -325,6 +328,13 @@ def test_signals_end_a_process_with_one_line_also_where_the_exception_is_swallow
         status,
         f"cosserat: {words}; no incomplete file was written\n",
     )
+
+
+def test_a_second_signal_does_not_disturb_the_end_of_the_run(monkeypatch):
+    monkeypatch.setattr(signals, "received", [])
+    with pytest.raises(signals.Stopped):
+        signals._stop(signal.SIGINT, None)
+    signals._stop(signal.SIGINT, None)
 
 
 def test_an_error_keeps_its_class_and_its_parts(tmp_path, capsys, monkeypatch):
