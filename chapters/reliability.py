@@ -23,6 +23,18 @@
 # * **An answer is one sentence.** It names the file and says what to do. The exit code tells a program the same: 2 is a
 #   fault that the user can mend; 130, 143 and 129 are the three signals.
 #
+# Three limits of these promises:
+#
+# * **A digest is no signature.** There is no secret, so whoever changes a file can compute its digests anew, and the file
+#   alone does not show it. Outputs of a release have a second witness: the manifest, which is tracked with the code.
+#   `cosserat verify` compares all of them with it; `measure`, `figure` and `check` say which of those that they read is not
+#   as released. A result of one's own has no such witness.
+# * **Libraries do not bear a lack of memory.** LLVM ends the process, and OpenBLAS asks for its work space for ever, deaf to
+#   Ctrl-C. So under a limit of memory a second process watches, says what happened, and passes signals on. Where the system
+#   itself runs out of memory it kills without a word; what is known to need more than is free is refused before.
+# * **Locks are those of the file system.** NFS and Lustre pass them on between machines unless they are mounted otherwise. Such
+#   a mount, or a shared file system that never does, is named by a warning when a result is written there.
+#
 # A promise is worth as much as the attempts to break it. So each fault of the table below was brought about in real
 # processes, many times and at random moments, by `python -m tests.hostile.faults`. Each attempt was judged by its exit code, its
 # words, its bytes and the files that were left. All random choices follow from a seed, so an attempt can be repeated.

@@ -2,11 +2,18 @@
 
 import sys
 
+from cosserat.memory import limit_of_memory, watched
 from cosserat.signals import Stopped, end_by_signals, ignore_signals, received, uninterrupted
 
 
 def main() -> int:
     """Run the command of the command line; returns its exit status."""
+    if (limit := limit_of_memory()) is not None and (status := watched(limit)) is not None:
+        return status
+    return _main()
+
+
+def _main() -> int:
     try:
         end_by_signals()
         with uninterrupted():  # an exception amid the import of a compiled library is a panic

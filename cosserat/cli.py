@@ -90,7 +90,9 @@ def main(arguments: list[str] | None = None) -> int:
     except CosseratError as error:
         _complain(str(error))
         return 2 if isinstance(error, InputError) else 1
-    except MemoryError:
+    except (MemoryError, ImportError) as error:
+        if isinstance(error, ImportError) and "failed to map" not in str(error):
+            raise
         _complain(NO_MEMORY)
         return 2
     except KeyboardInterrupt as interrupt:
@@ -274,9 +276,7 @@ def _add_study(add: AddCommand) -> None:
         help="members that one job solves, when a study is first planned (default: what takes about a minute)",
     )
     sub.add_argument(
-        "--profile",
-        metavar="FOLDER",
-        help="let Snakemake solve it by this profile, such as profiles/slurm",
+        "--profile", type=Path, metavar="FOLDER", help="let Snakemake solve it by this profile"
     )
     sub.add_argument(
         "--hours",

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
+from cosserat import memory
 from cosserat.errors import InputError, OverLimitError
 from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import Forecast, Progress
@@ -39,6 +40,11 @@ class Limits(Parameters):
             raise OverLimitError(
                 f"{name}: {forecast.work} would take about {duration(forecast.seconds)}, over the limit of "
                 f"{self.hours:g} h; {forecast.less_work}, or raise the limit --hours"
+            )
+        if forecast.memory > (there := memory.free()):
+            raise InputError(
+                f"{name}: {forecast.work} need about {size(forecast.memory)} of memory, and {size(there)} are free; "
+                f"{forecast.less_work}"
             )
         if forecast.size > 1e9 * self.gigabytes:
             raise OverLimitError(

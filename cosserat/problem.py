@@ -56,7 +56,7 @@ class Forecast:
     """What solving a problem will take, as far as it can be foreseen; `cosserat.limits` compares it.
 
     seconds : time.  size : bytes of the result.  work, stored : what takes them, in words.  less_work, less_stored :
-    the remedies.
+    the remedies.  memory : bytes that the work needs beside the result.
     """
 
     seconds: float = 0.0
@@ -65,6 +65,7 @@ class Forecast:
     less_work: str = "make it smaller"
     stored: str = "the result"
     less_stored: str = "make it smaller"
+    memory: float = 0.0
 
     @classmethod
     def of(cls, seconds: float, numbers: float, what: str, remedy: str) -> Forecast:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -46,6 +47,9 @@ def end_by_signals() -> None:
     for number in SIGNALS:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _stop)
+    sys.unraisablehook = _unraisable
+    if hasattr(signal, "pthread_sigmask"):  # a parent may have blocked them until somebody minds them
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
     with contextlib.suppress(RuntimeError):  # no thread can be started where memory is short
         threading.Thread(target=_watch, args=(heard,), daemon=True).start()
 
@@ -83,7 +87,14 @@ def uninterrupted() -> Iterator[None]:
 
 def _stop(number: int, frame: FrameType | None) -> None:
     received.append(number)
-    raise Stopped(number)
+    if len(received) == 1:  # a second one would come amid the end of the run
+        raise Stopped(number)
+
+
+def _unraisable(given: sys.UnraisableHookArgs) -> None:
+    """Say nothing of a `Stopped` that came amid a call of compiled code and went no further; `_watch` ends the run."""
+    if not isinstance(given.exc_value, Stopped):
+        sys.__unraisablehook__(given)
 
 
 def _watch(heard: int) -> None:

@@ -13,6 +13,7 @@ _COMPUTING = (
     "errors.py",
     "limits.py",
     "signals.py",
+    "memory.py",
     "reading.py",
     "explain.py",
     "quantities.py",

@@ -11,7 +11,8 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.problem import ALONE, Run
+from cosserat.problem import ALONE, Forecast, Run
+from cosserat.problems.forecasts import of_modes
 from cosserat.problems.grown import GrownProblem
 from cosserat.problems.posed import PosedProblem
 from cosserat.problems.special import scaled, special_fields
@@ -77,6 +78,11 @@ class RodCriticalLoads(GrownProblem):
         own = (PosedProblem if problem.in_time else GrownProblem).model_fields
         names = [name for name in dict.fromkeys((*own, "newton")) if hasattr(problem, name)]
         return cls(**{name: getattr(problem, name) for name in names}, count=count)
+
+    @property
+    def forecast(self) -> Forecast:
+        """The linear criterion; how long the path to the true one is cannot be foreseen."""
+        return of_modes(self, self.count, always_dense=True)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Both criteria; `name` : name of the case in errors.

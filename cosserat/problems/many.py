@@ -63,6 +63,8 @@ def solve_many(
     parts = []
     for first in range(0, count, _CHUNK):
         own = {key: values[first : first + _CHUNK] for key, values in columns.items()}
+        if not in_range(problem, own).any():
+            return None  # the problem of each says why
         parts.append(_solve(problem, own, wanted, *family))
     return _joined(parts)
 

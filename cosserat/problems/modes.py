@@ -12,7 +12,8 @@ from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from cosserat.parameters import Count
-from cosserat.problem import ALONE, Run
+from cosserat.problem import ALONE, Forecast, Run
+from cosserat.problems.forecasts import of_modes
 from cosserat.problems.grown import GrownProblem
 from cosserat.problems.special import leading
 from cosserat.problems.static import check_supports, equilibrium_solution
@@ -74,6 +75,11 @@ class RodModes(GrownProblem):
         given = {name: getattr(problem, name) for name in own if hasattr(problem, name)}
         about = "reference" if problem.in_time and given.get("pose") is None else "equilibrium"
         return cls(**given, count=count, about=about)
+
+    @property
+    def forecast(self) -> Forecast:
+        """The modes; the equilibrium takes little beside them."""
+        return of_modes(self, self.count)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """The lowest modes; `name` : name of the case in errors.

@@ -14,7 +14,8 @@ from pydantic_core import PydanticCustomError
 
 from cosserat.errors import CrossingError, NotConvergedError
 from cosserat.parameters import Count, Parameters, Quantity
-from cosserat.problem import ALONE, Run
+from cosserat.problem import ALONE, Forecast, Run
+from cosserat.problems.forecasts import of_path
 from cosserat.problems.grown import GrownProblem
 from cosserat.problems.outputs import (
     coupled_energies,
@@ -74,6 +75,11 @@ class RodPath(GrownProblem):
                 "energy", "needs rod.energy = 'consistent'; the published rod has no paths"
             )
         return self
+
+    @property
+    def forecast(self) -> Forecast:
+        """The points that a path to the full load has at least."""
+        return of_path(self, self.arc.count, self.arc.longest)
 
     def solve(self, name: str, run: Run = ALONE) -> Solution:
         """Every point of the path; it ends after 'arc.count' arcs at the latest, which the statistics record.

@@ -26,6 +26,7 @@ from cosserat.studies.plan import (
     sweep,
 )
 from cosserat.studies.stored import BATCHES, Plan, read_task, write_solved
+from cosserat.text import shortened
 
 WORKFLOW = Path(__file__).with_name("study.smk")
 _HERE_SECONDS = 30.0
@@ -61,10 +62,10 @@ def study(options: argparse.Namespace) -> None:
         print(f"{found.name}: {len(ended)} jobs ended on Slurm; what is solved is in {folder}")
         return
     if options.status:
-        _tell(found, folder, plan(found, folder, options.batch))
+        _tell(found, folder, _planned(options, found, folder))
         return
     with only_writer(path):
-        made = plan(found, folder, options.batch)
+        made = _planned(options, found, folder)
         if options.sweep:
             print(f"{found.name}: {sweep(folder, made)} batches deleted that the study does not use")
         if options.plan or options.sweep:
@@ -74,13 +75,18 @@ def study(options: argparse.Namespace) -> None:
         _report(found, folder, path, partial=options.partial, written=written)
 
 
+def _planned(options: argparse.Namespace, found: Family, folder: Path) -> Plan:
+    with bar(found.name) as report:
+        return plan(found, folder, options.batch, report)
+
+
 def _check_options(options: argparse.Namespace) -> None:
     """Raise InputError before anything is written for numbers of cores or hours and profiles that cannot be."""
     if options.cores is not None and options.cores < 1:
         raise InputError(f"--cores is {options.cores}; give 1 or more")
     if options.profile is not None and not Path(options.profile).exists():
         raise InputError(
-            f"there is no profile {options.profile}; give its folder, such as profiles/slurm"
+            f"there is no profile {shortened(str(options.profile), 200)}; give its folder, such as profiles/slurm"
         )
     Limits.read({"hours": options.hours}, "limits")
 
@@ -108,7 +114,13 @@ def _solve(options: argparse.Namespace, found: Family, folder: Path, path: Path,
             path,
         )
     if by_snakemake:
-        _by_snakemake(options, folder, path, len(names), seconds)
+        _by_snakemake(
+            options,
+            found.name,
+            folder,
+            path,
+            f"{_counted(len(names))} left, about {duration(seconds)} of work",
+        )
     else:
         _here(found, folder, names)
     return by_snakemake
@@ -140,10 +152,8 @@ def _each(found: Family, folder: Path, names: list[str]) -> None:
             write_solved(answer_file(folder, name), task, solved)
 
 
-def _by_snakemake(
-    options: argparse.Namespace, folder: Path, path: Path, batches: int, seconds: float
-) -> None:
-    """Let Snakemake solve the batches and gather the answer.
+def _by_snakemake(options: argparse.Namespace, name: str, folder: Path, path: Path, work: str) -> None:
+    """Let Snakemake solve the batches and gather the answer; `name` : of the study.  `work` : what is left, in words.
 
     Only this process works in the folder, so a lock that Snakemake finds there is one of a killed run.
     """
@@ -168,10 +178,9 @@ def _by_snakemake(
         command += ["--profile", str(Path(options.profile).resolve())]
     if options.cores or not options.profile:
         command += ["--cores", str(options.cores or "all")]
-    left_to_do = f"{_counted(batches)} left, about {duration(seconds)} of work"
-    print(f"{left_to_do}; Snakemake's log is in {folder / '.snakemake' / 'log'}", file=sys.stderr)
+    print(f"{name}: {work}; Snakemake's log is in {folder / '.snakemake' / 'log'}", file=sys.stderr)
     environment = os.environ | {"OMP_NUM_THREADS": "1", "PYTHONPATH": _import_path()}
-    done = subprocess.run(command, check=False, env=environment)
+    done = subprocess.run(command, check=False, env=environment, stderr=sys.stderr)
     if done.returncode:
         raise CosseratError(
             f"Snakemake ended with status {done.returncode}; what is solved is in {folder}: run the same command again"

@@ -19,6 +19,7 @@ from cosserat.cases.catalogue import Case
 from cosserat.data.provenance import source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import InputError
+from cosserat.problem import Progress, silent
 from cosserat.studies.factors import Columns, Values, columns
 from cosserat.studies.keys import VariedKey, case_with, table_of
 from cosserat.studies.readouts import ReadOut, meant_variable, read_out
@@ -28,6 +29,7 @@ from cosserat.text import LONGEST_NAME, shown
 OWN = ("status", "reason", "iterations")
 """Variables of every answer."""
 _DIGEST = 12  # bytes of the digest of a member
+_OFTEN = 1 << 15  # members between two reports of a plan
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class Task:
             sort_keys=True,
         )
 
-    def digests(self) -> NDArray[np.bytes_]:
+    def digests(self, progress: Progress = silent) -> NDArray[np.bytes_]:
         """A digest of each member, (M,): of the whole case, what is kept and the code, and not of its place."""
         common = hashlib.blake2b(self.about.encode(), digest_size=32).digest()
         found = np.empty(self.size, dtype=f"S{2 * _DIGEST}")
@@ -81,6 +83,8 @@ class Task:
         else:
             keys = [json.dumps(self.values(k), sort_keys=True).encode() for k in range(self.size)]
         for number, own in enumerate(keys):
+            if number % _OFTEN == 0:
+                progress(0.0, f"{number} of {self.size} members planned")
             found[number] = hashlib.blake2b(common + own, digest_size=_DIGEST).hexdigest()
         return found
 
@@ -258,7 +262,9 @@ def family(name: str, study: Study, base: Case, folder: Path, *, unit_required: 
         raise InputError(f"{called} has {size} members; a study may have up to {MOST_MEMBERS}")
     for whole in study.keep_whole:
         if whole not in VARIABLES:
-            raise InputError(f"{called} keeps '{whole}', which no result has{meant_variable(whole)}")
+            raise InputError(
+                f"{called} keeps {shown(whole)}, which no result has{meant_variable(whole)}"
+            )
     keep = tuple(read_out(key, text, called) for key, text in study.keep.items())
     found = Family(name, study, base, factors, keep)
     _check_names(found, called)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import InputError
+from cosserat.problem import Progress, silent
 from cosserat.solution import Field
 from cosserat.studies.family import Family, Task
 from cosserat.studies.solving import Solved, solve_members
@@ -43,12 +44,12 @@ def folder_of(answer: Path) -> Path:
     return answer.with_name(f"{answer.name.removesuffix('.nc')}.study")
 
 
-def plan(found: Family, folder: Path, size: int | None = None) -> Plan:
+def plan(found: Family, folder: Path, size: int | None = None, progress: Progress = silent) -> Plan:
     """The batches of a study, stored in its folder; an earlier plan of the same study is taken as it is.
 
     Members that a stored batch has solved are not planned again.
 
-    size : members of a batch; by default as many as take `BATCH_SECONDS`.
+    size : members of a batch; by default as many as take `BATCH_SECONDS`.  progress : called while members are named.
 
     Raises
     ------
@@ -57,7 +58,7 @@ def plan(found: Family, folder: Path, size: int | None = None) -> Plan:
     if size is not None and not 1 <= size <= MOST:
         raise InputError(f"--batch is {size}; a batch has 1 to {MOST} members")
     task = found.task()
-    digests = task.digests()
+    digests = task.digests(progress)
     asked = hashlib.blake2b(digests.tobytes() + task.about.encode(), digest_size=16).hexdigest()
     known = read_plan(folder)
     if (

@@ -15,6 +15,9 @@ from cosserat.text import Title, shown
 MOST_MEMBERS = 10_000_000
 """Most members of a study."""
 
+MOST_KEPT = 500
+"""Most read-outs of a study."""
+
 
 class Factor(Parameters):
     """One factor of a study: the dotted keys of the case that it varies, with their values.
@@ -115,6 +118,11 @@ class Study(Parameters):
             raise PydanticCustomError(
                 "keep",
                 "keeps nothing; name a read-out, such as keep.tip = \"u.E2 at last\", or 'keep_whole'",
+            )
+        if len(self.keep) > MOST_KEPT:
+            raise PydanticCustomError(
+                "keep",
+                f"keeps {len(self.keep)} read-outs; keep up to {MOST_KEPT}, or variables by 'keep_whole'",
             )
         for name in self.keep:
             if not name.isidentifier() or not name.isascii():

@@ -150,27 +150,35 @@ def _add_commands_of_outputs(add: AddCommand) -> None:
 
 
 def _figure(options: argparse.Namespace) -> None:
-    from cosserat.thesis.figures.catalogue import draw_all
+    from cosserat.thesis.figures.catalogue import FIGURES, draw_all
+    from cosserat.thesis.outputs.verify import warn_unless_released
 
+    read = {case for name in options.figures if name in FIGURES for case in FIGURES[name].cases}
+    warn_unless_released(options.cases.parent, [f"cases/{case}.nc" for case in read])
     for path in draw_all(options.figures, options.cases, options.output):
         print(f"wrote {path}")
 
 
 def _measure(options: argparse.Namespace) -> None:
     from cosserat.data.files import check_destination
+    from cosserat.thesis.outputs.verify import warn_unless_released
     from cosserat.thesis.table.measure import measure, summary
     from cosserat.thesis.table.tolerances import read_report, read_table, write_report
 
     check_destination(options.output, inputs=(options.table,))
-    write_report(measure(read_table(options.table), options.cases), options.output)
+    rows = read_table(options.table)
+    warn_unless_released(options.cases.parent, [f"cases/{row.case}.nc" for row in rows if row.case])
+    write_report(measure(rows, options.cases), options.output)
     print(summary(read_report(options.output)))
     print(f"wrote {options.output}")
 
 
 def _check(options: argparse.Namespace) -> None:
+    from cosserat.thesis.outputs.verify import warn_unless_released
     from cosserat.thesis.table.measure import check
     from cosserat.thesis.table.tolerances import read_report
 
+    warn_unless_released(options.report.parent, [options.report.name])
     print(check(read_report(options.report)))
 
 

@@ -88,7 +88,6 @@ peers /bin/false -o p.csv
 peers /bin/true -o p.csv
 peers a.py -o p.csv
 chapter a.py -o x.ipynb
-chapter b.py -o d
 chapter b.py -o none/x.ipynb
 book a.ipynb -o b
 book e.ipynb -o b

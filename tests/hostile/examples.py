@@ -52,6 +52,7 @@ _COMPLETED: dict[str, tuple[dict[str, Any], ...]] = {
     "Gait": ({"phases": ["3.15 s", "1.75 s"]},),
     "Measured": ({"table": [["0 s", "0.1 m"], ["4.9 s", "0 m"]], "length": "0.1 m"},),
     "Chamber": ({"begin": 0, "end": 1, "schedule": [[0, 1, "anchoring"]]},),
+    "Factor": ({"rod": {"length": ["1 m", "1.1 m"]}},),
 }
 """Keys beside those that a class requires, without which its table is not complete: of several choices, the first one
 that has the key in question."""
@@ -97,6 +98,8 @@ def right(value: Value, number: int = 0) -> Any:
             return max(value.about.at_least, min(3, value.about.at_most))
         case "word":
             return value.words[0]
+        case "names" | "keys":
+            return {"tip": "u.E2 at last"}
         case "name" | "text":
             return "a text"
         case "truth":

@@ -176,7 +176,7 @@ def _csv() -> Iterator[Input]:
         header = ",".join(
             f"{name} [{unit or '1'}]" for name, _, unit in (n.partition(" in ") for n in names)
         )
-        for what, rows, codes in _tables(header, len(names)):
+        for what, rows, codes in tables(header, len(names)):
             given = {"c.toml": content, "t.csv": rows}
             yield Input(f"CSV: {what}, {spot.path}", RUN, given, codes=codes, common=first)
         for name in (
@@ -206,7 +206,9 @@ def _many(columns: int) -> str:
     return "\n".join(",".join([str(n)] * columns) for n in range(300_000))
 
 
-def _tables(header: str, columns: int) -> Iterator[tuple[str, bytes, tuple[int, ...]]]:
+def tables(header: str, columns: int) -> Iterator[tuple[str, bytes, tuple[int, ...]]]:
+    """Broken CSV files: what is wrong, the file, and the exit codes that are as promised of a table of numbers."""
+
     def rows(*lines: str) -> bytes:
         return "\n".join(lines).encode()
 

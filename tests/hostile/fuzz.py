@@ -16,7 +16,7 @@ from cosserat.publications import titles
 
 from .examples import right
 from .judge import Input, Outcome, faults
-from .schema import BASE, CASE, bases, spots, whole
+from .schema import BASE, CASE, FAMILIES, bases, spots, whole
 from .toml import Raw, table
 from .values import CONTROL, NUMBERS, wrong
 from .worker import Worker, read_here
@@ -77,8 +77,10 @@ class Example:
     @property
     def content(self) -> bytes:
         """The bytes of the file."""
-        document: Document = {BASE: bases()[self.kind], CASE: {"like": BASE}}
-        if self.json:
+        document: Document = {BASE: bases().get(self.kind, {}), CASE: {"like": BASE}}
+        if self.kind in FAMILIES:
+            document = {BASE: bases()["rod statics"], CASE: FAMILIES[self.kind]}
+        elif self.json:
             document = {CASE: copy.deepcopy(whole(self.kind))}
         document = copy.deepcopy(document)
         texts = []
@@ -88,7 +90,9 @@ class Example:
             else:
                 _ON_TABLES[name](document, random.Random(seed), self.kind)
         text = (
-            _json(document[CASE]) if self.json else "\n".join(table(*item) for item in document.items())
+            _json(document[CASE])
+            if self.as_json
+            else "\n".join(table(*item) for item in document.items())
         )
         for name, seed in texts:
             text = _ON_TEXT[name](text, random.Random(seed))
@@ -97,15 +101,21 @@ class Example:
     @property
     def input(self) -> Input:
         """The same as a command."""
-        if self.json:
+        if self.as_json:
             return Input("", ("run", "-", "-o", "c.nc"), stdin=self.content)
-        return Input("", ("run", CASE, "--file", "c.toml", "-o", "c.nc"), {"c.toml": self.content})
+        word = self.kind if self.kind in FAMILIES else "run"
+        return Input("", (word, CASE, "--file", "c.toml", "-o", "c.nc"), {"c.toml": self.content})
+
+    @property
+    def as_json(self) -> bool:
+        """Whether it is given on standard input, as a case may be."""
+        return self.json and self.kind not in FAMILIES
 
 
 def example(seed: int, number: int) -> Example:
     """The example of this number."""
     chance = random.Random(f"{seed} {number}")
-    kind = chance.choice(list(bases()))
+    kind = chance.choice([*bases(), *FAMILIES])
     as_json = chance.random() < 0.15
     known = [*_ON_TABLES, *_ON_TABLES, *_ON_TEXT]
     count = min(_MOST, 1 + int(chance.expovariate(0.8)))
@@ -116,9 +126,9 @@ def example(seed: int, number: int) -> Example:
 def read(worker: Worker, given: Example) -> Outcome:
     """How the reader ends with it."""
     content = given.content
-    if given.json and not _is_text(content):
+    if given.as_json and not _is_text(content):
         given = replace(given, json=False)
-    return worker.call(read_here, content, CASE, given.json)
+    return worker.call(read_here, content, CASE, given.as_json)
 
 
 def shrunk(given: Example, ends_so: Callable[[Example], bool]) -> Example:
@@ -190,8 +200,8 @@ def _set_right(document: Document, chance: random.Random, kind: str) -> None:
 
 def _number(document: Document, chance: random.Random, kind: str) -> None:
     """Give a quantity of the schema a strange number in its own unit, or in another."""
-    chosen = [spot for spot in spots(kind, inner=True) if spot.value.form in ("quantity", "count")]
-    spot = chance.choice(chosen)
+    known = [*spots(kind, inner=True), *(spots("rod statics") if kind in FAMILIES else ())]
+    spot = chance.choice([spot for spot in known if spot.value.form in ("quantity", "count")])
     number = chance.choice(
         [*NUMBERS, "nan", "inf", "1e9", "-0", "0.1", f"1e{chance.randint(-330, 330)}"]
     )
@@ -350,5 +360,6 @@ CHANGES = (*_ON_TABLES, *_ON_TEXT)
 def named(given: Example) -> str:
     """Its class for a table: what was changed first."""
     return (
-        f"{given.changes[0][0] if given.changes else 'nothing'}: {given.kind}" + " as JSON" * given.json
+        f"{given.changes[0][0] if given.changes else 'nothing'}: {given.kind}"
+        + " as JSON" * given.as_json
     )

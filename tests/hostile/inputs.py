@@ -7,9 +7,9 @@ import zlib
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from . import commands, files
+from . import commands, families, files
 from .judge import Input
-from .schema import CASE, Spot, bases, file_of, spots, whole
+from .schema import CASE, FAMILIES, MEASURED, Spot, bases, file_of, spots, whole
 from .values import OPEN, SURE, wrong
 
 RUN = ("run", CASE, "--file", "c.toml", "-o", "c.nc")
@@ -25,6 +25,7 @@ def corpus() -> Iterator[Input]:
     yield from missing_keys()
     yield from files.inputs()
     yield from commands.inputs()
+    yield from families.inputs()
 
 
 def refused_at_once() -> list[Input]:
@@ -33,7 +34,7 @@ def refused_at_once() -> list[Input]:
     for number, spot in enumerate(each_key()):
         sure = [one for one in wrong(spot.value) if one[2] == SURE]
         found += [of_a_file(spot, *sure[number % len(sure)])] if sure else []
-    by_hand = [*from_standard_input(), *files.inputs(), *commands.inputs()]
+    by_hand = [*from_standard_input(), *files.inputs(), *commands.inputs(), *families.inputs()]
     found += [
         one for one in by_hand if one.codes == SURE and not one.alone and not one.before and one.common
     ]
@@ -43,7 +44,7 @@ def refused_at_once() -> list[Input]:
 def each_key() -> list[Spot]:
     """Every key once, of the first kind that has it."""
     found: dict[tuple[str, ...], Spot] = {}
-    for kind in bases():
+    for kind in (*bases(), *FAMILIES):
         for spot in spots(kind):
             found.setdefault(spot.same, spot)
     return list(found.values())
@@ -52,7 +53,9 @@ def each_key() -> list[Spot]:
 def of_a_file(spot: Spot, what: str, value: Any, codes: tuple[int, ...]) -> Input:
     """A case file in which a key has a wrong value."""
     content = file_of(spot.kind, spot.given(value, whole(spot.kind)))
-    return Input(f"{what}: {spot.kind}, {spot.path}", RUN, {"c.toml": content}, codes=codes)
+    given = {"c.toml": content, **MEASURED} if spot.kind in FAMILIES else {"c.toml": content}
+    command = families.SOLVE.get(spot.kind, RUN)
+    return Input(f"{what}: {spot.kind}, {spot.path}", command, given, codes=codes)
 
 
 def of_other_kinds() -> Iterator[Input]:
@@ -91,7 +94,7 @@ def _without(table: dict[str, Any], key: str) -> dict[str, Any]:
 
 def from_standard_input() -> Iterator[Input]:
     """Cases as JSON in which a key has one wrong value, in turn; JSON has null, and numbers without a limit."""
-    for number, spot in enumerate(each_key()):
+    for number, spot in enumerate(spot for spot in each_key() if spot.kind not in FAMILIES):
         for bad in (None, json_values()[number % len(json_values())]):
             problem = _deep_update(
                 json.loads(json.dumps(whole(spot.kind))), spot.given(bad, whole(spot.kind))

@@ -108,7 +108,12 @@ def faults(given: Input, ended: Outcome) -> list[str]:
     found += _spoken(ended) if "2>" not in given.shell else []
     written = ["c.nc"] if given.shell or ended.code == 0 else []  # perhaps nobody reads what it says
     written += given.links.values() if ended.code == 0 else []  # a link is followed
-    left = [name for name in ended.added if name not in written and not _promised(name, ended)]
+    kept = "c.study/" if ended.code in (0, 1) else "\0"  # of a study
+    left = [
+        name
+        for name in ended.added
+        if name not in written and not f"{name}/".startswith(kept) and not _promised(name, ended)
+    ]
     found += [f"file left: {_named(name)}" for name in left]
     found += [f"file changed: {_named(name)}" for name in ended.changed if not _promised(name, ended)]
     found += ended.wrong

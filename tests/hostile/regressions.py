@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Any
 
+from .families import SOLVE
 from .judge import Input
-from .schema import CASE, file_of
+from .schema import CASE, MEASURED, file_of
 from .values import SURE
 
 _RUN = ("run", CASE, "--file", "c.toml", "-o", "c.nc")
@@ -47,6 +49,16 @@ KeyError | --merged schema
 two lines | run c --hours
 two lines | plot c.nc --frames abc
 """
+_FAMILIES: tuple[tuple[str, str, dict[str, Any]], ...] = (
+    (
+        "ValueError: no member in range",
+        "study",
+        {"vary": [{"sobol": 4, "rod": {"length": {"uniform": ["1e299 m", "1e300 m"]}}}]},
+    ),
+    ("endless: many read-outs", "study", {"keep": {f"k{n}": "u.E2 at last" for n in range(3000)}}),
+    ("long sentence: whole variable", "study", {"keep_whole": ["a" * 5000]}),
+    ("long sentence: read-out of a fit", "fit", {"keep": {"a" * 5000: "u.E2 at last"}}),
+)
 
 
 def _case(name: str, kind: str, written: str) -> Input:
@@ -62,6 +74,12 @@ def _found() -> Iterator[tuple[str, Callable[[], Input]]]:
         fault, words = line.split(" | ")
         name = f"{fault}: {words}"
         yield name, partial(Input, name, tuple(words.split()), codes=SURE)
+    for name, word, changes in _FAMILIES:
+        yield name, partial(_family, name, word, changes)
+
+
+def _family(name: str, word: str, changes: dict[str, Any]) -> Input:
+    return Input(name, SOLVE[word], {"c.toml": file_of(word, changes), **MEASURED})
 
 
 FOUND = dict(_found())

@@ -13,8 +13,8 @@ from typing import Any
 from pydantic import BaseModel
 
 import cosserat
-from cosserat.describe.keys import Value
-from cosserat.publications import kinds
+from cosserat.describe.keys import Value, described
+from cosserat.publications import FIT, STUDY, kinds
 
 from .examples import chosen, example, type_of
 from .toml import table
@@ -29,6 +29,24 @@ _CONTEXT: dict[str, dict[str, Any]] = {
     "Calibration": {"rod": {"energy": "published"}},
     "Chamber": {"gait": {"gamma": [], "eta": []}},
 }
+FAMILIES: dict[str, dict[str, Any]] = {
+    STUDY: {
+        "kind": STUDY,
+        "of": BASE,
+        "keep": {"tip": "u.E2 at last"},
+        "vary": [{"rod": {"length": ["1 m", "1.1 m"]}}],
+    },
+    FIT: {
+        "kind": FIT,
+        "of": BASE,
+        "data": "data.csv",
+        "free": {"rod": {"material": {"young": ["0.1 GPa", "10 GPa"]}}},
+        "keep": {"tip": "u.E2 at last"},
+    },
+}
+"""Small studies and fits of the small static case, by the word of their kind."""
+MEASURED = {"data.csv": b"forces.0.force [N],tip [m]\n0.5,0.32\n1,0.51\n2,0.68\n"}
+"""What the fit reads."""
 """Keys elsewhere in the case that a table of a class needs."""
 
 
@@ -103,7 +121,7 @@ def _is_there(owner: type[BaseModel], way: tuple[Step, ...], base: Mapping[str, 
 @functools.cache
 def spots(kind: str, *, inner: bool = False) -> tuple[Spot, ...]:
     """Every key of a kind; `inner` : also those of the problems inside it, which are those of their own kinds."""
-    return tuple(_spots(kind, kinds()[kind].problem_class(), (), inner))
+    return tuple(_spots(kind, described()[kind], (), inner))
 
 
 def _spots(kind: str, owner: type[BaseModel], way: tuple[Step, ...], inner: bool) -> Iterator[Spot]:
@@ -134,7 +152,9 @@ def bases() -> dict[str, dict[str, Any]]:
 
 @functools.cache
 def whole(kind: str) -> dict[str, Any]:
-    """The small case of a kind with all that it inherits, in SI units."""
+    """The small case of a kind with all that it inherits, in SI units; a study or a fit as it is written."""
+    if kind in FAMILIES:
+        return FAMILIES[kind]
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "base.toml"
         file.write_bytes(file_of(kind, {}))
@@ -142,6 +162,10 @@ def whole(kind: str) -> dict[str, Any]:
 
 
 def file_of(kind: str, changes: Mapping[str, Any]) -> bytes:
-    """A case file whose case `c` is the small one of a kind with these top-level keys."""
+    """A case file whose case, study or fit `c` is the small one of a kind with these top-level keys."""
+    if kind in FAMILIES:
+        written = {**FAMILIES[kind], **changes}
+        text = f"{table(BASE, bases()['rod statics'])}\n{table(CASE, written)}"
+        return text.encode("utf-8", "surrogateescape")
     text = f"{table(BASE, bases()[kind])}\n{table(CASE, {'like': BASE, **changes})}"
     return text.encode("utf-8", "surrogateescape")

@@ -12,6 +12,7 @@ from cosserat.publications import kinds
 from . import damage, fuzz, lines
 from .judge import faults
 from .regressions import FOUND
+from .schema import FAMILIES
 
 CASES, LINES, FILES, FOREIGN = 220, 40, 100, 4
 """Case files, command lines, and damaged results with and without a digest that are tried, the same in each run: to
@@ -19,7 +20,9 @@ read one without a digest takes a process of its own."""
 CHANGES = st.lists(
     st.tuples(st.sampled_from(fuzz.CHANGES), st.integers(0, 2**32 - 1)), min_size=1, max_size=6
 )
-EXAMPLES = st.builds(fuzz.Example, st.sampled_from(list(kinds())), CHANGES.map(tuple), st.booleans())
+EXAMPLES = st.builds(
+    fuzz.Example, st.sampled_from([*kinds(), *FAMILIES]), CHANGES.map(tuple), st.booleans()
+)
 
 
 @given(example=EXAMPLES)

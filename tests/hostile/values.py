@@ -40,6 +40,8 @@ def wrong(value: Value) -> Iterator[tuple[str, Any, tuple[int, ...]]]:
             yield from _wrong_list(value)
         case "either":
             yield from _wrong_either(value)
+        case "names" | "keys":
+            yield from _wrong_names(value)
 
 
 def _anything() -> Iterator[tuple[str, Any]]:
@@ -152,3 +154,19 @@ def _wrong_either(value: Value) -> Iterator[tuple[str, Any, tuple[int, ...]]]:
     for part in value.items:
         for what, bad, _ in wrong(part):
             yield what, bad, OPEN
+
+
+def _wrong_names(value: Value) -> Iterator[tuple[str, Any, tuple[int, ...]]]:
+    """Tables whose keys the user names, or whose keys are those of a case."""
+    for bad in (5, [5], "a", True):
+        yield "type", bad, OPEN
+    for what, bad in _anything():
+        yield what, bad, OPEN if what == "none" else SURE
+    for name in ("", "a b", CONTROL, "a" * 5000, "kind", "rod", "../x", "x", "1"):
+        yield "unknown key", {name: "u.E2 at last"}, OPEN
+    yield "empty table", {}, OPEN
+    yield "many", {f"k{n}": "u.E2 at last" for n in range(3000)}, OPEN
+    yield "deep inside", {"rod": {"rod": {"rod": {"rod": [[{}]]}}}}, SURE
+    for item in value.items:
+        for what, bad, _ in wrong(item):
+            yield f"{what} inside", {"tip": bad}, OPEN

@@ -178,8 +178,8 @@ def run_here(given: Input) -> Outcome:
 
 
 def read_here(content: bytes, name: str, json: bool) -> Outcome:
-    """Read one case of a file, or a case as JSON."""
-    from cosserat.cases.catalogue import find, parse
+    """Read one case, study or fit of a file, or a case as JSON."""
+    from cosserat.cases.catalogue import parse
     from cosserat.errors import CosseratWarning, InputError
 
     file = Path("c.toml")
@@ -188,7 +188,7 @@ def read_here(content: bytes, name: str, json: bool) -> Outcome:
     start = time.process_time()
     with warnings.catch_warnings(record=True) as leaked:
         try:
-            parse(content.decode()) if json else find(name, file)
+            parse(content.decode()) if json else _read(name, file)
         except InputError as error:
             code, said = 2, f"cosserat: {error}\n"
         except BaseException as error:
@@ -196,6 +196,19 @@ def read_here(content: bytes, name: str, json: bool) -> Outcome:
     foreign = [found for found in leaked if not issubclass(found.category, CosseratWarning)]
     shown = "".join(f"{found.category.__name__}: {found.message}\n" for found in foreign)
     return Outcome(code, "", shown + said, time.process_time() - start, raised, place)
+
+
+def _read(name: str, file: Path) -> None:
+    from cosserat.cases.catalogue import find, find_base, fit_tables, study_tables
+    from cosserat.studies.analysis.fitting import Fit
+    from cosserat.studies.door import find_study
+
+    if name in study_tables(file):
+        find_study(name, file)
+    elif name in (fits := fit_tables(file)):
+        find_base(Fit.read(fits[name], "fit").of, file)
+    else:
+        find(name, file)
 
 
 def run_alone(given: Input) -> Outcome:

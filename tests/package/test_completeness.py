@@ -31,6 +31,7 @@ ROOMS = (
     "text",
     "errors",
     "signals",
+    "memory",
     "reading",
     "units",
     "synonyms",

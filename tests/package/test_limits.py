@@ -1,6 +1,7 @@
 """Work and space are estimated before they are spent, progress is shown anywhere, and signals end a run in one line."""
 
 import io
+import os
 import re
 import signal
 import subprocess
@@ -11,12 +12,14 @@ import pytest
 from conftest import ROOT
 
 import cosserat
+from cosserat import memory, signals
 from cosserat.cli import main
 from cosserat.errors import InputError, NotConvergedError, OverLimitError
 from cosserat.limits import Limits, Watched
 from cosserat.problem import Forecast
 from cosserat.problems.static import RodStatics
 from cosserat.progress import Lines, duration, size
+from cosserat.publications import kinds
 from cosserat.solution import Solution
 from cosserat.solvers.heartbeat import beat, listening
 
@@ -43,6 +46,131 @@ def motion(**changes):
 def test_a_run_without_end_is_refused_at_once(changes, sentence):
     with pytest.raises(OverLimitError, match=f"case 'long': {sentence}"):
         cosserat.run(motion(**changes))
+
+
+FOLLOWED = [{"at": "last", "along": "E2", "force": 0.1}]
+
+
+@pytest.mark.parametrize(
+    ("kind", "changes", "sentence"),
+    [
+        ("modes", {"count": 20_000}, r"20000 modes of 20001 vertices would take about 35\.6 h, over"),
+        (
+            "modes",
+            {"count": 2000},
+            r"2000 modes of 20001 vertices need about 9\.6 GB of memory, and 8 GB are free; take",
+        ),
+        (
+            "critical loads",
+            {"forces": (), "follower_forces": FOLLOWED},
+            "4 modes of 20001 vertices would take .* years",
+        ),
+        (
+            "rod path",
+            {"arc": {"longest": 1e-9, "count": 10_000}},
+            "10000 points of 20001 vertices need about 70 GB of mem",
+        ),
+    ],
+)
+def test_eigenvalues_and_paths_that_the_machine_cannot_bear_are_refused_at_once(
+    monkeypatch, kind, changes, sentence
+):
+    monkeypatch.setattr("cosserat.memory.free", lambda: 8e9)
+    long = cosserat.case("column_path").problem.model_dump(exclude={"kind", "arc"})
+    problem = kinds()[kind].problem_class().read(long | changes, "long", units_required=False)
+    problem = problem.replace(rod=problem.rod.replace(vertices=20_001))
+    with pytest.raises(InputError, match=f"^long: {sentence}"):
+        Limits().check(problem.forecast, "long", None)
+
+
+def test_memory_that_is_free_is_that_of_the_machine_and_of_the_limit(monkeypatch, tmp_path):
+    machine, own = tmp_path / "meminfo", tmp_path / "statm"
+    machine.write_text("MemTotal: 900 kB\nMemAvailable: 500 kB\n")
+    own.write_text("100 20 10\n")
+    monkeypatch.setattr(memory, "_MACHINE", machine)
+    monkeypatch.setattr(memory, "_OWN", own)
+    monkeypatch.setattr(memory, "limit_of_memory", lambda: None)
+    assert memory.free() == 500 * 1024
+    pages = 100 * os.sysconf("SC_PAGE_SIZE")
+    monkeypatch.setattr(memory, "limit_of_memory", lambda: pages + 4000)
+    assert memory.free() == 4000
+    machine.unlink()
+    assert memory.free() == 4000
+
+
+WATCHED = """
+import os, resource, signal, sys
+from cosserat import memory
+resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+memory._reserve = lambda: None
+status = memory.watched(int(sys.argv[1]))
+if status is not None:
+    sys.exit(status)
+os.write(2, b"of a library\\n")
+print("of Python", file=sys.stderr)
+exec(sys.argv[2])
+"""
+
+
+@pytest.mark.parametrize(
+    ("limit", "end", "status", "words"),
+    [
+        (
+            10**8,
+            "",
+            2,
+            "cosserat: the limit of 100 MB of address space is too small, cosserat needs 1000 MB; raise",
+        ),
+        (
+            2 * 10**9,
+            "os.abort()",
+            2,
+            "of Python\ncosserat: there is not enough memory: a library gave up under",
+        ),
+        (
+            2 * 10**9,
+            "os.kill(os.getpid(), signal.SIGSEGV)",
+            2,
+            "of Python\ncosserat: there is not enough memory",
+        ),
+        (
+            2 * 10**9,
+            "os.kill(os.getpid(), signal.SIGKILL)",
+            -signal.SIGKILL,
+            "of Python\nof a library\n",
+        ),
+        (2 * 10**9, "sys.exit(7)", 7, "of Python\nof a library\n"),
+    ],
+)
+def test_under_a_limit_of_memory_the_end_of_a_library_is_a_sentence(limit, end, status, words):
+    done = subprocess.run(
+        [sys.executable, "-c", WATCHED, str(limit), end],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr[: len(words)]) == (status, words)
+    assert done.stderr.count("cosserat: ") == int(status == 2)
+
+
+def test_a_signal_reaches_who_works_under_a_limit_and_one_that_is_deaf_is_ended():
+    deaf = "signal.pthread_sigmask(signal.SIG_BLOCK, [15]); print('on', flush=True); signal.pause()"
+    impatient = WATCHED.replace("memory._reserve", "memory._LATEST = 1; memory._reserve")
+    process = subprocess.Popen(
+        [sys.executable, "-c", impatient, "2000000000", deaf],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout.readline() == "on\n"
+    process.terminate()
+    _, errors = process.communicate(timeout=20)
+    assert (process.returncode, errors.splitlines()[-1]) == (
+        143,
+        "cosserat: terminated; no incomplete file was written",
+    )
 
 
 def test_a_crawl_without_end_is_refused_and_the_limit_is_raised_by_name(capsys):
@@ -158,8 +286,11 @@ def test_linear_algebra_has_one_thread_in_a_run(monkeypatch):
     cosserat.run("clamped_free")
 
 
-def test_most_problems_foresee_nothing():
+def test_statics_foresee_nothing_and_a_path_only_what_it_needs_at_least():
     assert cosserat.case("elastica").problem.forecast == Forecast()
+    path = cosserat.case("column_path").problem
+    assert path.arc.longest == 0.3
+    assert path.forecast.work == f"4 points of {path.rod.vertices} vertices"
 
 
 SLOW = "import sys, time, cosserat.cli, cosserat.__main__ as m\n"
@@ -197,6 +328,13 @@ def test_signals_end_a_process_with_one_line_also_where_the_exception_is_swallow
         status,
         f"cosserat: {words}; no incomplete file was written\n",
     )
+
+
+def test_a_second_signal_does_not_disturb_the_end_of_the_run(monkeypatch):
+    monkeypatch.setattr(signals, "received", [])
+    with pytest.raises(signals.Stopped):
+        signals._stop(signal.SIGINT, None)
+    signals._stop(signal.SIGINT, None)
 
 
 def test_an_error_keeps_its_class_and_its_parts(tmp_path, capsys, monkeypatch):

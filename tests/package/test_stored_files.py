@@ -127,6 +127,36 @@ def test_a_file_in_the_place_of_the_parts_is_named_before_anything_is_computed(t
         cosserat.run("clamped_free", result=tmp_path / "x.nc")
 
 
+@pytest.mark.parametrize(
+    ("mounted", "kind"),
+    [
+        ("nfs rw,vers=3,local_lock=none", ""),
+        ("nfs4 rw,local_lock=all", "nfs4"),
+        ("nfs rw,nolock,hard", "nfs"),
+        ("lustre rw,localflock", "lustre"),
+        ("lustre rw,flock", ""),
+        ("fuse.sshfs rw", "fuse.sshfs"),
+        ("ext4 rw", ""),
+    ],
+)
+def test_a_file_system_whose_locks_other_machines_do_not_see_is_named_once(
+    tmp_path, monkeypatch, mounted, kind
+):
+    mounts, shared = tmp_path / "mounts", tmp_path / "my share"
+    shared.mkdir()
+    place = str(shared).replace(" ", "\\040")
+    mounts.write_text(f"/dev/a / ext4 rw 0 0\nhost:/x {place} {mounted} 0 0\nb {place}er 9p rw 0 0\n")
+    monkeypatch.setattr("cosserat.data.locks._MOUNTS", mounts)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        with only_writer(shared / "x.nc"), only_writer(shared / "x.nc"):
+            pass
+    assert [str(one.message) for one in said] == [
+        f"the file system of {shared} ({kind}) takes locks for this machine alone; see to it that no run on another "
+        "one writes x.nc"
+    ] * bool(kind)
+
+
 HOLD = "import sys, pathlib; from cosserat.data.locks import only_writer\n"
 HOLD += "with only_writer(pathlib.Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
 

@@ -159,6 +159,31 @@ def test_a_changed_result_differs_and_says_where_and_by_how_much(solved, release
     assert "u: 1e-08 m at vertex 7, axis 1" in reason
 
 
+def test_what_reads_an_output_whose_digests_were_computed_anew_says_that_it_is_not_as_released(
+    solved, released, capsys
+):
+    """Nobody can tell it by the file alone; rows and pictures of another processor's results need no word."""
+    results, _ = released
+    cases = ["--cases", str(results / "cases")]
+    for by, said in ((1e-11, ""), (1e-8, "clamped_free.nc is not as released: ")):
+        save_moved(solved, released, by)
+        assert cosserat.data.netcdf.load(results / "cases/clamped_free.nc", own=True).sizes
+        assert (
+            main(["figure", "fig_3_10", *cases, "-o", str(results / "x.svg")]) == 2
+        )  # other cases are missing
+        told = capsys.readouterr().err
+        assert (said in told) if said else ("released" not in told)
+    assert "u: 1e-08 m at vertex 7" in told
+    main(["measure", *cases, "-o", str(results / "y.csv")])
+    assert said in capsys.readouterr().err
+    report = results / manifest.REPORT
+    assert main(["check", str(report)]) == 0
+    assert "released" not in capsys.readouterr().err
+    report.write_text(report.read_text().replace(",within\n", ',"outside, as claimed"\n', 1))
+    main(["check", str(report)])
+    assert "report.csv is not as released: " in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("content", [b"", b"not netCDF", b"\x89HDF\r\n\x1a\n"])
 def test_a_damaged_result_differs(released, content):
     (released[0] / "cases/clamped_free.nc").write_bytes(content)

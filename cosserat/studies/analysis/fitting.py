@@ -15,7 +15,10 @@ from cosserat.data.files import check_destination
 from cosserat.data.locks import only_writer
 from cosserat.data.netcdf import check_replaceable, save
 from cosserat.errors import InputError, path_of
+from cosserat.limits import Limits, Watched
 from cosserat.parameters import Items, Parameters, nearest
+from cosserat.progress import bar
+from cosserat.solvers.heartbeat import listening
 from cosserat.studies.analysis.fit import fit
 from cosserat.studies.study import flattened
 from cosserat.text import Title, printable, shortened
@@ -81,7 +84,8 @@ def command(options: argparse.Namespace) -> None:
     path = given / f"{options.fit}.nc" if os.path.isdir(given) else given
     check_destination(path, ".nc", inputs=(options.file,))
     check_replaceable(path)
-    with only_writer(path):
+    name = f"fit '{shortened(options.fit)}'"
+    with only_writer(path), bar(options.fit) as report, listening(Watched(report, Limits(), name).hear):
         found = fitted(options.fit, options.file)
         save(found, path)
     print(printable(f"{options.fit}: {found.attrs['title']}"))

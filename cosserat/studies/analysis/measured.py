@@ -18,10 +18,12 @@ from cosserat.problem import Problem
 from cosserat.studies.factors import TITLE, cell, rows_of
 from cosserat.studies.keys import VariedKey, read_value, varied_key
 from cosserat.studies.readouts import ReadOut, unit_to_read
-from cosserat.text import shown
+from cosserat.text import shortened, shown
 from cosserat.units import to_si
 
 Array = NDArray[np.float64]
+MOST_ROWS = 50_000
+"""Most rows of the data of a fit."""
 Columns = Mapping[str, Sequence[object]]
 _DEVIATION = "_deviation"
 
@@ -71,6 +73,10 @@ def measured(
             )
     else:
         titles, units, columns, where = _from_file(path_of(data), name)
+    if len(columns[0]) > MOST_ROWS:
+        raise InputError(
+            f"{where} has {len(columns[0])} rows; a fit takes up to {MOST_ROWS}: give every second one, or their means"
+        )
     for title, times in Counter(titles).items():
         if times > 1:
             raise InputError(f"{where} has the column {shown(title)} {times} times; give it once")
@@ -78,11 +84,11 @@ def measured(
     other = set(deviations) - set(by_name)
     if other:
         raise InputError(
-            f"{name}: 'deviations' names '{min(other)}', which is not fitted{nearest(min(other), list(by_name))}"
+            f"{name}: 'deviations' names {shown(min(other))}, which is not fitted{nearest(min(other), list(by_name))}"
         )
     own = [title for title in titles if title in by_name]
     if set(own) != set(by_name):
-        lacking = ", ".join(sorted(set(by_name) - set(own)))
+        lacking = shortened(", ".join(sorted(set(by_name) - set(own))))
         raise InputError(
             f"{where} has no column {lacking}; name one for each read-out, such as 'tip [mm]'"
         )

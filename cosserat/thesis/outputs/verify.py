@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from cosserat.data.netcdf import load
-from cosserat.errors import InputError, OutOfToleranceError
+from cosserat.errors import CosseratWarning, InputError, OutOfToleranceError
 from cosserat.thesis.outputs.manifest import (
     CHECK,
+    NAME,
     OF_A_TOLERANCE,
     REPORT,
     Output,
     content_of,
     digest,
     is_round_off,
+    read,
     reference_of,
 )
 from cosserat.thesis.table.reference import compare
@@ -43,6 +46,27 @@ class Verdict:
 def verify(outputs: Sequence[Output], results: Path, reference: Path) -> list[Verdict]:
     """The verdict on every output of a manifest; changed contents are compared with the stored references."""
     return [_verdict(output, results / output.path, reference) for output in outputs]
+
+
+def warn_unless_released(results: Path, paths: Sequence[str]) -> None:
+    """Warn of outputs in a folder of results that differ from those of its manifest; without a manifest, of none.
+
+    A digest is no signature: whoever changes a result can compute it anew.  The manifest is tracked with the code.
+    """
+    reference = results / "reference"
+    if not (reference / NAME).is_file():
+        return
+    for output in read(reference / NAME):
+        if output.path not in paths:
+            continue
+        found = _verdict(output, results / output.path, reference)
+        if found.word == DIFFERS:
+            warnings.warn(
+                f"{results / output.path} is not as released: {found.reason}; if neither its case nor the code was "
+                "changed, delete it and make it again",
+                CosseratWarning,
+                stacklevel=2,
+            )
 
 
 def conclude(verdicts: Sequence[Verdict]) -> str:

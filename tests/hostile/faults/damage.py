@@ -12,8 +12,9 @@ import netCDF4
 import numpy as np
 
 import cosserat
+from cosserat.data.content import stamped
 
-from .processes import call, end, environment, expect_sentence, expect_success, start, undisturbed
+from .processes import ROOT, call, end, environment, expect_sentence, expect_success, start, undisturbed
 from .table import Trial, expect, fault
 
 KIND = "damaged file"
@@ -137,6 +138,34 @@ def _edited(trial: Trial) -> Iterator[None]:
         expect("Traceback" not in done.err, done.told)
     else:
         expect_sentence(done, 2, naming=[path.name])
+    yield
+
+
+@fault(
+    KIND,
+    "a value of a released output is edited and all its digests are computed anew",
+    "`verify` says that it differs; what measures or draws it says that it is not as released.",
+    3,
+)
+def _forged(trial: Trial) -> Iterator[None]:
+    """The file alone cannot tell: the manifest of the release does."""
+    cases, reference = trial.folder / "cases", ROOT / "results" / "reference"
+    cases.mkdir()
+    (trial.folder / "reference").symlink_to(reference)
+    path = cases / "clamped_free.nc"
+    expect_success(call(trial.folder, "run", "clamped_free", "-o", path))
+    result = cosserat.load(path)
+    result["u"][7, 1] += 1e-6
+    cosserat.save(stamped(result), path)
+    words = (
+        ("verify", "--results", trial.folder, "--references", reference),
+        ("measure", "--cases", cases, "--table", ROOT / "results" / "tolerances.csv", "-o", "x.csv"),
+        ("figure", "fig_3_10", "--cases", cases, "-o", "x.svg"),
+    )[trial.number]
+    done = call(trial.folder, *words)  # other cases are missing there
+    said = [line for line in (done.out + done.err).splitlines() if "clamped_free.nc" in line]
+    expect(done.code in (1, 2), done.told)
+    expect(any("differs" in line or "not as released" in line for line in said), f"no word: {done.told}")
     yield
 
 

@@ -96,7 +96,7 @@ def start(
         stdout=stdout,
         stderr=subprocess.PIPE,
         text=True,
-        preexec_fn=before or _interruptible,  # noqa: PLW1509 - this process has no other threads
+        preexec_fn=before or interruptible,  # noqa: PLW1509 - this process has no other threads
         start_new_session=True,
     )
     if marked and running.stdout is not None:
@@ -104,7 +104,7 @@ def start(
     return running
 
 
-def _interruptible() -> None:
+def interruptible() -> None:
     """Ctrl-C reaches a process also if the shell behind this one ignores it."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 

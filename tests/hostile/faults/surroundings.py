@@ -8,6 +8,8 @@ import subprocess
 import sys
 from collections.abc import Iterator
 
+from cosserat.memory import LEAST
+
 from .processes import (
     CASES,
     Done,
@@ -122,15 +124,14 @@ def _pipe(trial: Trial) -> Iterator[None]:
     yield
 
 
-MEMORY = ("long_statics", "long_crawl", "long_motion", "long_path", "motion", "crawl")
+MEMORY = ("motion", "long_posture", "long_statics", "long_motion", "long_path", "large_modes")
 
 
-@fault(KIND, "too little memory", "One sentence, exit 2, or the result; nothing invalid is left.", 18)
+@fault(KIND, "too little memory", "One sentence, exit 2, or the result; nothing invalid is left.", 24)
 def _memory(trial: Trial) -> Iterator[None]:
-    """As much as the start needs, and a random amount more."""
+    """From half of what cosserat asks for to twice as much, under a limit of the address space."""
     case = MEMORY[trial.number % len(MEMORY)]
-    least = _needed()
-    limit = least + int(trial.rng.uniform(0, 150e6))
+    limit = int(LEAST * trial.rng.uniform(*((0.5, 1.0) if trial.number % 4 == 0 else (1.0, 2.0))))
 
     def limited() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
@@ -138,9 +139,10 @@ def _memory(trial: Trial) -> Iterator[None]:
     running = start(trial.folder, *run_words(case, "x.nc"), before=limited)
     try:
         running.wait(20)
-    except subprocess.TimeoutExpired:  # it had enough
+    except subprocess.TimeoutExpired:  # it had enough, and can be stopped
         running.terminate()
-        running.communicate()
+        expect_sentence(end(running), 143)
+        yield
         return
     done = end(running)
     expect_whole_files(trial.folder)
@@ -148,27 +150,7 @@ def _memory(trial: Trial) -> Iterator[None]:
         expect_success(done)
     else:
         expect_sentence(done, 1, 2)
-        expect("memory" in done.err, f"not about memory: {done.told}")
+        expect("memory" in done.err or "address space" in done.err, f"not about memory: {done.told}")
         left = [path.name for path in trial.folder.iterdir() if path.name != "x.nc.parts"]
         expect(not left, f"left in the folder: {' '.join(left)}")
     yield
-
-
-def _needed() -> int:
-    """Address space of a small run [bytes]."""
-    if not _NEEDED:
-        running = start(undisturbed("posture").path.parent, *run_words("posture", "memory.nc"))
-        most = 0
-        while running.poll() is None:
-            try:
-                with open(f"/proc/{running.pid}/status") as status:
-                    lines = dict(line.split(":", 1) for line in status)
-                most = max(most, int(lines.get("VmPeak", "0 kB").split()[0]) * 1024)
-            except (OSError, ValueError):
-                break
-        end(running)
-        _NEEDED.append(most)
-    return _NEEDED[0]
-
-
-_NEEDED: list[int] = []
