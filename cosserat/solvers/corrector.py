@@ -94,8 +94,8 @@ def _compiled() -> Callable[..., int]:
 class Balance:
     """Balanced forces at q and a load factor.
 
-    rounding, negative, log : as in `Equilibrium`, log of the determinant.  rate : (n,) of the DOFs with the factor; None
-    if the Hessian is singular.
+    rounding, negative, log : as in `Equilibrium`, log of the determinant.  rate : (n,) of the DOFs with the factor;
+    None if the Hessian is singular.
     """
 
     q: Vector
