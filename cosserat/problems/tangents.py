@@ -9,8 +9,8 @@ Supports that hold DOFs elsewhere add the Hessian times the gap to the right-han
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -22,7 +22,8 @@ from cosserat.problems.posed import PosedProblem
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
-from cosserat.solution import Field, Solution
+from cosserat.solution import Field, FieldRates, Solution
+from cosserat.solvers.climb import BESIDE, NEARLY_CRITICAL
 from cosserat.solvers.equilibrium import Equilibrium
 from cosserat.solvers.slopes import slope
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
@@ -49,10 +50,8 @@ class NearKey:
         return self.made(step)
 
 
-_SINGULAR = 1e-8  # of the load, within which of a critical one the equilibrium has no derivative
 _ROUGH = 1e-5  # of the largest derivative, above which its error says that there is none
 _ROUNDED = 1e-12  # of the largest reaction, below which a force is round-off
-_BESIDE = 1e-6  # of the load, to the Hessian that shows how fast the softest eigenvalue changes
 _INVERSE_ITERATIONS = 12
 
 
@@ -78,11 +77,15 @@ class Motion:
     """A result that moves with several parameters.
 
     base : the result itself.  ways : how it moves with each.  lost : why it does not, for each; empty where it does.
+    rates : of its fields, with some of the parameters at once; None where these are not known apart from the ways.
+    rated : the number among those of the rates, by that of a parameter.
     """
 
     base: Solution
     ways: tuple[Moving, ...]
     lost: tuple[str, ...]
+    rates: FieldRates | None = None
+    rated: Mapping[int, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -322,10 +325,10 @@ def _is_critical(base: Body, point: Equilibrium, tangent: Tangent) -> bool:
         return True
     change = np.where(system.constrained, system.prescribed_rate(point.factor), change)
     ahead, behind = (
-        base.tangent(point.q + f * change, point.history, point.factor + f) for f in (_BESIDE, -_BESIDE)
+        base.tangent(point.q + f * change, point.history, point.factor + f) for f in (BESIDE, -BESIDE)
     )
-    along = float(x @ ahead.product(x) - x @ behind.product(x)) / (2 * _BESIDE)
-    return abs(value) <= _SINGULAR * abs(along)
+    along = float(x @ ahead.product(x) - x @ behind.product(x)) / (2 * BESIDE)
+    return abs(value) <= NEARLY_CRITICAL * abs(along)
 
 
 def total_mass(

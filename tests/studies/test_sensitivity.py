@@ -5,7 +5,7 @@ import pytest
 
 import cosserat
 from cosserat.errors import InputError
-from cosserat.problems import moving_rows
+from cosserat.problems import moving
 from cosserat.solvers.slopes import slope
 
 from .gradients import FILE, compared
@@ -122,7 +122,7 @@ def test_columns_and_whole_problems_give_the_same_derivatives(name, monkeypatch)
     read = {"bent": "max |kappa|", "middle": "u.E2 at 10"}
     quick = cosserat.sensitivity(name, keys, read)
     asked = []
-    monkeypatch.setattr(moving_rows, "fits", lambda *own: asked.append(own) or False)
+    monkeypatch.setattr(moving, "has_rates", lambda *own: asked.append(own) or False)
     whole = cosserat.sensitivity(name, keys, read)
     assert asked
     for one in ("bent_scaled", "middle_scaled"):
