@@ -10,6 +10,7 @@ ends, and the factor falls with a power below one of it.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence, Set
 from dataclasses import replace
 from typing import Any
@@ -19,7 +20,16 @@ from numpy.typing import NDArray
 
 from cosserat.errors import CosseratError, InputError
 from cosserat.problems.critical import RodCriticalLoads
-from cosserat.problems.tangents import Body, Motion, Moved, Nearby, total_mass
+from cosserat.problems.moving_starts import moving_start
+from cosserat.problems.tangents import (
+    Body,
+    Made,
+    Motion,
+    Moved,
+    Nearby,
+    body_after,
+    total_mass,
+)
 from cosserat.solution import Solution
 from cosserat.solvers.banded import to_sparse
 from cosserat.solvers.critical import LinearCriterion, criterion_matrices
@@ -67,7 +77,9 @@ def moving_critical(
     CosseratError : there are none.
     """
     result = problem.solve(name)
-    body = Body.of(problem)
+    geometry = problem.geometry
+    system, _ = problem.grown(geometry, name)
+    body = Body(problem, geometry, system)
     fields, labels = total_mass(problem, body.geometry)
     result = replace(result, fields={**result.fields, **fields}, labels={**result.labels, **labels})
     _, linear, true, _ = problem.criteria(body.system, name)
@@ -76,14 +88,12 @@ def moving_critical(
         rates: dict[str, Array] = {}
         why = ""
         try:
-            if problem.before is not None:
-                raise InputError(
-                    "the loads grow from an equilibrium, and derivatives are of loads that grow from rest"
-                )
+            made = moving_start(problem, near, name)
             if linear.factor.size:
-                rates["linear_load_factor"] = _linear_rates(body, near, linear, problem.newton, name)
+                bodies = _bodies(body, near, made)
+                rates["linear_load_factor"] = _linear_rates(bodies, linear, problem.newton, name)
             if true is not None:
-                rates["special_load_factor"] = np.array([_true_rate(body, near, true)])
+                rates["special_load_factor"] = np.array([_true_rate(body, near, made, true)])
         except CosseratError as error:
             why = str(error)
         ways.append(MovedFactors(result, near, rates))
@@ -91,21 +101,31 @@ def moving_critical(
     return Motion(result, tuple(ways), tuple(lost))
 
 
+def _bodies(body: Body, near: Nearby, made: Made | None) -> Callable[[float], Body]:
+    """The body after a step."""
+
+    @functools.cache
+    def after(step: float) -> Body:
+        own = body if step == 0.0 else body_after(step, near, made)
+        if not np.array_equal(own.system.constrained, body.system.constrained):
+            raise InputError("the parameter changes which degrees of freedom are held")
+        return own
+
+    return after
+
+
 def _linear_rates(
-    body: Body, near: Nearby, linear: LinearCriterion, settings: NewtonSettings, name: str
+    bodies: Callable[[float], Body], linear: LinearCriterion, settings: NewtonSettings, name: str
 ) -> Array:
     """Rates of the factors of the linear criterion, (k,)."""
-    factors = linear.factor
+    body, factors = bodies(0.0), linear.factor
     if (np.abs(np.diff(factors)) <= _APART * factors[1:]).any():
         raise InputError("two modes of the linear criterion share a load factor")
     free = ~body.system.constrained
     right = [mode[free] for mode in linear.mode]
 
     def matrices(step: float) -> tuple[Any, Any]:
-        own = body if step == 0.0 else Body.of(near(step))
-        if not np.array_equal(own.system.constrained, body.system.constrained):
-            raise InputError("the parameter changes which degrees of freedom are held")
-        return criterion_matrices(EquilibriumSolver(own.system, settings, name))
+        return criterion_matrices(EquilibriumSolver(bodies(step).system, settings, name))
 
     stiffness, geometric = matrices(0.0)
     left = right
@@ -184,11 +204,11 @@ class _Critical:
         return float(_smooth(slope(product, self.floor))[0])
 
 
-def _true_rate(body: Body, near: Nearby, true: SpecialPoint) -> float:
+def _true_rate(body: Body, near: Nearby, made: Made | None, true: SpecialPoint) -> float:
     """Rate of the factor of a limit point or of a bifurcation."""
     at = _Critical(body, true)
     point, factor = true.point, true.point.factor
-    moved = Moved(near, body, point)
+    moved = Moved(near, body, point, made)
     gap = moved.gap()
     force = (moved.unbalanced() + at.tangent.product(gap))[at.free]
     along = float(at.w @ force)

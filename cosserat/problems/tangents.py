@@ -9,6 +9,7 @@ Supports that hold DOFs elsewhere add the Hessian times the gap to the right-han
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -121,6 +122,15 @@ class Body:
         return tangent
 
 
+Made = Callable[[float, PosedProblem, Geometry], MechanicalSystem]
+"""The system of a problem after a step, if that is not the one under all loads."""
+
+
+def body_after(step: float, nearby: Nearby, made: Made | None) -> Body:
+    """The body after a step of a parameter."""
+    return Body.of(nearby(step), None if made is None else functools.partial(made, step))
+
+
 def _turned(vectors: Array) -> Complex:
     """Vectors (..., 2) as complex numbers, whose quotients are rotations and stretches."""
     return vectors[..., 0] + 1j * vectors[..., 1]
@@ -158,7 +168,7 @@ def placed(base: Body, q: Array, rate: Array, steps: Array, references: Array) -
 class Moved:
     """An equilibrium that moves with a parameter.
 
-    at : the problem after a step.  base, point : those of no step.
+    nearby, made : the problem and its system after a step.  base, point : those of no step.
     rate : (n,) change of the DOFs with the step beyond those that keep the strains.
     reaction_rate : (n,) change of the force that holds each constrained DOF [N].
     """
@@ -168,7 +178,7 @@ class Moved:
         nearby: Nearby,
         base: Body,
         point: Equilibrium,
-        made: Callable[[PosedProblem, Geometry], MechanicalSystem] | None = None,
+        made: Made | None = None,
     ) -> None:
         self.nearby, self.base, self.point, self.made = nearby, base, point, made
         self.known: dict[float, Body] = {0.0: base}
@@ -183,7 +193,7 @@ class Moved:
         InputError : the parameter is out of its range there.
         """
         if step not in self.known:
-            found = Body.of(self.nearby(step), self.made)
+            found = body_after(step, self.nearby, self.made)
             if found.reference.shape != self.base.reference.shape:
                 raise InputError("the number of vertices changes with the parameter")
             if not np.array_equal(found.system.constrained, self.base.system.constrained):

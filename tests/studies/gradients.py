@@ -71,6 +71,9 @@ CASES = {
     ),
     "free": ((*ROD, "rod.material.density"), {"first": "natural_frequency at 3", "second": "natural_frequency at 4"}),
     "column": (ROD, FACTORS),
+    "posed_arch": ((*ROD, "pose.curvature", "forces.1.force"), FACTORS),
+    "begun_column": (("gravity.g",), FACTORS),
+    "begun": (("forces.0.force",), MODES),
     "arch": ((*ROD, "rod.rest.curvature", "forces.1.force"), FACTORS),
 }  # fmt: skip
 
