@@ -15,9 +15,8 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.errors import CosseratError
 from cosserat.problems.modes import RodModes
-from cosserat.problems.moving_starts import moving_start
+from cosserat.problems.moving_starts import begun_after
 from cosserat.problems.posed import PosedProblem
 from cosserat.problems.static import equilibrium_solution
 from cosserat.problems.tangents import Body, Motion, Moved, Nearby, move
@@ -167,15 +166,10 @@ def moving_modes(
     system = solver.system
     bare = point.factor == 0.0
     base = Body(problem, geometry, system)
-    moved, lost = [], []
+    moved = []
     for one in nearby:
-        made, why = _unloaded if bare else None, ""
-        try:
-            made = moving_start(problem, one, name) if problem.start_from is not None else made
-        except CosseratError as error:
-            why = str(error)
-        moved.append(Moved(one, base, point, made))
-        lost.append(why)
+        begun = begun_after(problem, one, name) if problem.start_from is not None else None
+        moved.append(Moved(one, base, point, _unloaded if bare else begun))
     held = not free_motions(system).any()
     found, more = (
         small_motions(system, point.q, count, supported=held, history=point.history)
@@ -185,10 +179,8 @@ def moving_modes(
     modes = Eigenvalues(k, found.shape.astype(complex), _single(k, others))
     at_rest = MovedModes(Moved(lambda _: problem, base, point), modes, name)
     at_rest.lacks = ""
-    ways = [MovedModes(one, modes, name) for one in moved]
-    left = [k for k, why in enumerate(lost) if not why]
-    for k, why in zip(left, move([moved[k] for k in left]) if left else (), strict=True):
-        lost[k] = why
+    ways, lost = [MovedModes(one, modes, name) for one in moved], move(moved) if moved else []
+    for way, why in zip(ways, lost, strict=True):
         if not why:
-            ways[k].solve()
+            way.solve()
     return Motion(at_rest.solution(0.0), tuple(ways), tuple(lost))

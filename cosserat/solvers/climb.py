@@ -624,7 +624,7 @@ def rates_all(
 
     derived: where a parameter changes the lengths of the reference by factors s of the DOFs, and an equilibrium keeps
     its strains, its DOFs are s q, and their forces 1 / s times those that are counted in the old lengths.  So the rate
-    of the gradient is that of `ways.constants`, less s' times the inner forces and less the rate of the loads.  The
+    of the gradient is that of the softened constants, less s' times the inner forces and less the rate of the loads.  The
     Hessian answers it.
     """
     count, n = q.shape
@@ -691,8 +691,8 @@ def _answer(
 ) -> float:
     """Overwrite the rates of the DOFs and of the forces that hold them, from that of the gradient in the latter.
 
-    whole : (n, w) the Hessian, which `body.band` has factorised.  Returns the fraction that round-off has in the rate
-    of the gradient.
+    whole : (n, w) the Hessian, whose factor the band of the body is.  Returns the fraction that round-off has in the
+    rate of the gradient.
     """
     step, rate, largest = found.q[row], found.reaction[row], 0.0
     for i in range(q.size):
@@ -723,7 +723,7 @@ def multiply(band: Fields, x: Vector, product: Vector) -> None:
 def _is_critical(body: Body, q: Vector, whole: Fields, x: Vector) -> bool:
     """Whether the softest eigenvalue would be zero at a load so near that no computation tells them apart.
 
-    whole : (n, w) the Hessian, which `body.band` has factorised.  x : (n,) is overwritten.  Next to a critical load
+    whole : (n, w) the Hessian, whose factor the band of the body is.  x : (n,) is overwritten.  Next to a critical load
     the softest eigenvalue is so far below all others that one inverse iteration gives its vector: if another one
     still changes it, the load is not critical.
     """

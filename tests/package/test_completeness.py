@@ -423,7 +423,7 @@ def test_the_version_is_written_in_one_place():
     assert f"version: {version}" in (ROOT / "CITATION.cff").read_text()
 
 
-LONGER = {"energy_momentum.py": 700, "reissner_kernel.py": 430, "climb.py": 600}
+LONGER = {"energy_momentum.py": 700, "reissner_kernel.py": 430, "climb.py": 760}
 """Compiled functions that call each other stand in one file."""
 
 

@@ -1,4 +1,4 @@
-"""Rates of equilibria for columns of values: against differenced equilibria, the bits of single runs, and their ends."""
+"""Rates of equilibria for columns of values: against differenced equilibria, one member by one, and at their ends."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,9 @@ def test_fields_move_as_differenced_equilibria_do(name):
     for field in FIELDS:
         own = rates.change[field][1][: len(keys)]
         right = np.array([slopes[field] for slopes in expected])
-        np.testing.assert_allclose(own, right, rtol=0, atol=1e-8 * np.abs(right).max() + 1e-11, err_msg=field)
+        np.testing.assert_allclose(
+            own, right, rtol=0, atol=1e-8 * np.abs(right).max() + 1e-11, err_msg=field
+        )
 
 
 def test_rates_do_not_depend_on_other_members():

@@ -40,6 +40,12 @@ MODES = {
     "shared": "effective_mass.E2 at 0",
 }
 FACTORS = {"linear": "linear_load_factor at 0", "true": "max special_load_factor"}
+SHAPES = {
+    **FACTORS,
+    "second": "norm linear_u at 1",
+    "thick": "norm linear_delta at 0",
+    "place": "norm special_x.E2",
+}
 CASES = {
     "bent": ((*ROD, "rod.section.shear_factor", "rod.material.density", "forces.0.force"), BENT),
     "moved": (
@@ -70,11 +76,11 @@ CASES = {
         {"first": "natural_frequency at 0", "third": "natural_frequency at 2"},
     ),
     "free": ((*ROD, "rod.material.density"), {"first": "natural_frequency at 3", "second": "natural_frequency at 4"}),
-    "column": (ROD, FACTORS),
-    "posed_arch": ((*ROD, "pose.curvature", "forces.1.force"), FACTORS),
+    "column": (ROD, {**FACTORS, "thick": "norm linear_delta at 0", "place": "norm special_x"}),
+    "posed_arch": ((*ROD, "pose.curvature", "forces.1.force"), SHAPES),
     "begun_column": (("gravity.g",), FACTORS),
     "begun": (("forces.0.force",), MODES),
-    "arch": ((*ROD, "rod.rest.curvature", "forces.1.force"), FACTORS),
+    "arch": ((*ROD, "rod.rest.curvature", "forces.1.force"), SHAPES),
 }  # fmt: skip
 
 
