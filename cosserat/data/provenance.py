@@ -47,6 +47,7 @@ _COMPUTING = (
             "family",
             "solving",
             "derivatives",
+            "reduced",
         )
     ),
     "cases",

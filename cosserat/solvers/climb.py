@@ -624,8 +624,8 @@ def rates_all(
 
     derived: where a parameter changes the lengths of the reference by factors s of the DOFs, and an equilibrium keeps
     its strains, its DOFs are s q, and their forces 1 / s times those that are counted in the old lengths.  So the rate
-    of the gradient is that of the softened constants, less s' times the inner forces and less the rate of the loads.  The
-    Hessian answers it.
+    of the gradient is that of the softened constants, less s' times the inner forces and less the rate of the loads.
+    The Hessian answers it.
     """
     count, n = q.shape
     each = ways.softens.size
