@@ -92,11 +92,15 @@ class Problem(Parameters, ABC):
         return Forecast()
 
     def solve_many(
-        self, columns: Mapping[str, NDArray[np.float64]], wanted: Sequence[str]
+        self,
+        columns: Mapping[str, NDArray[np.float64]],
+        wanted: Sequence[str],
+        by: Sequence[str] = (),
     ) -> Many | None:
         """The problem for many values of some keys at once; None where each is solved by itself, as by default.
 
         columns : values (M,) by dotted keys, in SI units.  wanted : names of the fields to give.
+        by : keys with which these move.
         """
         return None
 

@@ -72,6 +72,30 @@ class Solution:
 
 
 @dataclass(frozen=True)
+class FieldRates:
+    """Fields of M results, and how they move with K keys, by the step of each: a fraction of its value, or itself.
+
+    now : by name, with the dimension "member" before those of one result, (M, ...).  change : likewise, (M K, ...),
+    the keys of one result together.  labels : as in `Solution`.
+    rounding : (M, K) of the rates, as a fraction of the largest.  known : (M, K) which rates there are.
+    """
+
+    now: Mapping[str, Field]
+    change: Mapping[str, Field]
+    labels: Mapping[str, tuple[str, ...]]
+    rounding: Array
+    known: NDArray[np.bool_]
+
+    def after(self, result: int, key: int, step: float) -> dict[str, Field]:
+        """The fields of one result after a step of a key, to first order."""
+        row = result * self.known.shape[1] + key
+        return {
+            name: (dims[1:], values[result] + step * self.change[name][1][row])
+            for name, (dims, values) in self.now.items()
+        }
+
+
+@dataclass(frozen=True)
 class Many:
     """Solutions of many problems that differ in some numbers.
 
@@ -79,6 +103,7 @@ class Many:
     labels : as in `Solution`.
     solved : (M,) which members are; each of the others is left to its own problem, which solves it or says why not.
     warnings : sentences by the number of a member.
+    rates : of the fields with the keys that were asked for; None if none were.
     """
 
     fields: Mapping[str, Field]
@@ -86,3 +111,4 @@ class Many:
     labels: Mapping[str, tuple[str, ...]]
     solved: NDArray[np.bool_]
     warnings: Mapping[int, Sequence[str]]
+    rates: FieldRates | None = None

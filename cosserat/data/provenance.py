@@ -48,6 +48,7 @@ _COMPUTING = (
             "family",
             "solving",
             "derivatives",
+            "reduced",
         )
     ),
     "cases",

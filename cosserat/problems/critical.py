@@ -104,7 +104,7 @@ class RodCriticalLoads(GrownProblem):
             statistics["linear_load_factor"] = lowest
         statistics |= {"load_factor_reached": float(reached), "iterations": solver.iterations}
         start = system.frame.out(system.start)
-        fields = {**_start(self.rod, geometry, start), **_linear(self.rod, linear), **special}
+        fields = {**_start(self.rod, geometry, start), **linear_fields(self.rod, linear), **special}
         words = {"axis": self.rod.kinematics.axes, "special": labels}
         warnings += self._warnings(linear, true, reached, system.symmetric)
         return Solution(fields, statistics, words, warnings)
@@ -184,7 +184,7 @@ def _start(rod: Rod, geometry: Geometry, u: Vector) -> dict[str, Field]:
     }
 
 
-def _linear(rod: Rod, linear: LinearCriterion) -> dict[str, Field]:
+def linear_fields(rod: Rod, linear: LinearCriterion) -> dict[str, Field]:
     """Factors and modes of the linear criterion; nothing where it has none."""
     if not linear.factor.size:
         return {}

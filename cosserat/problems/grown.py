@@ -84,7 +84,7 @@ class GrownProblem(PosedProblem):
             error.reached = None  # a result of another kind
             raise
         held, point = solver.system.unframed, point.unframed(solver.system)
-        begun = self._begun(geometry, system, held, point)
+        begun = self.begun(geometry, system, held, point)
         tangent = Tangent(begun)
         begun.assemble(begun.start, begun.history, 0.0, tangent)
         if np.abs(tangent.gradient[~begun.constrained]).max() > _STALLED * point.tolerance:
@@ -94,7 +94,7 @@ class GrownProblem(PosedProblem):
             )
         return begun, tuple(f"{words} (of the start)" for words in solver.warnings())
 
-    def _begun(
+    def begun(
         self, geometry: Geometry, system: MechanicalSystem, held: MechanicalSystem, point: Equilibrium
     ) -> MechanicalSystem:
         """The system with an equilibrium of another, whose loads stay, as its start.

@@ -9,15 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cosserat.errors import UnsupportedRodError
+from cosserat.problems.columns import OF_BODY, fits, in_range, with_columns
+from cosserat.problems.rates import Settled, field_rates, has_rates, moves
 from cosserat.problems.static import FIELDS, RodStatics, State, check_supports
-from cosserat.quantities import Quantity
-from cosserat.rods.elasticity import INCOMPRESSIBLE
 from cosserat.rods.energies import energy_named
 from cosserat.rods.loads.dead import DeadLoad, Gravity
 from cosserat.rods.loads.load import LoadedRod
@@ -26,46 +26,38 @@ from cosserat.rods.problem import LOADS
 from cosserat.rods.reference import Geometry
 from cosserat.rods.resolution import coarse, surface_stretch
 from cosserat.rods.rod import Rod
-from cosserat.rods.sections.plain import Circle, Ellipse, Rectangle, Square
 from cosserat.rods.space import RodSpace
-from cosserat.solution import Field, Many
+from cosserat.solution import Field, FieldRates, Many
 from cosserat.solvers.banded import Mask
 from cosserat.solvers.many import Family
 from cosserat.solvers.members import REACHED, Answers, Members
 from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
-OF_LOADS = {"forces": "force", "line_loads": "density", "gravity": "g"}
-"""Keys of loads that may differ between members, and which number of theirs."""
-OF_BODY = (
-    "rod.length",
-    *(f"rod.section.{name}" for name in ("height", "width", "side", "diameter")),
-    *(f"rod.material.{name}" for name in ("young", "poisson", "shear_modulus", "bulk_modulus")),
-    *(f"rod.material.{name}" for name in ("density", "line_density")),
-)
-"""Keys of the rod that may differ between members."""
-_SECTIONS = (Rectangle, Square, Ellipse, Circle)
 _CHUNK = 2048  # members whose constants are in memory at once
 
 
 def solve_many(
-    problem: RodStatics, columns: Mapping[str, Array], wanted: Sequence[str] = tuple(FIELDS)
+    problem: RodStatics,
+    columns: Mapping[str, Array],
+    wanted: Sequence[str] = tuple(FIELDS),
+    by: Sequence[str] = (),
 ) -> Many | None:
     """The equilibria of a rod for many values (M,) of some keys, in SI units; None where they go one by one.
 
     columns : values by dotted keys, such as "rod.section.height" or "forces.0.force".
-    wanted : names of the fields to give, of `cosserat.problems.static.FIELDS`.
+    wanted : names of the fields to give, of `cosserat.problems.static.FIELDS`.  by : keys with which they move.
     """
     count = next(iter(columns.values())).size
     family = _family(problem, columns)
-    if family is None:
+    if family is None or not all(has_rates(problem, key, columns[key]) for key in by):
         return None
-    parts = []
-    for first in range(0, count, _CHUNK):
-        own = {key: values[first : first + _CHUNK] for key, values in columns.items()}
+    parts, chunk = [], max(1, _CHUNK // (1 + len(by)))
+    for first in range(0, count, chunk):
+        own = {key: values[first : first + chunk] for key, values in columns.items()}
         if not in_range(problem, own).any():
             return None  # the problem of each says why
-        parts.append(_solve(problem, own, wanted, *family))
+        parts.append(_solve(problem, own, (wanted, by), *family))
     return _joined(parts)
 
 
@@ -88,89 +80,6 @@ def family_of(problem: RodStatics, system: MechanicalSystem) -> Family | None:
     return Family.of(system, problem.newton) if problem.pose is None else None
 
 
-def fits(problem: RodStatics, key: str, columns: Mapping[str, Array]) -> bool:
-    """Whether a key may differ between members of this problem; columns : all keys that differ."""
-    if key not in OF_BODY:
-        kind, *_, number = key.split(".")
-        return OF_LOADS.get(kind) == number and quantity_of(problem, key) is not None
-    rod = problem.rod
-    if quantity_of(problem, key) is None or type(rod.section) not in _SECTIONS:
-        return False
-    if problem.gravity is not None and problem.masses:
-        return False
-    if rod.energy != "consistent" or rod.stations or not rod.rest.straight or problem.imperfection:
-        return False
-    return key != "rod.length" or not _has_places(problem)
-
-
-def _has_places(problem: RodStatics) -> bool:
-    """Whether it names a place in metres, which another length would move."""
-    places = [item.at for _, item in problem.constraints()]
-    places += [item.at for key in ("masses", "probes") for item in getattr(problem, key)]
-    places += [at for load in LOADS for item in problem.loads_of(load) for at in item.places]
-    stretched = any(item.start or item.end is not None for item in problem.line_loads)
-    return stretched or not all(at in ("first", "last") or isinstance(at, int) for at in places)
-
-
-def quantity_of(problem: RodStatics, key: str) -> Quantity | None:
-    """The range of a key that has a number; None if it has none."""
-    at: Any = problem
-    *path, last = key.split(".")
-    for part in path:
-        at = _child(at, part)
-    if at is None or getattr(at, last, None) is None:
-        return None
-    field = type(at).model_fields[last]
-    marks = [*field.metadata, *(mark for part in get_args(field.annotation) for mark in _marks(part))]
-    return next((mark for mark in marks if isinstance(mark, Quantity)), None)
-
-
-def _marks(annotation: Any) -> tuple[Any, ...]:
-    return getattr(annotation, "__metadata__", ())
-
-
-def _child(at: Any, part: str) -> Any:
-    """A part of a parameter object or of a list; None if there is none."""
-    if isinstance(at, tuple):
-        return at[int(part)] if part.isdecimal() and int(part) < len(at) else None
-    return getattr(at, part, None)
-
-
-def put_inside(at: Any, path: Sequence[str], values: Array | float) -> Any:
-    """A copy of a parameter object or a list with values in place of a number, not validated."""
-    if not path:
-        return values
-    head, *rest = path
-    if isinstance(at, tuple):
-        changed = put_inside(at[int(head)], rest, values)
-        return (*at[: int(head)], changed, *at[int(head) + 1 :])
-    return at.model_copy(update={head: put_inside(getattr(at, head), rest, values)})
-
-
-def in_range(problem: RodStatics, columns: Mapping[str, Array]) -> Mask:
-    """Which members, (M,), have values that a single problem would accept."""
-    found = np.ones(next(iter(columns.values())).size, dtype=np.bool_)
-    for key, values in columns.items():
-        quantity = quantity_of(problem, key)
-        assert quantity is not None  # the caller has looked
-        found &= quantity.holds(values)
-    if not any(key.startswith("rod.material.") for key in columns):
-        return found
-    with np.errstate(all="ignore"):
-        poisson = np.broadcast_to(_with(problem, columns).rod.poisson, (found.size, 1))[:, 0]
-    found &= (poisson > -1) & (poisson < 0.5)
-    if problem.rod.lateral_constraint == "incompressible":
-        found &= poisson >= INCOMPRESSIBLE
-    return found
-
-
-def _with(problem: RodStatics, columns: Mapping[str, Array]) -> RodStatics:
-    """A copy with columns (M, 1) in place of numbers."""
-    for key, values in columns.items():
-        problem = put_inside(problem, key.split("."), values[:, None])
-    return problem
-
-
 def members_of(
     problem: RodStatics, columns: Mapping[str, Array], system: MechanicalSystem
 ) -> tuple[Members, Geometry, Rod]:
@@ -178,7 +87,7 @@ def members_of(
 
     system : of the problem itself.
     """
-    varied = _with(problem, columns)
+    varied = with_columns(problem, columns)
     count = next(iter(columns.values())).size
     one = system.member
     geometry, rod = problem.geometry, problem.rod
@@ -243,11 +152,12 @@ def _weights(problem: RodStatics, columns: Mapping[str, Array]) -> Array:
 def _solve(
     problem: RodStatics,
     columns: Mapping[str, Array],
-    wanted: Sequence[str],
+    asked: tuple[Sequence[str], Sequence[str]],
     family: Family,
     system: MechanicalSystem,
 ) -> Many:
-    """The equilibria of some members."""
+    """The equilibria of some members; asked : the fields, and the keys with which they move."""
+    wanted, by = asked
     sound = in_range(problem, columns)
     kept = {key: values[sound] for key, values in columns.items()}
     members, geometry, rod = members_of(problem, kept, system)
@@ -264,7 +174,39 @@ def _solve(
     done = np.zeros(sound.size, dtype=np.bool_)
     done[sound] = solved
     labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs}
-    return Many(fields, _statistics(answers, sound), labels, done, warnings)
+    rates = None
+    if by:
+        body = LoadedRod(rod, geometry, masses=problem.masses)
+        settled = Settled(problem, kept, system, family, members, body, answers.q)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            rates = _spread(field_rates(state, moves(settled, by), wanted), sound)
+        done &= rates.known.all(axis=1)
+    return Many(fields, _statistics(answers, sound), labels, done, warnings, rates)
+
+
+def _spread(rates: FieldRates, sound: Mask) -> FieldRates:
+    """Rates of some members among those of all, not a number for the others."""
+    if sound.all():
+        return rates
+    each = rates.known.shape[1]
+
+    def among(values: Array, rows: Mask) -> Array:
+        found = np.full((rows.size, *values.shape[1:]), np.nan)
+        found[rows] = values
+        return found
+
+    known = np.zeros((sound.size, each), dtype=np.bool_)
+    known[sound] = rates.known
+    return replace(
+        rates,
+        now={name: (dims, among(own, sound)) for name, (dims, own) in rates.now.items()},
+        change={
+            name: (dims, among(own, np.repeat(sound, each)))
+            for name, (dims, own) in rates.change.items()
+        },
+        rounding=among(rates.rounding, sound),
+        known=known,
+    )
 
 
 def _field(name: str, state: State, sound: Mask) -> Field:
@@ -296,10 +238,7 @@ def _joined(parts: Sequence[Many]) -> Many:
     first, counts = parts[0], np.cumsum([0, *(part.solved.size for part in parts)])
     if len(parts) == 1:
         return first
-    fields = {
-        name: (dims, np.concatenate([part.fields[name][1] for part in parts]))
-        for name, (dims, _) in first.fields.items()
-    }
+    fields = _after([part.fields for part in parts])
     statistics = {
         name: np.concatenate([part.statistics[name] for part in parts]) for name in first.statistics
     }
@@ -309,4 +248,26 @@ def _joined(parts: Sequence[Many]) -> Many:
         for number, said in part.warnings.items()
     }
     solved = np.concatenate([part.solved for part in parts])
-    return replace(first, fields=fields, statistics=statistics, solved=solved, warnings=warnings)
+    rates = _rates_after([part.rates for part in parts if part.rates is not None])
+    return replace(
+        first, fields=fields, statistics=statistics, solved=solved, warnings=warnings, rates=rates
+    )
+
+
+def _after(parts: Sequence[Mapping[str, Field]]) -> dict[str, Field]:
+    return {
+        name: (dims, np.concatenate([part[name][1] for part in parts]))
+        for name, (dims, _) in parts[0].items()
+    }
+
+
+def _rates_after(parts: Sequence[FieldRates]) -> FieldRates | None:
+    if not parts:
+        return None
+    return replace(
+        parts[0],
+        now=_after([part.now for part in parts]),
+        change=_after([part.change for part in parts]),
+        rounding=np.concatenate([part.rounding for part in parts]),
+        known=np.concatenate([part.known for part in parts]),
+    )

@@ -15,16 +15,19 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.errors import InputError
 from cosserat.problems.modes import RodModes
+from cosserat.problems.moving_starts import begun_after
+from cosserat.problems.posed import PosedProblem
 from cosserat.problems.static import equilibrium_solution
 from cosserat.problems.tangents import Body, Motion, Moved, Nearby, move
 from cosserat.rods.holding import free_motions
+from cosserat.rods.reference import Geometry
 from cosserat.solution import Solution
 from cosserat.solvers.banded import absolute_product, band_product, to_sparse
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.modes import rooted, small_motions
 from cosserat.solvers.slopes import slope
+from cosserat.solvers.system import MechanicalSystem
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -117,6 +120,11 @@ class MovedModes:
         return replace(rest, fields={**rest.fields, **own})
 
 
+def _unloaded(_: float, problem: PosedProblem, geometry: Geometry) -> MechanicalSystem:
+    """The system about which a rod moves without its loads."""
+    return problem.system(geometry).unloaded()
+
+
 def _free_matrices(moved: Moved) -> tuple[Any, Any]:
     """K and M of the free DOFs at no step, sparse."""
     free = ~moved.base.system.constrained
@@ -153,18 +161,15 @@ def moving_modes(
     ------
     CosseratError : it has no modes.
     """
-    if problem.start_from is not None:
-        raise InputError(
-            f"{name}: its loads grow from another equilibrium, and derivatives are of loads that grow from rest; "
-            "give all loads to one case"
-        )
     geometry = problem.geometry
     point, solver, _ = problem.settled_rod(geometry, name)
     system = solver.system
     bare = point.factor == 0.0
-    made = (lambda other, own: other.system(own).unloaded()) if bare else None
     base = Body(problem, geometry, system)
-    moved = [Moved(one, base, point, made) for one in nearby]
+    moved = []
+    for one in nearby:
+        begun = begun_after(problem, one, name) if problem.start_from is not None else None
+        moved.append(Moved(one, base, point, _unloaded if bare else begun))
     held = not free_motions(system).any()
     found, more = (
         small_motions(system, point.q, count, supported=held, history=point.history)
@@ -172,7 +177,7 @@ def moving_modes(
     )
     k, others = (-((one.growth + 1j * one.angular_frequency) ** 2) for one in (found, more))
     modes = Eigenvalues(k, found.shape.astype(complex), _single(k, others))
-    at_rest = MovedModes(Moved(lambda _: problem, base, point, made), modes, name)
+    at_rest = MovedModes(Moved(lambda _: problem, base, point), modes, name)
     at_rest.lacks = ""
     ways, lost = [MovedModes(one, modes, name) for one in moved], move(moved) if moved else []
     for way, why in zip(ways, lost, strict=True):

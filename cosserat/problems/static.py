@@ -51,11 +51,13 @@ class RodStatics(PosedProblem):
         check_crossing(geometry, found["x"], found["d"], self.rod.below, name)
         return replace(found, warnings=(*solver.warnings(), *coarse(found["d"])))
 
-    def solve_many(self, columns: Mapping[str, Array], wanted: Sequence[str]) -> Many | None:
+    def solve_many(
+        self, columns: Mapping[str, Array], wanted: Sequence[str], by: Sequence[str] = ()
+    ) -> Many | None:
         """The equilibria of many rods in one compiled loop, where it and its formulas fit them."""
         from cosserat.problems.many import solve_many
 
-        return solve_many(self, columns, wanted) if set(wanted) <= set(FIELDS) else None
+        return solve_many(self, columns, wanted, by) if set(wanted) <= set(FIELDS) else None
 
     @classmethod
     def summary(cls, statistics: Mapping[str, int | float], sizes: Mapping[str, int]) -> str:

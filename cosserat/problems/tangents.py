@@ -9,8 +9,9 @@ Supports that hold DOFs elsewhere add the Hessian times the gap to the right-han
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+import functools
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -22,7 +23,8 @@ from cosserat.problems.posed import PosedProblem
 from cosserat.rods.problem import RodProblem
 from cosserat.rods.reference import Geometry
 from cosserat.rods.rod import Rod
-from cosserat.solution import Field, Solution
+from cosserat.solution import Field, FieldRates, Solution
+from cosserat.solvers.climb import BESIDE, NEARLY_CRITICAL
 from cosserat.solvers.equilibrium import Equilibrium
 from cosserat.solvers.slopes import slope
 from cosserat.solvers.system import History, MechanicalSystem, Tangent
@@ -49,10 +51,8 @@ class NearKey:
         return self.made(step)
 
 
-_SINGULAR = 1e-8  # of the load, within which of a critical one the equilibrium has no derivative
 _ROUGH = 1e-5  # of the largest derivative, above which its error says that there is none
 _ROUNDED = 1e-12  # of the largest reaction, below which a force is round-off
-_BESIDE = 1e-6  # of the load, to the Hessian that shows how fast the softest eigenvalue changes
 _INVERSE_ITERATIONS = 12
 
 
@@ -78,11 +78,15 @@ class Motion:
     """A result that moves with several parameters.
 
     base : the result itself.  ways : how it moves with each.  lost : why it does not, for each; empty where it does.
+    rates : of its fields, with some of the parameters at once; None where these are not known apart from the ways.
+    rated : the number among those of the rates, by that of a parameter.
     """
 
     base: Solution
     ways: tuple[Moving, ...]
     lost: tuple[str, ...]
+    rates: FieldRates | None = None
+    rated: Mapping[int, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -116,6 +120,15 @@ class Body:
         tangent = Tangent(self.system)
         self.system.assemble(q, history, factor, tangent)
         return tangent
+
+
+Made = Callable[[float, PosedProblem, Geometry], MechanicalSystem]
+"""The system of a problem after a step, if that is not the one under all loads."""
+
+
+def body_after(step: float, nearby: Nearby, made: Made | None) -> Body:
+    """The body after a step of a parameter."""
+    return Body.of(nearby(step), None if made is None else functools.partial(made, step))
 
 
 def _turned(vectors: Array) -> Complex:
@@ -155,7 +168,7 @@ def placed(base: Body, q: Array, rate: Array, steps: Array, references: Array) -
 class Moved:
     """An equilibrium that moves with a parameter.
 
-    at : the problem after a step.  base, point : those of no step.
+    nearby, made : the problem and its system after a step.  base, point : those of no step.
     rate : (n,) change of the DOFs with the step beyond those that keep the strains.
     reaction_rate : (n,) change of the force that holds each constrained DOF [N].
     """
@@ -165,7 +178,7 @@ class Moved:
         nearby: Nearby,
         base: Body,
         point: Equilibrium,
-        made: Callable[[PosedProblem, Geometry], MechanicalSystem] | None = None,
+        made: Made | None = None,
     ) -> None:
         self.nearby, self.base, self.point, self.made = nearby, base, point, made
         self.known: dict[float, Body] = {0.0: base}
@@ -180,7 +193,7 @@ class Moved:
         InputError : the parameter is out of its range there.
         """
         if step not in self.known:
-            found = Body.of(self.nearby(step), self.made)
+            found = body_after(step, self.nearby, self.made)
             if found.reference.shape != self.base.reference.shape:
                 raise InputError("the number of vertices changes with the parameter")
             if not np.array_equal(found.system.constrained, self.base.system.constrained):
@@ -322,10 +335,10 @@ def _is_critical(base: Body, point: Equilibrium, tangent: Tangent) -> bool:
         return True
     change = np.where(system.constrained, system.prescribed_rate(point.factor), change)
     ahead, behind = (
-        base.tangent(point.q + f * change, point.history, point.factor + f) for f in (_BESIDE, -_BESIDE)
+        base.tangent(point.q + f * change, point.history, point.factor + f) for f in (BESIDE, -BESIDE)
     )
-    along = float(x @ ahead.product(x) - x @ behind.product(x)) / (2 * _BESIDE)
-    return abs(value) <= _SINGULAR * abs(along)
+    along = float(x @ ahead.product(x) - x @ behind.product(x)) / (2 * BESIDE)
+    return abs(value) <= NEARLY_CRITICAL * abs(along)
 
 
 def total_mass(

@@ -175,13 +175,94 @@ def strains(geometry: Geometry, x: Array, d: Array) -> Strains:
     )
 
 
+class StrainRates:
+    """Rates of the measures of configurations that move with parameters, each (..., N) or (..., N - 1).
+
+    now : the measures.  vectors, rates : x and d, each (..., N, 2), and their rates [m].
+    longer, taller : rates of all edges and of all directors of the reference, as fractions of them, each (...).
+    """
+
+    def __init__(
+        self,
+        geometry: Geometry,
+        now: Strains,
+        vectors: tuple[Array, Array],
+        rates: tuple[Array, Array],
+        scaled: tuple[Array, Array],
+    ) -> None:
+        self.geometry, self.now = geometry, now
+        (self.x, self.d), (self.dx, self.dd) = vectors, rates
+        self.longer, self.taller = (rate[..., None] for rate in scaled)
+
+    @cached_property
+    def _edges(self) -> tuple[Array, Array]:
+        return np.diff(self.x, axis=-2), np.diff(self.dx, axis=-2)
+
+    @cached_property
+    def _length(self) -> Array:
+        return _along(*self._edges) / lengths(self._edges[0])
+
+    @property
+    def mu_edge(self) -> Array:
+        """Of the stretch of the edges."""
+        return self._length / self.geometry.edge_length - self.longer * self.now.mu_edge
+
+    @property
+    def mu(self) -> Array:
+        """Of the stretch of the vertices."""
+        return to_vertices(self._length) / self.geometry.voronoi_length - self.longer * self.now.mu
+
+    @property
+    def lam(self) -> Array:
+        """Of the stretch of the sections."""
+        size = _along(self.d, self.dd) / lengths(self.d)
+        return size / self.geometry.director_length - self.taller * self.now.lam
+
+    @cached_property
+    def phi(self) -> Array:
+        """Of the turning angles [rad]."""
+        turning, tangents = _turning(*self._edges), _turning(_chords(self.x), _chords(self.dx))
+        before = np.concatenate([tangents[..., :1], turning], axis=-1)
+        after = np.concatenate([turning, tangents[..., -1:]], axis=-1)
+        after[..., 0], before[..., -1] = tangents[..., 1], tangents[..., -2]
+        change: Array = after - before
+        return change
+
+    @property
+    def kappa(self) -> Array:
+        """Of the curvature [1/m]: kappa = 2 / L tan(phi / 2), L the length round the vertex."""
+        voronoi = self.now.mu * self.geometry.voronoi_length
+        across = 1 / (np.cos(self.now.phi / 2) ** 2 * voronoi)
+        rate: Array = self.phi * across - to_vertices(self._length) * (self.now.kappa / voronoi)
+        return rate
+
+
+def _along(a: Array, b: Array) -> Array:
+    """Products of vectors (..., 2)."""
+    product: Array = a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]
+    return product
+
+
+def _turning(vectors: Array, rates: Array) -> Array:
+    """Rates of the angles of vectors (..., 2) [rad]."""
+    across = vectors[..., 0] * rates[..., 1] - vectors[..., 1] * rates[..., 0]
+    turning: Array = across / _along(vectors, vectors)
+    return turning
+
+
 def vertex_tangents(x: Array) -> Array:
     """Unit tangents at the vertices, shape (N, 2), eqs. (3.3.7), (3.3.8), (3.3.9)."""
+    chord = _chords(x)
+    return chord / lengths(chord)[..., None]
+
+
+def _chords(x: Array) -> Array:
+    """From the vertex before to the one after each vertex, (..., N, 2) [m]; at the ends, the edge."""
     chord = np.empty_like(x)
     chord[..., 1:-1, :] = x[..., 2:, :] - x[..., :-2, :]
     chord[..., 0, :] = x[..., 1, :] - x[..., 0, :]
     chord[..., -1, :] = x[..., -1, :] - x[..., -2, :]
-    return chord / lengths(chord)[..., None]
+    return chord
 
 
 def normals(x: Array) -> Array:

@@ -20,6 +20,7 @@ from cosserat.solvers.members import (
     BALANCED,
     CHANGE,
     COUNT,
+    CRITICAL,
     FACTOR,
     FRACTION,
     LEFT,
@@ -29,6 +30,7 @@ from cosserat.solvers.members import (
     PREDICTED,
     RATES,
     REACHED,
+    REGULAR,
     RESIDUAL,
     ROUNDING,
     SINGULAR,
@@ -40,6 +42,7 @@ from cosserat.solvers.members import (
     TOLERANCE,
     TRIED,
     UNDEFINED,
+    UNSTABLE,
     Answers,
     Arcs,
     Around,
@@ -49,6 +52,8 @@ from cosserat.solvers.members import (
     Members,
     Numbers,
     Plane,
+    Rates,
+    Ways,
     types,
 )
 from cosserat.solvers.potential import GRADIENT, HESSIAN, KERNEL
@@ -72,6 +77,13 @@ _SETTLED = 7e-2  # last correction of an increment before the last one, as a fra
 _STIFFENING = 0.9  # ratio of the rates at two points below which a body stiffens
 _UNROLLED = (0,) * 8
 """As many zeros as the width of the most common band: code for just this width is twice as fast."""
+NEARLY_CRITICAL = 1e-8
+"""Fraction of the load, within which of a critical one an equilibrium has no rates."""
+BESIDE = 1e-6
+"""Fraction of the load, to the Hessian that shows how fast the softest eigenvalue changes."""
+_APART = (
+    1e-3  # of a unit vector, by which an inverse iteration next to a critical load does not change it
+)
 _EPS = float(np.finfo(float).eps)
 _INVERSE_ITERATIONS = 40  # most steps of inverse iteration towards an eigenvalue nearest zero
 _SETTLED_EIGENVALUE = 1e-14  # relative change of an eigenvalue at which inverse iteration ends
@@ -874,6 +886,40 @@ def _climb(
     return REACHED
 
 
+@njit(cache=True)
+def _member(
+    kernel: Any,
+    space: Any,
+    members: Members,
+    held: Mask,
+    m: int,
+    vectors: tuple[Vector, Vector, Vector, Vector, Vector],
+    bands: tuple[Fields, Fields],
+) -> Body:
+    """One body of several, with work space."""
+    at, gradient, room, terms, none = vectors
+    band, skew = bands
+    return Body(
+        kernel,
+        space,
+        members.constants[m],
+        members.origin[m],
+        members.placed[m],
+        members.scale[m],
+        members.dead[m],
+        held,
+        members.sizes[m, 0],
+        members.sizes[m, 1],
+        at,
+        gradient,
+        room,
+        band,
+        skew,
+        terms,
+        none,
+    )
+
+
 @njit(cache=True, nogil=True)
 def climb_all(
     kernel: Any, space: Any, members: Members, held: Mask, limits: Limits, answers: Answers
@@ -892,25 +938,7 @@ def climb_all(
     skew, terms, none = np.empty((0, 1)), np.empty(limits.terms), np.empty(0)
     reached = 0
     for m in range(count):
-        body = Body(
-            kernel,
-            space,
-            members.constants[m],
-            members.origin[m],
-            members.placed[m],
-            members.scale[m],
-            members.dead[m],
-            held,
-            members.sizes[m, 0],
-            members.sizes[m, 1],
-            at,
-            gradient,
-            room,
-            band,
-            skew,
-            terms,
-            none,
-        )
+        body = _member(kernel, space, members, held, m, (at, gradient, room, terms, none), (band, skew))
         _copy(members.start[m], answers.q[m])
         answers.counts[m] = 0
         answers.status[m] = _climb(
@@ -924,3 +952,151 @@ def climb_all(
         )
         reached += answers.status[m] == REACHED
     return reached
+
+
+@njit(cache=True, nogil=True)
+def rates_all(
+    kernel: Any,
+    space: Any,
+    members: Members,
+    held: Mask,
+    width: int,
+    parts: int,
+    q: Fields,
+    ways: Ways,
+    found: Rates,
+) -> int:
+    """Find how stable equilibria q (M, n) move with parameters, each with one factorisation; how many do.
+
+    derived: where a parameter changes the lengths of the reference by factors s of the DOFs, and an equilibrium keeps
+    its strains, its DOFs are s q, and their forces 1 / s times those that are counted in the old lengths.  So the rate
+    of the gradient is that of the softened constants, less s' times the inner forces and less the rate of the loads.
+    The Hessian answers it.
+    """
+    count, n = q.shape
+    each = ways.softens.size
+    at, gradient, room, terms = np.empty(n), np.empty(n), np.empty(n + width), np.empty(parts)
+    band, skew, none = np.zeros((n + width, width)), np.empty((0, 1)), np.empty(0)
+    whole, inner = np.empty((n, width)), np.empty(n)
+    softened = np.empty(members.constants.shape[1], dtype=np.uint8)
+    moved = 0
+    for m in range(count):
+        body = _member(kernel, space, members, held, m, (at, gradient, room, terms, none), (band, skew))
+        found.status[m] = UNSTABLE
+        if not np.isfinite(assembled(body, q[m], 1.0, HESSIAN)):
+            continue
+        whole[:, :] = band[:n]
+        for i in range(n):
+            inner[i] = gradient[i] + body.dead[i]
+        rounding = _EPS * largest_product(whole, q[m], body.scale, at)
+        if not factorise(band, held):
+            continue
+        softened[:] = members.constants[m]
+        for k in range(each):
+            row = m * each + k
+            gradient[:] = 0.0
+            if ways.softens[k]:
+                _soften(body, q[m], softened, ways.places, ways.softened[row])
+            for i in range(n):
+                change = gradient[i] - ways.scaled[row, i] * inner[i] - ways.dead[row, i]
+                found.reaction[row, i] = change
+            found.rounding[row] = _answer(body, q[m], ways.scaled[row], whole, rounding, found, row)
+        found.status[m] = CRITICAL if _is_critical(body, q[m], whole, inner) else REGULAR
+        moved += found.status[m] == REGULAR
+    return moved
+
+
+@njit(cache=True)
+def _soften(
+    body: Body, q: Vector, constants: NDArray[np.uint8], places: NDArray[np.int64], values: Vector
+) -> None:
+    """Add the gradient of the potential with some values at places (P, F) among its constants."""
+    numbers = constants.view(np.float64)
+    for row in places:
+        for f in range(values.size):
+            numbers[row[f]] = values[f]
+    for i in range(q.size):
+        body.at[i] = q[i] + body.origin[i]
+    body.kernel(
+        body.at,
+        body.none,
+        constants,
+        body.none,
+        body.skew,
+        GRADIENT,
+        body.gradient,
+        body.skew,
+        body.skew,
+        body.terms,
+    )
+
+
+@njit(cache=True)
+def _answer(
+    body: Body, q: Vector, scaled: Vector, whole: Fields, rounding: float, found: Rates, row: int
+) -> float:
+    """Overwrite the rates of the DOFs and of the forces that hold them, from that of the gradient in the latter.
+
+    whole : (n, w) the Hessian, whose factor the band of the body is.  Returns the fraction that round-off has in the
+    rate of the gradient.
+    """
+    step, rate, largest = found.q[row], found.reaction[row], 0.0
+    for i in range(q.size):
+        step[i] = 0.0 if body.held[i] else -rate[i]
+        largest = max(largest, abs(step[i]))
+    substitute(body.band, step, body.room)
+    multiply(whole, step, body.gradient)
+    for i in range(q.size):
+        step[i] += scaled[i] * q[i]
+        rate[i] = rate[i] + body.gradient[i] if body.held[i] else 0.0
+    return rounding / largest if largest > 0.0 else 0.0
+
+
+@njit(cache=True)
+def multiply(band: Fields, x: Vector, product: Vector) -> None:
+    """Overwrite the product of a symmetric band (n, w) and a vector (n,)."""
+    n, width = band.shape
+    product[:] = 0.0
+    for j in range(n):
+        total = product[j] + band[j, 0] * x[j]
+        for k in range(1, min(width, n - j)):
+            product[j + k] += band[j, k] * x[j]
+            total += band[j, k] * x[j + k]
+        product[j] = total
+
+
+@njit(cache=True)
+def _is_critical(body: Body, q: Vector, whole: Fields, x: Vector) -> bool:
+    """Whether the softest eigenvalue would be zero at a load so near that no computation tells them apart.
+
+    whole : (n, w) the Hessian, whose factor the band of the body is.  x : (n,) is overwritten.  Next to a critical load
+    the softest eigenvalue is so far below all others that one inverse iteration gives its vector: if another one
+    still changes it, the load is not critical.
+    """
+    change, product = np.empty(q.size), np.empty(q.size)
+    for i in range(q.size):
+        x[i] = 0.0 if body.held[i] else np.cos(1.7 * i)
+        change[i] = 0.0 if body.held[i] else body.dead[i]
+    _soften_most(body, x)
+    product[:] = x
+    _soften_most(body, x)
+    away = 0.0
+    for i in range(q.size):
+        away = max(away, abs(x[i] - product[i]))
+    if away > _APART:
+        return False
+    substitute(body.band, change, body.room)
+    multiply(whole, x, product)
+    value = (x * product).sum()
+    for i in range(q.size):
+        change[i] = q[i] + BESIDE * change[i]
+    assembled(body, change, 1.0 + BESIDE, HESSIAN)
+    multiply(body.band[: q.size], x, product)
+    return not abs(value) * BESIDE > NEARLY_CRITICAL * abs((x * product).sum() - value)
+
+
+@njit(cache=True)
+def _soften_most(body: Body, x: Vector) -> None:
+    """One inverse iteration with a factorised Hessian: x comes nearer to the softest vector, of unit length."""
+    substitute(body.band, x, body.room)
+    x /= np.sqrt((x * x).sum())

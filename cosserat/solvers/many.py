@@ -10,14 +10,23 @@ from typing import Any
 import numpy as np
 from numba import njit
 from numba import types as numba_types
+from numba.core.dispatcher import Dispatcher
 from numba.experimental import function_type
 from numpy.typing import NDArray
 
 from cosserat.solvers.banded import Mask
-from cosserat.solvers.climb import climb_all
+from cosserat.solvers.climb import climb_all, rates_all
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.heartbeat import beat
-from cosserat.solvers.members import REACHED, SPACE_KERNEL, Answers, Limits, Members
+from cosserat.solvers.members import (
+    REACHED,
+    SPACE_KERNEL,
+    Answers,
+    Limits,
+    Members,
+    Rates,
+    Ways,
+)
 from cosserat.solvers.potential import KERNEL
 from cosserat.solvers.system import MechanicalSystem
 
@@ -28,18 +37,34 @@ _MOST_WORK = 2e5
 types: Any = numba_types  # which says nothing of its own types
 
 
-@functools.cache
-def _compiled() -> Callable[..., int]:
-    """The loop, loaded only where it is needed; called directly, as `solvers.implicit` does."""
-    matrix, whole = types.float64[:, ::1], types.int64
-    members = types.NamedTuple((types.uint8[:, ::1], *(matrix,) * (len(Members._fields) - 1)), Members)
-    limits = types.NamedTuple((types.float64, whole, types.float64, whole, whole, whole), Limits)
-    answers = types.NamedTuple((matrix, matrix, matrix, types.int64[:, ::1], types.int64[::1]), Answers)
-    kernels = types.FunctionType(KERNEL), types.FunctionType(SPACE_KERNEL)
-    signature = types.int64(*kernels, members, types.boolean[::1], limits, answers)
-    (compiled,) = njit(signature, cache=True, nogil=True)(climb_all.py_func).overloads.values()
+_MATRIX, _BYTES, _WHOLE = types.float64[:, ::1], types.uint8[:, ::1], types.int64
+_NUMBERS = types.int64[::1]
+_MEMBERS = types.NamedTuple((_BYTES, *(_MATRIX,) * (len(Members._fields) - 1)), Members)
+_KERNELS = types.FunctionType(KERNEL), types.FunctionType(SPACE_KERNEL)
+
+
+def _loaded(function: Dispatcher, *arguments: Any) -> Callable[..., int]:
+    """A loop over members; called directly, as `solvers.implicit` does."""
+    signature = _WHOLE(*_KERNELS, _MEMBERS, types.boolean[::1], *arguments)
+    (compiled,) = njit(signature, cache=True, nogil=True)(function.py_func).overloads.values()
     loop: Callable[..., int] = compiled.entry_point
     return loop
+
+
+@functools.cache
+def _climbing() -> Callable[..., int]:
+    """The loop to equilibria, loaded only where it is needed."""
+    limits = types.NamedTuple((types.float64, _WHOLE, types.float64, _WHOLE, _WHOLE, _WHOLE), Limits)
+    answers = types.NamedTuple((_MATRIX, _MATRIX, _MATRIX, types.int64[:, ::1], _NUMBERS), Answers)
+    return _loaded(climb_all, limits, answers)
+
+
+@functools.cache
+def _moving() -> Callable[..., int]:
+    """The loop to their rates, likewise."""
+    ways = types.NamedTuple((_MATRIX, _WHOLE[:, ::1], types.boolean[::1], _MATRIX, _MATRIX), Ways)
+    rates = types.NamedTuple((_MATRIX, _MATRIX, types.float64[::1], _NUMBERS), Rates)
+    return _loaded(rates_all, _WHOLE, _WHOLE, _MATRIX, ways, rates)
 
 
 class _Address:
@@ -106,8 +131,16 @@ class Family:
             self.parts,
             self.half_bandwidth + 1,
         )
-        _compiled()(*addresses(self.kernel, self.space), members, self.constrained, limits, answers)
+        _climbing()(*addresses(self.kernel, self.space), members, self.constrained, limits, answers)
         return answers
+
+    def rates(self, members: Members, q: Fields, ways: Ways) -> Rates:
+        """How equilibria q (M, n) of members move with parameters, likewise."""
+        found = Rates.empty(q.shape[0], ways.softens.size, q.shape[1])
+        kernels = addresses(self.kernel, self.space)
+        width = self.half_bandwidth + 1
+        _moving()(*kernels, members, self.constrained, width, self.terms, q, ways, found)
+        return found
 
 
 def climbed(solver: EquilibriumSolver) -> Equilibrium | None:

@@ -86,6 +86,52 @@ class Answers(NamedTuple):
         )
 
 
+REGULAR, CRITICAL, UNSTABLE = range(3)
+"""Whether an equilibrium has rates: it is stable; it is at a critical load; its Hessian is not positive."""
+
+
+class Ways(NamedTuple):
+    """How K parameters change M equilibria of a family, in rows (M K, ...), those of one equilibrium together.
+
+    softened : (M K, F) constants of the potential whose gradient is the rate of the gradient, with the strains kept and
+    forces counted in the lengths of the reference; the constants of the body besides.
+    places : (P, F) where these are among its constants, as numbers.
+    softens : (K,) which parameters change the body itself.
+    scaled : (M K, n) rates of these lengths, as fractions, by DOF.
+    dead : (M K, n) rates of the loads [N].
+    """
+
+    softened: Fields
+    places: NDArray[np.int64]
+    softens: Mask
+    scaled: Fields
+    dead: Fields
+
+
+class Rates(NamedTuple):
+    """What the loop overwrites.
+
+    q, reaction : (M K, n) rates of the equilibria [m, N].  rounding : (M K,) of the forces that cause them, as a
+    fraction.  status : (M,) whether each equilibrium has some.
+    """
+
+    q: Fields
+    reaction: Fields
+    rounding: Vector
+    status: NDArray[np.int64]
+
+    @classmethod
+    def empty(cls, members: int, parameters: int, dofs: int) -> Rates:
+        """Of equilibria that nobody has looked at."""
+        rows = members * parameters
+        return cls(
+            np.zeros((rows, dofs)),
+            np.zeros((rows, dofs)),
+            np.zeros(rows),
+            np.full(members, UNSTABLE),
+        )
+
+
 class Body(NamedTuple):
     """One of them, with its kernels and work space for compiled code."""
 

@@ -6,7 +6,7 @@ power of the step.  Both sides together also show a kink, where no derivative ex
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -45,13 +45,8 @@ class Slope:
         return bool(self.kink.any()), float(self.error.max(initial=0.0))
 
 
-def steps_with(step: float) -> tuple[float, ...]:
-    """All steps to one side that are taken together with one of them; none if `slope` takes no such step."""
-    trials = (_halved(LARGEST / _SHORTER**trial) for trial in range(_TRIALS))
-    return next((steps for steps in trials if abs(step) in steps), ())
-
-
-def _halved(step: float) -> tuple[float, ...]:
+def halved(step: float) -> tuple[float, ...]:
+    """Steps whose differences are extrapolated together."""
     return tuple(step / 2**level for level in range(_LEVELS))
 
 
@@ -68,7 +63,7 @@ def slope(values: Callable[[float], Array], floor: float) -> Slope:
     first: InputError | None = None
     for trial in range(_TRIALS):
         try:
-            found = _extrapolated(values, LARGEST / _SHORTER**trial, floor)
+            found = _tried(values, LARGEST / _SHORTER**trial, floor)
         except InputError as error:
             first = first or error
             continue
@@ -84,23 +79,29 @@ def slope(values: Callable[[float], Array], floor: float) -> Slope:
     return best
 
 
-def _extrapolated(values: Callable[[float], Array], step: float, floor: float) -> Slope:
+def _tried(values: Callable[[float], Array], step: float, floor: float) -> Slope:
     middle = np.asarray(values(0.0), dtype=np.float64)
-    steps = _halved(step)
+    steps = halved(step)
     ahead, behind = ([np.asarray(values(sign * h)) for h in steps] for sign in (1.0, -1.0))
-    odd = [(a - b) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
-    even = [(a + b - 2 * middle) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
-    table, before = odd, odd
-    for order in range(1, _LEVELS):
-        before, table = table, _eliminated(table, 4**order)
-    jump = even
+    value, error = extrapolated(ahead, behind, steps)
+    jump = [(a + b - 2 * middle) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
     for power in (1, 3):
         jump = _eliminated(jump, 2**power)
-    value, error = table[-1], np.abs(table[-1] - before[-1])
     size, noise = float(np.abs(value).max(initial=0.0)), 8 * floor / steps[-1]
     beyond = float(error.max(initial=0.0)) - noise
     kink = np.abs(jump[-1]) > _KINK * size + noise
     return Slope(value, error, kink, beyond / size if beyond > 0 else 0.0)
+
+
+def extrapolated(
+    ahead: Sequence[Array], behind: Sequence[Array], steps: Sequence[float]
+) -> tuple[Array, Array]:
+    """A derivative from values after steps to both sides, each `halved`, and the change by the last extrapolation."""
+    table = [(a - b) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
+    before = table
+    for order in range(1, _LEVELS):
+        before, table = table, _eliminated(table, 4**order)
+    return table[-1], np.abs(table[-1] - before[-1])
 
 
 def _eliminated(table: list[Array], ratio: float) -> list[Array]:

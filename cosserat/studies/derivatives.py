@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+import functools
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -12,13 +13,14 @@ from numpy.typing import NDArray
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError
 from cosserat.problem import Problem
-from cosserat.problems.many import put_inside
+from cosserat.problems.columns import put_inside
 from cosserat.problems.moving import moves_exactly, moving
 from cosserat.problems.tangents import Motion, Moving, Nearby, NearKey
-from cosserat.solution import Solution
-from cosserat.solvers.slopes import Slope, slope
+from cosserat.solution import FieldRates, Solution
+from cosserat.solvers.slopes import slope
 from cosserat.studies.keys import VariedKey, put, table_of, varied_key
 from cosserat.studies.readouts import ReadOut
+from cosserat.studies.reduced import reduced
 from cosserat.text import shown
 
 Array = NDArray[np.float64]
@@ -28,9 +30,6 @@ _ROUGH = {TANGENT: 1e-5, DIFFERENCES: 1e-3}
 """Error of a derivative, as a fraction of it, above which there is none; by method."""
 _ROUND_OFF = {TANGENT: 16 * float(np.finfo(float).eps), DIFFERENCES: 1e-11}
 """Of the values, in which they are round-off."""
-_TIE = 1e-13  # of the largest value, within which two are the same
-_SAME = 1e-6  # of the largest derivative, within which two are the same
-_ZERO = 1e-9  # of its change with the step, below which a value is zero
 _TIGHT = 1e-14  # tolerance of Newton's method where whole solves are differenced
 
 
@@ -112,31 +111,93 @@ def derivatives(
     ------
     CosseratError : the problem has no result, or none with the read-outs.
     """
-    table = table_of(problem, [one.key.path for one in parameters])
+    table = functools.cache(lambda: table_of(problem, [one.key.path for one in parameters]))
     near = [_nearby(problem, table, one) for one in parameters]
     wanted = {word for one in read_outs for word in one.needs()}
-    motion, method = _motion(problem, near, name, wanted), method_of(problem)
+    motion, method = _motion(problem, near, name, wanted)
     fields = _fields(motion.base, read_outs)
     values = {one.name: float(one.of(fields.fields, fields.labels)) for one in read_outs}
     by: dict[tuple[str, str], Derivative] = {}
     missing: dict[tuple[str, str], str] = {}
-    for own, way, why in zip(parameters, motion.ways, motion.lost, strict=True):
+    rates = motion.rates
+    quick = {} if rates is None else {one.name: rated(one, rates) for one in read_outs}
+    for k, (own, way, why) in enumerate(zip(parameters, motion.ways, motion.lost, strict=True)):
         known: dict[float, Solution] = {0.0: fields}
         for one in read_outs:
             pair = (one.name, own.key.path)
             try:
                 if why:
                     raise InputError(why)
-                by[pair] = _derivative(one, own, way, read_outs, known, method)
+                if quick and k in motion.rated:
+                    by[pair] = quick[one.name].of(own, motion.rated[k])
+                else:
+                    by[pair] = _derivative(one, own, way, read_outs, known, method)
             except CosseratError as error:
-                missing[pair] = (
-                    f"{name}: '{one.name}' has no derivative by '{own.key.path}': "
-                    f"{str(error).removeprefix(f'{name}: ')}"
-                )
+                missing[pair] = f"{name}: {lacking(*pair, str(error).removeprefix(f'{name}: '))}"
     return Derivatives(values, by, missing, method)
 
 
-def _nearby(problem: Problem, table: Mapping[str, Any], own: Parameter) -> Nearby:
+def lacking(read_out: str, path: str, why: str) -> str:
+    """The sentence about a derivative that does not exist."""
+    return f"'{read_out}' has no derivative by '{path}': {why}"
+
+
+@dataclass(frozen=True)
+class Rated:
+    """Derivatives of one read-out of M results by the steps of K keys, and their errors, (M, K).
+
+    why : there is none, by the numbers of a result and a key.
+    """
+
+    value: Array
+    error: Array
+    why: Mapping[tuple[int, int], str]
+
+    def of(self, own: Parameter, number: int) -> Derivative:
+        """The derivative of a single result by a key with its number.
+
+        Raises
+        ------
+        InputError : there is none.
+        """
+        if (0, number) in self.why:
+            raise InputError(self.why[0, number])
+        value, error = float(self.value[0, number]), float(self.error[0, number])
+        return Derivative(own.rate(value), abs(own.rate(error)))
+
+
+def rated(one: ReadOut, rates: FieldRates) -> Rated:
+    """The derivatives of a read-out from the rates of fields."""
+    if one.needs() != {one.variable}:
+        return _rated_between(one, rates)
+    (count, each), labels = rates.known.shape, rates.labels
+    now = one.picked(rates.now, labels)[1].reshape(count, -1)
+    change = one.picked(rates.change, labels)[1].reshape(count * each, -1)
+    smooth = np.zeros(change.shape, dtype=np.bool_)
+    found, why = reduced(one, np.repeat(now, each, axis=0), change, smooth)
+    error = np.abs(change).max(axis=-1, initial=0.0) * rates.rounding.ravel()
+    places = {divmod(row, each): said for row, said in why.items()}
+    return Rated(found.reshape(count, each), error.reshape(count, each), places)
+
+
+def _rated_between(one: ReadOut, rates: FieldRates) -> Rated:
+    """Likewise at a place between two vertices, which may pass it."""
+    found, error = np.full((2, *rates.known.shape), np.nan)
+    why: dict[tuple[int, int], str] = {}
+    for m, k in map(tuple, np.argwhere(rates.known).tolist()):
+        try:
+            values = functools.partial(_picked_after, one, rates, m, k)
+            found[m, k], error[m, k] = _by_step(one, values, TANGENT)
+        except InputError as lacks:
+            why[m, k] = str(lacks)
+    return Rated(found, error, why)
+
+
+def _picked_after(one: ReadOut, rates: FieldRates, result: int, key: int, step: float) -> Array:
+    return one.picked(rates.after(result, key, step), rates.labels)[1]
+
+
+def _nearby(problem: Problem, table: Callable[[], Mapping[str, Any]], own: Parameter) -> Nearby:
     """The problem after a step of a parameter."""
     path, valid = own.key.path.split("."), {True: 0.0, False: 0.0}
 
@@ -144,7 +205,7 @@ def _nearby(problem: Problem, table: Mapping[str, Any], own: Parameter) -> Nearb
         ahead = step > 0
         if abs(step) < valid[ahead]:  # between valid values: a copy that is not validated again
             return cast("Problem", put_inside(problem, path, own.after(step)))
-        changed = put(table, path, own.after(step))
+        changed = put(table(), path, own.after(step))
         found = type(problem).read(changed, f"'{own.key.path}'", units_required=False)
         valid[ahead] = abs(step)
         return found
@@ -170,13 +231,13 @@ def method_of(problem: Problem) -> str:
     return TANGENT if moves_exactly(problem) else DIFFERENCES
 
 
-def _motion(problem: Problem, near: Sequence[Nearby], name: str, wanted: Set[str]) -> Motion:
-    """The result, and how it moves with each parameter."""
+def _motion(problem: Problem, near: Sequence[Nearby], name: str, wanted: Set[str]) -> tuple[Motion, str]:
+    """The result and how it moves with each parameter, and the method."""
     found = moving(problem, near, name, wanted)
     if found is not None:
-        return found
+        return found, TANGENT
     ways = tuple(_Solved(one, name) for one in near)
-    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways))
+    return Motion(sharp(problem).solve(name), ways, ("",) * len(ways)), DIFFERENCES
 
 
 def sharp(problem: Problem) -> Problem:
@@ -218,6 +279,19 @@ def _derivative(
             raise InputError(way.lacks)
         return one.picked(known[step].fields, known[step].labels)[1]
 
+    value, error = _by_step(one, values, method)
+    return Derivative(own.rate(value), abs(own.rate(error)))
+
+
+def _by_step(one: ReadOut, values: Callable[[float], Array], method: str) -> tuple[float, float]:
+    """The derivative of a read-out by the step of a parameter, and its error.
+
+    values : those that are left after components and places were taken, after a step.
+
+    Raises
+    ------
+    InputError : there is none.
+    """
     now = values(0.0)
     size = float(np.abs(now).max(initial=0.0))
     floor = max(_ROUND_OFF[method] * size, VARIABLES[one.variable].floor / 16)
@@ -226,53 +300,8 @@ def _derivative(
         raise InputError(
             f"'{one.variable}' does not change smoothly (differences disagree by {found.relative:.2g} of it)"
         )
-    by_step = _reduced(one, now, found)
-    return Derivative(own.rate(by_step), abs(own.rate(float(found.error.max(initial=0.0)))))
-
-
-def _reduced(one: ReadOut, now: Array, found: Slope) -> float:
-    """The derivative of what a read-out does with the values that are left.
-
-    Raises
-    ------
-    InputError : it has none: a kink, a size at zero, or an extreme that two values share.
-    """
-    rates, kinks = found.value.ravel(), found.kink.ravel()
-    values = now.ravel()
-    if one.where is not None:
-        if kinks.any():
-            raise InputError("its values have a kink there")
-        return float(rates[0])
-    if one.size:
-        still = np.abs(values) < _ZERO * np.abs(rates)
-        kinks = kinks | still
-        rates, values = rates * np.where(values < 0, -1.0, 1.0), np.abs(values)
-    if one.over in ("max", "min"):
-        return _extreme(one.over, values, rates, kinks)
-    if one.over == "range":
-        return _extreme("max", values, rates, kinks) - _extreme("min", values, rates, kinks)
-    if kinks.any():
-        raise InputError("its values have a kink there")
-    if one.over == "mean":
-        return float(rates.mean())
-    if one.over == "norm":
-        norm = float(np.sqrt((values * values).sum()))
-        if norm == 0 and rates.any():
-            raise InputError("a norm has none at zero")
-        return float(values @ rates) / norm if norm else 0.0
-    return float(rates[0])
-
-
-def _extreme(over: str, values: Array, rates: Array, kinks: NDArray[np.bool_]) -> float:
-    """The derivative of the largest or the smallest value."""
-    sign = 1.0 if over == "max" else -1.0
-    size = float(np.abs(values).max())
-    tied = np.flatnonzero(sign * values >= (sign * values).max() - _TIE * size)
-    own = rates[tied]
-    if kinks[tied].any():
-        raise InputError("its values have a kink there")
-    if np.ptp(own) > _SAME * np.abs(rates).max() + _TIE * size:
-        raise InputError(
-            f"{tied.size} values share the {'largest' if sign > 0 else 'smallest'} one and change differently"
-        )
-    return float(own[0])
+    rates, kinks = found.value.reshape(1, -1), found.kink.reshape(1, -1)
+    (by_step,), why = reduced(one, now.reshape(1, -1), rates, kinks)
+    if why:
+        raise InputError(why[0])
+    return float(by_step), float(found.error.max(initial=0.0))

@@ -32,12 +32,12 @@ def sensitivity(case: Case | str, keys: Sequence[str] | str, of: Mapping[str, st
 
     The Dataset has each read-out, 'tip'; its derivative by each key, 'tip_by_young', in its own unit; and on the
     dimension 'key' these times the value of the key, 'tip_scaled', all in the unit of the read-out.  The values of the
-    keys are coordinates.  'error' is an attribute of each derivative, an estimate from its last extrapolation, without
-    the errors of the mesh.
+    keys are coordinates.  'error' is an attribute of each derivative, an estimate from its last extrapolation or from
+    round-off, without the errors of the mesh.
 
-    Equilibria, natural modes, critical load factors, postures and crawls have derivatives by the tangent of the
-    equilibrium, of every instant of a crawl, without another solve.  Those of other kinds, and of crawls solved by
-    collocation, are differences of whole solves; the attribute 'method' says which.
+    Equilibria, natural modes, critical load factors and their shapes, postures and crawls have derivatives by the
+    tangent of the equilibrium, of every instant of a crawl, without another solve.  Those of other kinds, and of crawls
+    solved by collocation, are differences of whole solves; the attribute 'method' says which.
 
     Raises
     ------

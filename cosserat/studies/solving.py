@@ -23,8 +23,9 @@ from cosserat.errors import (
     UnstableError,
 )
 from cosserat.problem import Problem, Run, silent
+from cosserat.problems.columns import unit
 from cosserat.problems.tangents import total_mass
-from cosserat.solution import Field, Many, Solution
+from cosserat.solution import Field, FieldRates, Many, Solution
 from cosserat.studies.family import Task, derivative_name
 from cosserat.studies.keys import put, table_of
 from cosserat.text import printable
@@ -123,7 +124,7 @@ def solve_members(
     found = Solved.nothing(task, task.size)
     with warnings.catch_warnings(), threadpool_limits(1):
         warnings.simplefilter("ignore")
-        left = np.arange(task.size) if task.by else _solve_together(task, found, progress, threads)
+        left = _solve_together(task, found, progress, threads)
         table = table_of(task.base.problem, task.keys)
         for number, member in enumerate(left):
             _solve_one(task, table, int(member), found)
@@ -165,7 +166,7 @@ def _solve_part(
     task: Task, problem: Problem, names: Sequence[str], part: NDArray[np.int64]
 ) -> Many | None:
     columns = {key: column[part] for key, column in zip(task.keys, task.columns, strict=True)}
-    return problem.solve_many(columns, names)
+    return problem.solve_many(columns, names, task.by)
 
 
 def _keep_many(task: Task, many: Many, part: NDArray[np.int64], found: Solved) -> NDArray[np.int64]:
@@ -188,10 +189,38 @@ def _keep_many(task: Task, many: Many, part: NDArray[np.int64], found: Solved) -
         _keep_places(task, found, dims[1:], {own: (d[1:], v[0]) for own, (d, v) in many.fields.items()})
     found.iterations[to] = many.statistics["iterations"][rows]
     found.status[to] = SOLVED
-    for member in set(many.warnings) & set(rows.tolist()):
-        found.status[part[member]], found.reason[part[member]] = WARNED, "; ".join(many.warnings[member])
+    lost = _keep_rates(task, many.rates, rows, to, found) if many.rates is not None else {}
+    for member in (set(many.warnings) | set(lost)) & set(rows.tolist()):
+        said = [*many.warnings.get(member, ()), *lost.get(member, ())]
+        found.status[part[member]], found.reason[part[member]] = (
+            WARNED,
+            "; ".join(said)[:_LONGEST_REASON],
+        )
     others: NDArray[np.int64] = part[~kept]
     return others
+
+
+def _keep_rates(
+    task: Task, rates: FieldRates, rows: NDArray[np.int64], to: NDArray[np.int64], found: Solved
+) -> dict[int, list[str]]:
+    """Keep the derivatives of the read-outs of the members in some rows of a part; returns why some do not exist.
+
+    to : numbers of these members.
+    """
+    from cosserat.studies.derivatives import lacking, rated  # workers start without them
+
+    every = {one.name: rated(one, rates) for one in task.keep}
+    lost: dict[int, list[str]] = {}
+    for k, path in enumerate(task.by):
+        steps = unit(task.columns[task.keys.index(path)][to])
+        for name, own in every.items():
+            why = {row: said for (row, number), said in own.why.items() if number == k}
+            values = own.value[:, k].copy()
+            values[list(why)] = np.nan
+            found.values[derivative_name(name, path)][to] = values[rows] / steps
+            for row, said in why.items():
+                lost.setdefault(row, []).append(lacking(name, path, said))
+    return lost
 
 
 def _solve_one(task: Task, table: Mapping[str, object], member: int, found: Solved) -> None:

@@ -8,7 +8,8 @@ from pydantic_core import PydanticCustomError
 
 import cosserat
 from cosserat.errors import InputError
-from cosserat.problems.many import in_range, members_of, solve_many
+from cosserat.problems.columns import in_range
+from cosserat.problems.many import members_of, solve_many
 from cosserat.quantities import Quantity
 
 SLENDER = {"vertices": 9}

@@ -52,6 +52,12 @@ CRAWL = {
     "held": "final anchor_along",
     "stretch": "max mu_3",
 }
+SHAPES = {
+    **FACTORS,
+    "second": "norm linear_u at 1",
+    "thick": "norm linear_delta at 0",
+    "place": "norm special_x.E2",
+}
 CASES = {
     "bent": ((*ROD, "rod.section.shear_factor", "rod.material.density", "forces.0.force"), BENT),
     "moved": (
@@ -82,8 +88,6 @@ CASES = {
         {"first": "natural_frequency at 0", "third": "natural_frequency at 2"},
     ),
     "free": ((*ROD, "rod.material.density"), {"first": "natural_frequency at 3", "second": "natural_frequency at 4"}),
-    "column": (ROD, FACTORS),
-    "arch": ((*ROD, "rod.rest.curvature", "forces.1.force"), FACTORS),
     "robot": ((*BODY, "crawler.density", "crawler.material.poisson", "gait.phases.1", "gait.gamma.0.1.1"), CRAWL),
     "robot_as_printed": ((*BODY, "crawler.density", "crawler.material.poisson"), CRAWL),
     "earthworm": ((*BODY, "crawler.mass", "gait.gamma.0.2.1", "gait.anchor.0.1.1"),
@@ -98,6 +102,11 @@ CASES = {
     "posture": ((*BODY, "regions.1.pressure", "crawler.material.poisson"),
                 {"length": "max along", "thickest": "max |height|", "stretch": "mu_3 at 30",
                  "place": "along at 0.1 m"}),
+    "column": (ROD, {**FACTORS, "thick": "norm linear_delta at 0", "place": "norm special_x"}),
+    "posed_arch": ((*ROD, "pose.curvature", "forces.1.force"), SHAPES),
+    "begun_column": (("gravity.g",), FACTORS),
+    "begun": (("forces.0.force",), MODES),
+    "arch": ((*ROD, "rod.rest.curvature", "forces.1.force"), SHAPES),
 }  # fmt: skip
 
 

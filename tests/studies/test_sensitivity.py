@@ -5,12 +5,13 @@ import pytest
 
 import cosserat
 from cosserat.errors import InputError
-from cosserat.problems import moving_rows
+from cosserat.problems import moving
 from cosserat.solvers.slopes import slope
 
-from .gradients import FILE, STRIDE, by_other_means, compared
+from .gradients import FACTORS, FILE, STRIDE, by_other_means, compared, differenced
 
 CASES = cosserat.load_cases(FILE)
+PUSHED = [{"at": 5, "along": "E2", "force": 5.0}, {"at": 6, "along": "E3", "force": 0.5}]
 
 
 @pytest.mark.parametrize(
@@ -22,6 +23,8 @@ CASES = cosserat.load_cases(FILE)
         ("robot_as_printed", ["crawler.material.poisson"]),
         ("earthworm_as_printed", ["crawler.length", "gait.gamma.0.2.1"]),
         ("tapered", ["gait.ramp", "loads.advancing"]),
+        ("posed_arch", ["rod.length"]),
+        ("begun_column", ["gravity.g"]),
     ],
 )
 def test_derivatives_are_those_of_differenced_solves(name, keys):
@@ -45,10 +48,23 @@ def test_frequencies_and_shapes_follow_from_modulus_and_density():
     assert free["first_by_young"].attrs["units"] == "Hz Pa-1"
 
 
+def test_a_limit_point_and_its_shape_scale_as_dimensions_say():
+    """Of an arch bent from a straight rod: its load goes as the modulus and a length squared, its shape as neither."""
+    lengths = {"rod.length": 1, "rod.section.width": 1, "rod.section.height": 1, "pose.curvature": -1}
+    read = {"true": FACTORS["true"], "shape": "norm special_u"}
+    case = CASES["posed_arch"].vary("coarse", rod={"vertices": 11}, forces=PUSHED)
+    found = cosserat.sensitivity(case, [*lengths, "rod.material.young"], read)
+    for name, power in {"true": 1, "shape": 0}.items():
+        scaled, size = found[f"{name}_scaled"].to_numpy(), found[name].item()
+        assert scaled[-1] == pytest.approx(power * size, abs=1e-8 * size)
+        assert scaled[:-1] @ [*lengths.values()] == pytest.approx(2 * power * size, abs=1e-8 * size)
+    right = differenced(case, "rod.length", found["length"].item(), read)
+    assert found["shape_scaled"].item(0) == pytest.approx(right[1], rel=1e-6)
+
+
 def test_both_critical_loads_are_proportional_to_the_modulus():
-    of = {"linear": "linear_load_factor at 0", "true": "max special_load_factor"}
-    found = cosserat.sensitivity(CASES["column"], "rod.material.young", of)
-    for name in of:
+    found = cosserat.sensitivity(CASES["column"], "rod.material.young", FACTORS)
+    for name in FACTORS:
         assert found[f"{name}_scaled"].item() == pytest.approx(found[name].item(), rel=1e-8)
 
 
@@ -131,7 +147,6 @@ def at_euler():
         (lambda: CASES["bent"], "rod.length", "u.E2 at 0.5 m", "a kink"),
         (unloaded, "forces.0.force", "max |u.E2|", "a kink"),
         (at_euler, "rod.length", "u.E3 at last", "a limit point or a bifurcation"),
-        (lambda: CASES["column"], "rod.length", "max linear_u", "only load factors"),
         (on_a_front, "gait.eta.1.1.1", "final mu_1_slope at 40", "a kink"),
         (on_a_front, "crawler.length", "max muscle_force", "no variable"),
         (on_a_front, "crawler.length", "max advancing", "at a section jumps"),
@@ -140,6 +155,13 @@ def at_euler():
         (on_a_front, "gait.phases", "final along at last", "derivatives are by quantities"),
         (on_a_front, "gait.phases.7", "final along at last", "names no item of a list of 2"),
         (on_a_front, "gait.gamma.0.1", "final along at last", "has no key 'gait.gamma.0.1'"),
+        (lambda: CASES["column"], "rod.length", "max |x|", "only load factors"),
+        (
+            lambda: CASES["begun"],
+            "rod.length",
+            "natural_frequency at 0",
+            "'start_from' with another 'rod'",
+        ),
     ],
 )
 def test_what_has_no_derivative_is_said_in_one_sentence(case, key, read_out, said):
@@ -171,6 +193,25 @@ def test_a_study_stores_derivatives_of_its_members():
     assert found["tip_by_force"][0, 0].item() > 0
     assert found["tip_by_force"].attrs["method"].startswith("the equilibrium's tangent")
     assert found["mass"][1, 1].item() == one["mass"].item()
+    del of[
+        "mass"
+    ]  # which single results have alone: without it, all members are solved and differentiated at once
+    at_once = cosserat.study(CASES["bent"], vary, of, sensitivities=True, progress=lambda *_: None)
+    for word in at_once.data_vars:
+        assert at_once[word].equals(found[word]), word
+
+
+def test_a_member_of_a_study_at_a_critical_load_has_no_derivative_and_says_so():
+    case = at_euler()
+    critical = case.problem.forces[0].force
+    vary = {"forces.0.force": [0.5 * critical, critical]}
+    found = cosserat.study(
+        case, vary, {"end": "u.E3 at last"}, sensitivities=True, progress=lambda *_: None
+    )
+    assert np.isfinite(found["end"]).all()
+    assert np.isnan(found["end_by_force"].to_numpy()).tolist() == [False, True]
+    assert found["reason"].item(0) == ""
+    assert "a limit point or a bifurcation" in found["reason"].item(1)
 
 
 @pytest.mark.parametrize("name", ["elastica", "clamped_clamped_consistent"])
@@ -181,7 +222,7 @@ def test_columns_and_whole_problems_give_the_same_derivatives(name, monkeypatch)
     read = {"bent": "max |kappa|", "middle": "u.E2 at 10"}
     quick = cosserat.sensitivity(name, keys, read)
     asked = []
-    monkeypatch.setattr(moving_rows, "fits", lambda *own: asked.append(own) or False)
+    monkeypatch.setattr(moving, "has_rates", lambda *own: asked.append(own) or False)
     whole = cosserat.sensitivity(name, keys, read)
     assert asked
     for one in ("bent_scaled", "middle_scaled"):

@@ -153,6 +153,24 @@ def potential(
     )
 
 
+SOFTENED = ("k_axial", "k_volume", "k_section", "k_shear", "k_bending", "k_stretch_gradient")
+"""Constants that `softening` gives, in the order of `cosserat.rods.elasticity.Elastic`."""
+
+
+def softening(own: Array, change: Array, longer: Array) -> Array:
+    """Constants whose gradient is the rate of the gradient of uniform straight rods that keep their strains, (..., 6).
+
+    derived: with its strains, and with forces counted in the lengths of the old reference, the energy depends on a
+    rod by E 2 mu A, E Lambda A, L 2 mu A, E k mu A, EI / E and mu I / E alone, E and L lengths along it.  If these
+    grow by l as a fraction, the products have the rates E (k' + l k) and L (k' + l k), the quotients (k' - l k) / E.
+
+    own, change : (6, ...) stiffnesses and their rates.  longer : (...) l.
+    """
+    sign = np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    found: Array = np.moveaxis(change, 0, -1) + longer[..., None] * sign * np.moveaxis(own, 0, -1)
+    return found
+
+
 def measured_from(rest: Potential, energy: Potential) -> Potential:
     """The energy with its strains measured from the reference of another one; its DOFs stay what they are."""
     constants = energy.constants.copy()
