@@ -347,7 +347,7 @@ page.figure(
 page.figure(
     "fig_gradients",
     "The strains $\\kappa_{\\alpha i}$. Bending and twist are those of a beam. Taper and a growing shear belong to sections that "
-    "deform, and a directed rod exists for them.",
+    "deform; only a directed rod has them.",
 )
 
 # %% [markdown]
@@ -377,7 +377,7 @@ for body in DEFORMATIONS.values():
     lines.append((body.title, f"${body.measure}$", f"${body.pays}$", number, body.beam))
 
 # %% tags=["remove-input"]
-page.table(lines, ("deformation", "strain", "stiffness", "of a rubber bar of 2 cm", "in a beam"))
+page.table(lines, ("deformation", "strain", "stiffness", "of a rubber bar 2 cm thick", "in a beam"))
 
 # %% tags=["remove-cell"]
 assert sum(bool(body.beam) for body in DEFORMATIONS.values()) == 6
