@@ -269,10 +269,12 @@ assert all(abs(ratio - 4) < 0.01 for ratio in ratios)
 #
 # A cantilever of length $L$ with the force $F$ at its free end has the solution
 #
-# $$
-# w = \frac{F}{E I_2} \left( \frac{L \xi^2}{2} - \frac{\xi^3}{6} \right) + \frac{F \xi}{k \mu A} , \qquad
-# \theta = \frac{F}{E I_2} \left( L \xi - \frac{\xi^2}{2} \right) .
-# $$
+# \begin{equation*}
+# \begin{aligned}
+# w &= \frac{F}{E I_2} \left( \frac{L \xi^2}{2} - \frac{\xi^3}{6} \right) + \frac{F \xi}{k \mu A} , \\
+# \theta &= \frac{F}{E I_2} \left( L \xi - \frac{\xi^2}{2} \right) .
+# \end{aligned}
+# \end{equation*}
 #
 # Bending gives the first part of $w$, and shear gives the second. The cell inserts both polynomials into the two equations.
 

@@ -364,8 +364,8 @@ page.explore(
 #
 # \begin{equation*}
 # \begin{aligned}
-# \tilde{i} &= k_I \, \ell_0^2 / k_G , && \text{stiffness of a stretch over that of its gradient} \\
-# \tilde{\delta} &= \bar{D} \, \ell_0^2 / k_G , && \text{force of the longitudinal muscles}
+# \tilde{i} &= k_I \, \ell_0^2 / k_G , && \text{stretch over its gradient} \\
+# \tilde{\delta} &= \bar{D} \, \ell_0^2 / k_G , && \text{longitudinal muscles}
 # \end{aligned} \tag{2.4.9}
 # \end{equation*}
 #

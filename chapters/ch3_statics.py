@@ -351,10 +351,12 @@ page.misprint("E3.30", "E3.31")
 # of them follows by hand. For small strains the first term is $k_1 (\mu - 1)^2$, and the linear theory has
 # $\tfrac12 \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)} (\mu - 1)^2$, so that
 #
-# $$
-# \left[ \frac{d^2}{d\mu^2} \left( \tfrac12 k_1 (\mu^2 - \mu + \mu^{-1}) \right) \right]_{\mu = 1} = 2 k_1
-# = \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)} , \tag{3.4.14}
-# $$
+# \begin{equation*}
+# \begin{aligned}
+# \left[ \frac{d^2}{d\mu^2} \left( \tfrac12 k_1 (\mu^2 - \mu + \mu^{-1}) \right) \right]_{\mu = 1} &= 2 k_1 \\
+# &= \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)} ,
+# \end{aligned} \tag{3.4.14}
+# \end{equation*}
 #
 # which is $c_1 = \tfrac12$. The thesis finds the others by trial, from the four problems below. The part on the calibration
 # repeats this search.

@@ -43,7 +43,7 @@ _STATIC = {
     "elastica directors, P = 10": ("elastica, directors", -1),
 }
 """Names at the ends of the lines of static errors, and how far above their ends they are [points]; near lines share."""
-_VIBRATION = {"frequency 5": 3, "frequency 4": -4}
+_VIBRATION = {"frequency 5": 4, "frequency 4": -1, "frequency 3": -3}
 """The same of the frequencies whose lines end near each other."""
 
 

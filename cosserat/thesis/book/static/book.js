@@ -30,7 +30,6 @@
   };
   window.addEventListener("load", () => {
     const typeset = window.MathJax && window.MathJax.startup && window.MathJax.startup.promise;
-    if (typeset) typeset.then(start);
-    else start();
+    Promise.resolve(typeset).then(() => document.fonts.ready).then(start);  // glyphs have their widths then
   });
 })();
