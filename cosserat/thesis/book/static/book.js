@@ -5,7 +5,7 @@
   const boxes = "div.math, span.math, pre, table.rows, table.docutils, figure.drawn, .cell_output .output";
   const fit = (box) => {
     box.style.fontSize = "";
-    const share = 0.99 * box.clientWidth / box.scrollWidth;
+    const share = 0.97 * box.clientWidth / box.scrollWidth;
     if (box.scrollWidth > box.clientWidth + 1) box.style.fontSize = Math.max(SMALLEST, share).toFixed(3) + "em";
   };
   const mark = () => {
@@ -27,9 +27,11 @@
     let waiting = 0;
     window.addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(mark, 100); });
     document.addEventListener("toggle", mark, true);  // a box inside a folded part has no width before
+    document.fonts.addEventListener("loadingdone", mark);  // glyphs have their widths then
   };
   window.addEventListener("load", () => {
     const typeset = window.MathJax && window.MathJax.startup && window.MathJax.startup.promise;
-    Promise.resolve(typeset).then(() => document.fonts.ready).then(start);  // glyphs have their widths then
+    if (typeset) typeset.then(start);
+    else start();
   });
 })();
