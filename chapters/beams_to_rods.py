@@ -269,10 +269,12 @@ assert all(abs(ratio - 4) < 0.01 for ratio in ratios)
 #
 # A cantilever of length $L$ with the force $F$ at its free end has the solution
 #
-# $$
-# w = \frac{F}{E I_2} \left( \frac{L \xi^2}{2} - \frac{\xi^3}{6} \right) + \frac{F \xi}{k \mu A} , \qquad
-# \theta = \frac{F}{E I_2} \left( L \xi - \frac{\xi^2}{2} \right) .
-# $$
+# \begin{equation*}
+# \begin{aligned}
+# w &= \frac{F}{E I_2} \left( \frac{L \xi^2}{2} - \frac{\xi^3}{6} \right) + \frac{F \xi}{k \mu A} , \\
+# \theta &= \frac{F}{E I_2} \left( L \xi - \frac{\xi^2}{2} \right) .
+# \end{aligned}
+# \end{equation*}
 #
 # Bending gives the first part of $w$, and shear gives the second. The cell inserts both polynomials into the two equations.
 
@@ -347,7 +349,7 @@ page.figure(
 page.figure(
     "fig_gradients",
     "The strains $\\kappa_{\\alpha i}$. Bending and twist are those of a beam. Taper and a growing shear belong to sections that "
-    "deform, and a directed rod exists for them.",
+    "deform; only a directed rod has them.",
 )
 
 # %% [markdown]
@@ -377,7 +379,7 @@ for body in DEFORMATIONS.values():
     lines.append((body.title, f"${body.measure}$", f"${body.pays}$", number, body.beam))
 
 # %% tags=["remove-input"]
-page.table(lines, ("deformation", "strain", "stiffness", "of a rubber bar of 2 cm", "in a beam"))
+page.table(lines, ("deformation", "strain", "stiffness", "of a rubber bar 2 cm thick", "in a beam"))
 
 # %% tags=["remove-cell"]
 assert sum(bool(body.beam) for body in DEFORMATIONS.values()) == 6

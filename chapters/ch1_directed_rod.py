@@ -48,7 +48,7 @@
 # A material point has the coordinates $X^1, X^2$ in its section, in m. Its place in the loaded rod is
 #
 # $$
-# \mathbf{r}^* = \mathbf{r} + X^\beta \mathbf{d}_\beta , \tag{1.3.4}
+# \mathbf{r}^* = \mathbf{r} + X^\beta \mathbf{d}_\beta . \tag{1.3.4}
 # $$
 #
 # This is the main assumption of the theory. The place is linear in $X^\beta$: plane sections stay plane, straight lines in a
@@ -81,7 +81,7 @@ page.excerpt("cosserat.thesis.figures.chapter1.surface", "x_1, x_2 = ", "return 
 # and $\mu_3$ how long the centreline is:
 #
 # $$
-# \mu_i = \|\mathbf{d}_i\| , \tag{1.3.6}
+# \mu_i = \|\mathbf{d}_i\| . \tag{1.3.6}
 # $$
 #
 # The derivatives of the first two say how quickly a section becomes fatter along the rod. They follow from
@@ -188,8 +188,9 @@ page.excerpt(directed_rod.integrated_stiffnesses, "stretch =")
 #
 # \begin{equation*}
 # \begin{aligned}
-# k_{12} = k_{13} &= \tfrac14 (\mu I_2 + \mu I_1 + \mathcal{D}) , \quad k_{14} = E I_2 , \quad k_{15} = E I_1 , \\
-# k_{16} &= \tfrac12 (\mu I_2 + \mu I_1 - \mathcal{D})
+# k_{12} = k_{13} &= \tfrac14 (\mu I_2 + \mu I_1 + \mathcal{D}) , \\
+# k_{14} &= E I_2 , \quad k_{15} = E I_1 , \\
+# k_{16} &= \tfrac12 (\mu I_2 + \mu I_1 - \mathcal{D}) .
 # \end{aligned} \tag{1.2.98}
 # \end{equation*}
 #
@@ -297,7 +298,7 @@ assert left < 1e-13 * largest
 # \frac{\partial \mu_j}{\partial \mathbf{d}_i} &= \delta_i^j \mathbf{e}_j , \\
 # \frac{\partial \mu'_\beta}{\partial \mathbf{d}_\alpha} &= \delta_\beta^\alpha
 # (\mathbf{I} - \mathbf{e}_\beta \otimes \mathbf{e}_\beta) \frac{\mathbf{d}'_\beta}{\mu_\beta} , \\
-# \frac{\partial \mu'_\beta}{\partial \mathbf{d}'_\alpha} &= \delta_\beta^\alpha \mathbf{e}_\beta
+# \frac{\partial \mu'_\beta}{\partial \mathbf{d}'_\alpha} &= \delta_\beta^\alpha \mathbf{e}_\beta .
 # \end{aligned} \tag{1.3.19}
 # \end{equation*}
 #
@@ -331,8 +332,8 @@ page.excerpt(directed_rod.internal_forces, "along, turned, across =")
 #
 # \begin{equation*}
 # \begin{aligned}
-# \mathbf{n} &= \frac{\partial \hat{w}}{\partial \mathbf{r}'} + \lambda^I \frac{\partial \phi^I}{\partial \mathbf{r}'} , \quad
-# \mathbf{k}^\alpha = \frac{\partial \hat{w}}{\partial \mathbf{d}_\alpha}
+# \mathbf{n} &= \frac{\partial \hat{w}}{\partial \mathbf{r}'} + \lambda^I \frac{\partial \phi^I}{\partial \mathbf{r}'} , \\
+# \mathbf{k}^\alpha &= \frac{\partial \hat{w}}{\partial \mathbf{d}_\alpha}
 # + \lambda^I \frac{\partial \phi^I}{\partial \mathbf{d}_\alpha} , \\
 # \mathbf{m}^\alpha &= \frac{\partial \hat{w}}{\partial \mathbf{d}'_\alpha}
 # + \lambda^I \frac{\partial \phi^I}{\partial \mathbf{d}'_\alpha} ,
@@ -344,8 +345,8 @@ page.excerpt(directed_rod.internal_forces, "along, turned, across =")
 #
 # \begin{equation*}
 # \begin{aligned}
-# \mathbf{n} &= \frac{\partial \hat{w}_c}{\partial \mathbf{r}'} + \lambda_c^I \frac{\partial \phi^I}{\partial \mathbf{r}'} , \quad
-# \mathbf{k}^\alpha = \frac{\partial \hat{w}_c}{\partial \mathbf{d}_\alpha}
+# \mathbf{n} &= \frac{\partial \hat{w}_c}{\partial \mathbf{r}'} + \lambda_c^I \frac{\partial \phi^I}{\partial \mathbf{r}'} , \\
+# \mathbf{k}^\alpha &= \frac{\partial \hat{w}_c}{\partial \mathbf{d}_\alpha}
 # + \lambda_c^I \frac{\partial \phi^I}{\partial \mathbf{d}_\alpha} , \\
 # \mathbf{m}^\alpha &= \frac{\partial \hat{w}_c}{\partial \mathbf{d}'_\alpha}
 # + \lambda_c^I \frac{\partial \phi^I}{\partial \mathbf{d}'_\alpha} .
@@ -360,8 +361,8 @@ page.excerpt(constrained_rod.constrained_forces, "gamma, kappa =")
 
 # %% [markdown]
 # "The resulting equations will yield the same state of deformation," says the thesis. Here is a soft bar that keeps its
-# volume, twisted by a third of a radian per centimetre and pulled, or bent into a circle of three centimetres radius. It is
-# uniform: each section is rotated into the next, $\mathbf{d}'_i = \boldsymbol{\omega} \times \mathbf{d}_i$. So the balances say
+# volume, twisted by a third of a radian per centimetre and pulled, or bent into a circle with a radius of three centimetres.
+# It is uniform: each section is rotated into the next, $\mathbf{d}'_i = \boldsymbol{\omega} \times \mathbf{d}_i$. So the balances say
 # that $\mathbf{n}$ is along $\boldsymbol{\omega}$ and that
 # $\boldsymbol{\omega} \times \mathbf{m}^\alpha = \mathbf{k}^\alpha$. The unknowns are the nine components of the
 # directors and the multiplier.
@@ -395,7 +396,7 @@ assert all(abs(found[name, "after"][1] - found[name, "before"][1]) > 1 for name 
 
 # %% tags=["remove-input"]
 page.text(
-    f"The two states differ by {max(differences):.0e} at most. The multipliers do not agree and need not: the second "
+    f"The two states of each bar differ by at most {page.tens(max(differences))}. The multipliers do not agree and need not: the second "
     "contains a part of the energy's own force. So a multiplier alone is not a pressure; one must also say to which energy it was added."
 )
 
@@ -414,7 +415,7 @@ page.text(
 # and the director momenta
 #
 # $$
-# \mathbf{L}^\alpha = \rho_0 y_0^{0\alpha} \mathbf{v} + \rho_0 y_0^{\alpha\beta} \mathbf{w}_\beta \tag{1.2.41}
+# \mathbf{L}^\alpha = \rho_0 y_0^{0\alpha} \mathbf{v} + \rho_0 y_0^{\alpha\beta} \mathbf{w}_\beta . \tag{1.2.41}
 # $$
 #
 # They stand on the right-hand sides of the balances of forces and of director forces when the rod moves. The kinetic energy per

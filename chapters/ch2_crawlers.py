@@ -35,16 +35,15 @@ from cosserat.thesis.book import page
 
 # %% tags=["remove-input"]
 page.player(
-    "play_worm", "Two strides in real time. Heights are drawn three times as large. Segment 50 is black."
+    "play_worm", "Two strides in real time. Heights are drawn three times as large. Segment 50 is marked."
 )
 
 # %% [markdown]
 # * A **front** is a junction that travels from the front end of the body to the rear. Behind a front $\gamma$ the body anchors,
-#   ahead of it it advances. Behind a front $\eta$ the body advances, ahead of it it anchors.
+#   ahead of it the body advances. At a front $\eta$ it is the other way round.
 # * The **anchor** is the one point that is fixed to the ground at an instant. It is the section $\xi_A$.
-# * In the **protrusion**, which lasts $t_p$, the front part becomes long and reaches forward while an anchor behind
-#   it holds. In the
-#   **stance**, which lasts $t_s$, the front end holds, and the rear part becomes short and follows.
+# * In the **protrusion**, which lasts $t_p$, the front part becomes long and reaches forward while an anchor
+#   behind it holds. In the **stance**, which lasts $t_s$, the front end holds, and the rear part becomes short and follows.
 # * A **stride** is a protrusion and a stance. Its length $\Delta$ is how far the body is moved by both.
 # * An earthworm consists of some 150 rings, the segments, counted from the front end. Quillin measured **segment 50**. It lies two
 #   fifths of the length behind the front end, so at $\xi = 3\ell_0/5$. It is in **longitudinal contraction** when it
@@ -228,7 +227,7 @@ NUMBERS = {
 # The printed and the corrected equations both give the published stretches and pressure of longitudinal contraction. In circular
 # contraction they differ. The printed ones give the published lateral stretch, and miss the axial stretch and the pressure by
 # less than one unit of the last digit. The corrected ones give other numbers, so the published numbers were computed
-# with the misprint of E2.5. E2.5 is about the printed equation (2.4.18). Separate rows show its correction alone, and
+# with the misprint of E2.5, which is about equation (2.4.18). Separate rows show its correction alone, and
 # together with the weight of E2.7.
 
 # %% tags=["remove-input"]
@@ -385,8 +384,8 @@ page.misprint("E2.27")
 # | law | force $\bar{D}$ grows as | pressure $p$ grows as | why |
 # |---|---|---|---|
 # | strip tension | $R$ | $1/R$ | a strip of muscle has the same tension in every worm; the pressure is this tension over the radius, as in a tube |
-# | strip tension, constant $p$ | $R$ | 1 | the same strip, and one pressure for all |
-# | constant stress | $R^2$ | 1 | the muscle is as thick as its worm is large, and its force per area is the same |
+# | strip tension, constant $p$ | $R$ | constant | the same strip, and one pressure for all |
+# | constant stress | $R^2$ | constant | the muscle is as thick as its worm is large, and its force per area is the same |
 
 # %% tags=["remove-input"]
 page.excerpt("cosserat.thesis.earthworm.BodyMass.scaled", "mass = self")

@@ -147,20 +147,23 @@ page.misprint("E2.7")
 # \begin{equation*}
 # \begin{aligned}
 # 2w = {}& k_S [(\mu_1 - 1)^2 + (\mu_2 - 1)^2 + (\mu_3 - 1)^2] \\
-# & + 2k_P [(\mu_1 - 1)(\mu_2 - 1) + (\mu_1 - 1)(\mu_3 - 1) + (\mu_2 - 1)(\mu_3 - 1)] \\
+# & + 2k_P [(\mu_1 - 1)(\mu_2 - 1) + (\mu_1 - 1)(\mu_3 - 1) \\
+# & \hphantom{{} + 2k_P [} + (\mu_2 - 1)(\mu_3 - 1)] \\
 # & + k_G [(\mu'_1)^2 + (\mu'_2)^2] .
 # \end{aligned} \tag{2.3.1}
 # \end{equation*}
 #
-# The first line resists each stretch by itself. The second line couples them: pull the body along, and it becomes thin. The
-# third line resists a section that differs from its neighbour. The three stiffnesses follow from Young's modulus $E$ and
+# The first line resists each stretch by itself. The terms with $k_P$ couple them: pull the body along, and it becomes thin. The
+# last line resists a section that differs from its neighbour. The three stiffnesses follow from Young's modulus $E$ and
 # Poisson's ratio $\nu$, and they are those of Chapter 1. In the library a problem with all its data is a *case*, and
 # the name of each datum is a *key*. A case may give the bulk modulus in place of one of the two.
 #
-# $$
-# k_S = \frac{E \pi R^2 (1 - \nu)}{(1 + \nu)(1 - 2\nu)} , \quad k_P = \frac{\nu}{1 - \nu} k_S , \quad
-# k_G = \frac{E \pi R^4}{8(1 + \nu)} . \tag{2.6.20}
-# $$
+# \begin{equation*}
+# \begin{aligned}
+# k_S &= \frac{E \pi R^2 (1 - \nu)}{(1 + \nu)(1 - 2\nu)} , \\
+# k_P &= \frac{\nu}{1 - \nu} k_S , \quad k_G = \frac{E \pi R^4}{8(1 + \nu)} .
+# \end{aligned} \tag{2.6.20}
+# \end{equation*}
 #
 # ### From the balances to the equations, in four steps
 #
@@ -170,8 +173,8 @@ page.misprint("E2.7")
 # \begin{aligned}
 # \mathbf{k}^1 &= [k_S (\mu_1 - 1) + k_P (\mu_2 + \mu_3 - 2)] \, \mathbf{E}_1 , \\
 # \mathbf{k}^2 &= [k_S (\mu_2 - 1) + k_P (\mu_1 + \mu_3 - 2)] \, \mathbf{E}_2 , \\
-# \mathbf{n} &= [k_S (\mu_3 - 1) + k_P (\mu_1 + \mu_2 - 2)] \, \mathbf{e}_3 , \qquad
-# \mathbf{m}^\alpha = k_G \mu'_\alpha \mathbf{E}_\alpha .
+# \mathbf{n} &= [k_S (\mu_3 - 1) + k_P (\mu_1 + \mu_2 - 2)] \, \mathbf{e}_3 , \\
+# \mathbf{m}^\alpha &= k_G \mu'_\alpha \mathbf{E}_\alpha .
 # \end{aligned} \tag{2.3.2}
 # \end{equation*}
 #
@@ -195,20 +198,21 @@ page.misprint("E2.7")
 # k_G \mu''_2 = \mathbf{k}^2 \cdot \mathbf{E}_2 + p \pi R^2 .
 # $$
 #
-# 4. *Numbers without units.* Multiply by $\ell_0^2/k_G$, and write every length as a fraction of $\ell_0$. These groups are left:
+# 4. *Numbers without units.* Multiply by $\ell_0^2/k_G$, and write every length as a fraction of $\ell_0$. These groups are left, all of them ratios to
+#    $k_G$ or to $k_S$:
 #
 # \begin{equation*}
 # \begin{aligned}
-# \tilde{g} &= k_S \, \ell_0^2 / k_G , && \text{stiffness of a stretch over that of its gradient} \\
+# \tilde{g} &= k_S \, \ell_0^2 / k_G , && \text{stretch over its gradient} \\
 # \tilde{p} &= k_P / k_S , && \text{coupling of the stretches} \\
-# \tilde{d} &= \bar{D} / k_S , && \text{force of the longitudinal muscles} \\
+# \tilde{d} &= \bar{D} / k_S , && \text{longitudinal muscles} \\
 # \tilde{m} &= R \, \rho_0 g \, \ell_0^2 / k_G , && \text{weight}
 # \end{aligned} \tag{2.3.4}
 # \end{equation*}
 #
 # \begin{equation*}
 # \begin{aligned}
-# \tilde{c} &= p \pi R^2 \ell_0^2 / k_G . && \text{pressure of the circular muscles}
+# \tilde{c} &= p \pi R^2 \ell_0^2 / k_G . && \text{circular muscles}
 # \end{aligned} \tag{2.3.8}
 # \end{equation*}
 
@@ -309,7 +313,7 @@ assert np.allclose(mu_3, 1 - loads.anchoring / k_s * (1 - thin) - p * (mu_1 + mu
 # a = \sqrt{\frac{k_G}{k_S - k_P}} = \frac{R}{\sqrt{8}} ,
 # $$
 #
-# and a common change of both over $1/\sqrt{1 + 2\tilde{p}}$ of that. Both are shorter than the radius. This is a limit of the
+# and a common change of both decays over $1/\sqrt{1 + 2\tilde{p}}$ times this length. Both are shorter than the radius. This is a limit of the
 # theory, because a rod theory assumes that sections change slowly along the body.
 
 # %% tags=["remove-input"]
@@ -360,8 +364,8 @@ page.explore(
 #
 # \begin{equation*}
 # \begin{aligned}
-# \tilde{i} &= k_I \, \ell_0^2 / k_G , && \text{stiffness of a stretch over that of its gradient} \\
-# \tilde{\delta} &= \bar{D} \, \ell_0^2 / k_G , && \text{force of the longitudinal muscles}
+# \tilde{i} &= k_I \, \ell_0^2 / k_G , && \text{stretch over its gradient} \\
+# \tilde{\delta} &= \bar{D} \, \ell_0^2 / k_G , && \text{longitudinal muscles}
 # \end{aligned} \tag{2.4.9}
 # \end{equation*}
 #
@@ -418,7 +422,7 @@ page.misprint("E2.4", "E2.8")
 page.misprint("E2.10", "E2.12")
 
 # %% [markdown]
-# Any sequence of regions can be computed. Here five regions of equal length share the worm:
+# Any sequence of regions can be computed. Here the worm has five regions of equal length:
 
 # %%
 muscles = cosserat.case("worm").problem.loads
@@ -524,7 +528,7 @@ for name, other, what in (
         for key in ("mu_1", "mu_2", "mu_3")
     )
     assert largest < 1e-6
-    lines.append((what, f"{len(at)}", f"{largest:.0e}"))
+    lines.append((what, f"{len(at)}", page.tens(largest)))
 page.table(lines, ("body", "instants", "largest difference of a stretch"))
 
 # %% tags=["remove-input"]

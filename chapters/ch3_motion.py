@@ -12,8 +12,8 @@
 # # Chapter 3: the discrete planar rod in motion
 #
 # A rod that is released, shaken or thrown moves, because its forces do not balance. This part gives the vertices and directors
-# their masses and follows the motion in small steps of time. A step that is too long destroys energy or creates it. The
-# method of this library cannot, and you will see why that matters.
+# their masses and follows the motion in small steps of time. Most methods lose or create energy if their steps are too long. The
+# method of this library keeps the energy exactly, and you will see why that matters.
 #
 # :::{admonition} After this chapter you can
 # :class: objectives
@@ -33,7 +33,7 @@
 # \begin{equation*}
 # \begin{gathered}
 # {}_K\rho_0 = \int \rho_0^*\, dA , \\
-# {}_K\rho_0\, {}_K Y^{02} = \int X \rho_0^*\, dA , \qquad
+# {}_K\rho_0\, {}_K Y^{02} = \int X \rho_0^*\, dA , \\
 # {}_K\rho_0\, {}_K Y^{22} = \int X X \rho_0^*\, dA .
 # \end{gathered} \tag{3.3.28}
 # \end{equation*}
@@ -58,7 +58,8 @@
 # {}_K\dot{\mathbf{G}}\, {}_K L &= {}_K\mathbf{F} , \\
 # {}_K\dot{\mathbf{L}}\, {}_K L &= {}_K\mathbf{P} , \\
 # \sum_K \left( {}_K\dot T + {}_K\dot\Pi_e \right) {}_K L
-# &= \sum_K \left( {}_K\mathbf{F}_{ext} \cdot {}_K\dot{\mathbf{x}} + {}_K\mathbf{P}_{ext} \cdot {}_K\dot{\mathbf{d}} \right) .
+# &= \sum_K {}_K\mathbf{F}_{ext} \cdot {}_K\dot{\mathbf{x}} \\
+# & + \sum_K {}_K\mathbf{P}_{ext} \cdot {}_K\dot{\mathbf{d}} .
 # \end{aligned} \tag{3.3.36}
 # \end{equation*}
 #
@@ -158,8 +159,8 @@ page.excerpt("cosserat.solvers.energy_momentum._sigma", "work, along = 0.0")
 # \begin{equation*}
 # \begin{aligned}
 # W_n = {}& A_n \bigl[ \cosh(\beta_n x) - \cos(\beta_n x) \\
-# & + \frac{\cos(\beta_n L) + \cosh(\beta_n L)}{\sin(\beta_n L) + \sinh(\beta_n L)}
-# \bigl( \sin(\beta_n x) - \sinh(\beta_n x) \bigr) \bigr] ,
+# & + \frac{\cos(\beta_n L) + \cosh(\beta_n L)}{\sin(\beta_n L) + \sinh(\beta_n L)} \\
+# & \times \bigl( \sin(\beta_n x) - \sinh(\beta_n x) \bigr) \bigr] ,
 # \end{aligned} \tag{3.5.16}
 # \end{equation*}
 #
@@ -297,13 +298,13 @@ assert slow[0] < 5e-3 * slow[1]
 
 # %% tags=["remove-input"]
 page.text(
-    f"The first mode has {energy[0] / energy.sum():.0%} of the energy of the start. A single other mode has "
-    f"{energy[stiff] / energy.sum():.0%}, with a period of {2 * np.pi / every.angular_frequency[stiff] * 1e6:.0f} µs. The "
-    f"implicit step is {problem.integrator.step * 1e6:.0f} µs, which is about as long: it cannot follow this mode. Even so the "
-    f"tips of both methods agree to {tips[0] / tips[1]:.1%} of the amplitude, and the kinetic energies of the first mode to "
-    f"{slow[0] / slow[1]:.2%}. Only the whole kinetic energies differ, by up to {whole[0]:.2f} of {whole[1]:.1f} J. The long "
-    "steps keep the energy of the fast mode but not its phase. So the form of the ripple depends on "
-    "the step. The stored file has a warning about it. The period of the beam does not depend on the step."
+    f"The first mode has {100 * energy[0] / energy.sum():.0f} % of the energy of the start. A single other mode has "
+    f"{100 * energy[stiff] / energy.sum():.0f} %, with a period of {2e6 * np.pi / every.angular_frequency[stiff]:.0f} µs. "
+    f"The implicit step is {1e6 * problem.integrator.step:.0f} µs, which is about as long: it cannot follow this mode. Even "
+    f"so the tips of both methods agree to {100 * tips[0] / tips[1]:.1f} % of the amplitude, and the kinetic energies of the "
+    f"first mode to {100 * slow[0] / slow[1]:.2f} %. Only the whole kinetic energies differ, by up to {whole[0]:.2f} of "
+    f"{whole[1]:.1f} J. The long steps keep the energy of the fast mode but not its phase. So the form of the ripple depends "
+    "on the step. The stored file has a warning about it. The period of the beam does not depend on the step."
 )
 
 # %% [markdown]

@@ -53,7 +53,7 @@ from cosserat.thesis.book import page
 page.excerpt("cosserat.rods.variation.lump", "area * s.width", "]")
 
 # %% [markdown]
-# A cone that keeps its clamped end and becomes thin towards the free one is lighter where its weight has the longest arm:
+# A beam that keeps its clamped end and becomes thin towards the free one is lighter where its weight has the longest arm:
 
 # %%
 cone = cosserat.case("clamped_free").vary(
@@ -62,7 +62,7 @@ cone = cosserat.case("clamped_free").vary(
 tapered = cosserat.run(cone).u.sel(axis="E2")[-1].item()
 uniform = page.data("clamped_free").u.sel(axis="E2")[-1].item()
 print(
-    f"The tip of the cone sinks by {-1e3 * tapered:.1f} mm, that of the uniform beam by {-1e3 * uniform:.1f} mm."
+    f"The tip of the tapered beam sinks by {-1e3 * tapered:.1f} mm, that of the uniform beam by {-1e3 * uniform:.1f} mm."
 )
 
 # %% [markdown]
@@ -81,7 +81,7 @@ print(f"Its tip hangs {1e3 * of_two:.3f} mm down, that of the uniform bar {1e3 *
 # %% tags=["remove-input"]
 page.figure(
     "fig_varied_sections",
-    "(a) The cone sags less than the uniform beam, and bends most where it is thin. (b) The displacement of the bar of two "
+    "(a) The tapered beam sags less than the uniform beam, and bends most where it is thin. (b) The displacement of the bar of two "
     "materials has a kink at the joint. Below the joint the published rod hangs too high at every vertex: it has lost "
     "something in one edge, the one with the joint in it.",
 )
@@ -108,14 +108,20 @@ page.table(
         (
             f"{kind} {k}",
             *(
-                f"{getattr(lumped, key)[k]:.3g}"
-                for key in ("area", "second_moment", "young", "shear", "poisson")
+                f"{getattr(lumped, key)[k] / unit:.3g}"
+                for key, unit in (
+                    ("area", 1),
+                    ("second_moment", 1),
+                    ("young", 1e9),
+                    ("shear", 1e9),
+                    ("poisson", 1),
+                )
             ),
         )
         for k in (edge - 1, edge, edge + 1)
         for kind, lumped in (("vertex", of_vertices), ("edge", of_edges))
     ],
-    ("Table 3.1 around the joint", "$A$ [m²]", "$I$ [m⁴]", "$E$ [Pa]", "$G$ [Pa]", "$\\nu$ [1]"),
+    ("Table 3.1 around the joint", "$A$ [m²]", "$I$ [m⁴]", "$E$ [GPa]", "$G$ [GPa]", "$\\nu$ [1]"),
 )
 
 # %% [markdown]
@@ -131,7 +137,8 @@ exact = (weight * 2 * (2 / 2 + 3 * 3) + 3 * weight * 3 * 3 / 2 / 0.3) / (rod.you
 converging = cosserat.run(bar.vary("added_up", rod={"energy": "consistent", "calibration": "none"}))
 added_up = converging.u.sel(axis="E3")[-1].item()
 print(
-    f"closed form {1e3 * exact:.5f} mm; averages {of_two / exact - 1:+.1%}, compliances {added_up / exact - 1:+.0e}"
+    f"closed form {1e3 * exact:.5f} mm; averages {100 * (of_two / exact - 1):+.2f} %, "
+    f"compliances {100 * (added_up / exact - 1):+.2f} %"
 )
 
 # %% tags=["remove-cell"]

@@ -351,10 +351,12 @@ page.misprint("E3.30", "E3.31")
 # of them follows by hand. For small strains the first term is $k_1 (\mu - 1)^2$, and the linear theory has
 # $\tfrac12 \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)} (\mu - 1)^2$, so that
 #
-# $$
-# \left[ \frac{d^2}{d\mu^2} \left( \tfrac12 k_1 (\mu^2 - \mu + \mu^{-1}) \right) \right]_{\mu = 1} = 2 k_1
-# = \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)} , \tag{3.4.14}
-# $$
+# \begin{equation*}
+# \begin{aligned}
+# \left[ \frac{d^2}{d\mu^2} \left( \tfrac12 k_1 (\mu^2 - \mu + \mu^{-1}) \right) \right]_{\mu = 1} &= 2 k_1 \\
+# &= \frac{EA(1-\nu)}{(1+\nu)(1-2\nu)} ,
+# \end{aligned} \tag{3.4.14}
+# \end{equation*}
 #
 # which is $c_1 = \tfrac12$. The thesis finds the others by trial, from the four problems below. The part on the calibration
 # repeats this search.
@@ -377,8 +379,8 @@ page.excerpt("cosserat.rods.energies.hemingway_stiffness.stiffnesses", "k1=c.c1"
 # $$
 #
 # In equilibrium they balance the loads. The library takes these derivatives, and the second ones, term by term in compiled
-# code. The thesis lists the forces as well. Five corrections make its lists the derivatives of its own energy, so the library
-# does not use the lists.
+# code. The thesis lists the forces as well. Its lists are derivatives of its energy only after five corrections, so the
+# library does not use them.
 
 # %% tags=["remove-input"]
 page.misprint("E3.4", "E3.5", "E3.6", "E3.7", "E3.8")
@@ -526,7 +528,7 @@ page.rows("F3.10")
 # %% tags=["remove-input"]
 page.figure(
     "fig_3_11",
-    "The beam with two clamps, with the same markers. Here it is the hollow squares that lie near the closed form.",
+    "The beam with two clamps, with the same markers. Here the hollow squares lie near the closed form.",
 )
 
 # %% tags=["remove-input"]
@@ -541,8 +543,8 @@ page.rows("F3.11")
 #
 # and (3.4.11) then multiplies them by the half Voronoi lengths of the ends. This counts the same half twice: the clamped
 # section keeps a quarter of the shear stiffness of an edge. The table shows the computed sag over the closed form for both
-# readings, with $k = 5/6$ and with $k = 1$, because the thesis does not say which $k$ its beams have. In no row are
-# both ratios one.
+# readings, with $k = 5/6$ and with $k = 1$, because the thesis does not say which $k$ its beams have. No row has
+# the ratio one twice.
 
 # %% tags=["remove-input"]
 page.misprint("E3.9", "E3.17")
@@ -584,7 +586,7 @@ page.text(
 # %% [markdown]
 # ### Necking
 #
-# A bar under the tension $n$ becomes thinner, by Poisson's effect. Its two end sections are held and cannot. So the section
+# A bar under the tension $n$ becomes thinner, by Poisson's effect. Its two end sections are held and cannot become thinner. So the section
 # strain $\lambda - 1$ is zero at the ends, and it tends to the value $-\nu n/EA$ of a free bar further inside:
 #
 # $$
@@ -596,8 +598,8 @@ page.text(
 # \beta^2 = \frac{A(1+\nu)}{I(1-\nu)} . \tag{3.5.9}
 # $$
 #
-# This is the first effect here that no textbook beam has: the section is alive. The length $1/\beta$ says how fast the
-# influence of an end dies out; it is about a fifth of the height. (3.5.8) is written so that a computer keeps its digits;
+# This is the first effect here that no textbook beam has: the section deforms. The length $1/\beta$ says how fast the
+# influence of an end dies out; it is about a fifth of the height. (3.5.8) is the printed formula in a form that keeps its digits on a computer;
 # (3.5.9) is as printed. The balance of forces on the directors gives other values, twice the printed $\beta^2$ if the section
 # stretches equally in both directions.
 
@@ -648,8 +650,8 @@ page.text(
 page.explore(
     "explore_poisson",
     "Move Poisson's ratio. With the term as printed the bar contracts 1.7 times as much as it should at a small "
-    "$\\nu$, and more than three times as much at 0.3. With half the term it is, far from the ends, up to a sixth "
-    "below $-\\nu n / EA$ at a small $\\nu$, and right at 0.3. The consistent rod keeps to this value for every $\\nu$.",
+    "$\\nu$, and more than three times as much at 0.3. With half the term the contraction far from the ends is up to a "
+    "sixth less than $\\nu n / EA$ at a small $\\nu$, and right at 0.3. That of the consistent rod has this value for every $\\nu$.",
 )
 
 # %% [markdown]

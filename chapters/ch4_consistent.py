@@ -164,7 +164,7 @@ page.table(
 # %% [markdown]
 # ## The problems of Chapter 3 without calibration
 #
-# The figures 3.8 to 3.13 show this rod beside the published one. It meets the same closed forms, with 20 vertices, and none of its
+# Figs. 3.8 to 3.13 show this rod beside the published one. It meets the same closed forms, with 20 vertices, and none of its
 # stiffnesses has been fitted:
 
 # %% tags=["remove-input"]
@@ -260,7 +260,7 @@ assert np.abs(column.load_factor.to_numpy() * problem.forces[0].force / euler).m
 # %% [markdown]
 # ## Motion
 #
-# The integrator of Chapter 3 computes the motion of this rod as well, with the same promise: energy and momenta stay.
+# The integrator of Chapter 3 computes the motion of this rod as well, with the same promise: energy and momenta stay constant.
 
 # %% tags=["remove-input"]
 page.player(
@@ -271,8 +271,8 @@ page.player(
 # %% tags=["remove-input"]
 page.figure(
     "fig_tumbling",
-    "(a) A rod in free flight at equal times: it rises, spins and bends. (b) What must stay, stays: momenta to round-off, and the energy "
-    "below the dashed line, the tolerance that is claimed.",
+    "(a) A rod in free flight at equal times: it rises, spins and bends. (b) The momenta stay constant to round-off, and the energy "
+    "to less than the tolerance that is claimed, the dashed line.",
 )
 
 # %% [markdown]
@@ -320,8 +320,8 @@ page.table(lines, ("$1 - 2\\nu$ [1]", "error of the section strain far from the 
 #
 # Sections stay plane and stretch uniformly. The model does not describe a section that warps or bends, as the wide strip of a
 # measuring tape does; section 1.2 of the thesis warns of this. The rod is planar, has no contact, no actuators and no branches. The
-# law of the material is linear in the strains of this rod, so at strains of order one it is that of no real material. Chapter 5
-# compares its speed with other packages.
+# law of the material is linear in the strains of this rod, so it describes no real material at strains of order one.
+# Its speed is measured on the page [Beside other packages](ch5_peers.ipynb).
 #
 # ## Exercises
 #

@@ -43,7 +43,7 @@ page.figure(
 
 # %% tags=["remove-input"]
 verdict = page.today()
-page.text(f"The results table today: {verdict[0]} Of all rows: {verdict[-1]}.")
+page.text(f"**The verdict.** {verdict[0]} The results table has {verdict[-1]}.")
 
 # %% [markdown]
 # ## How this book is made

@@ -241,7 +241,7 @@ here.command("cosserat plot sides.nc")
 here.picture(
     "sides.svg",
     "Five points on a rising curve: the thicker the bar, the nearer its tip stays to its place.",
-    "A twice as thick finger weighs four times as much and is sixteen times as stiff, so it sinks to about a quarter.",
+    "A finger twice as thick weighs four times as much and is sixteen times as stiff, so it sinks to about a quarter.",
 )
 
 # %% tags=["remove-cell"]

@@ -66,8 +66,8 @@ page.source("cosserat.export.webassembly.pull._descend")
 # ## Which code solves it
 #
 # The functions of the energy and of the solver are written in Python and compiled by Numba. Numba turns them into the
-# intermediate code of LLVM, a compiler that knows many processors. One of these is WebAssembly, a processor that exists only
-# inside browsers. So the same lines that solve a case of this book become a module of some 40 kB, which is part of this page. The
+# intermediate code of LLVM, a compiler that knows many processors. One of these is WebAssembly, an imagined
+# processor that every browser imitates. So the same lines that solve a case of this book become a module of some 40 kB, which is part of this page. The
 # script of the page moves the ring and draws. It contains no mechanics.
 #
 # The module imports nothing. Sine, cosine, tangent and arctangent usually come from a library, and libraries differ in the
@@ -86,8 +86,8 @@ page.source("cosserat.export.webassembly.elementary.atan2")
 #   they differ by at most 4 units in the last place of the largest term. No sum is reordered, and no product is
 #   fused with a sum, in either of them.
 # - *The same equilibria.* A rod that is dragged, in one go or in many small steps, ends within $10^{-9}$ of the
-#   answer of `cosserat.run` for the same place of the tip. A browser drags the ring of this page with its mouse and with its
-#   keyboard and is compared in the same way.
+#   answer of `cosserat.run` for the same place of the tip. A browser drags the ring of this page with a mouse, a
+#   keyboard and a finger, and is compared in the same way.
 #
 # ## Limits
 #

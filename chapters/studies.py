@@ -248,7 +248,7 @@ page.table(
             f"{low:.2f} N",
             f"{median:.2f} N",
             f"{high:.2f} N",
-            f"{float(np.abs(computed / formula - 1).max()):.1e}",
+            f"{100 * float(np.abs(computed / formula - 1).max()):.1f} %",
         ]
     ],
     (

@@ -21,7 +21,7 @@ from cosserat.studies.plan import (
     folder_of,
     gathered,
     left,
-    members_of,
+    members_in,
     plan,
     sweep,
 )
@@ -101,7 +101,7 @@ def _solve(options: argparse.Namespace, found: Family, folder: Path, path: Path,
     names = left(folder, made)
     if not names:
         return False
-    seconds = made.seconds * sum(members_of(folder, name) for name in names)
+    seconds = made.seconds * sum(members_in(folder, name) for name in names)
     by_snakemake = bool(options.profile or options.cores)
     if not by_snakemake and seconds > _HERE_SECONDS:
         by_snakemake = importlib.util.find_spec("snakemake") is not None
@@ -139,7 +139,7 @@ def _here(found: Family, folder: Path, given: list[str]) -> None:
 def _each(found: Family, folder: Path, names: list[str]) -> None:
     from cosserat.studies.solving import solve_members
 
-    sizes = [members_of(folder, name) for name in names]
+    sizes = [members_in(folder, name) for name in names]
     with bar(found.name) as report:
         for number, name in enumerate(names):
             begin, share = sum(sizes[:number]) / sum(sizes), sizes[number] / sum(sizes)
@@ -212,7 +212,7 @@ def _report(found: Family, folder: Path, path: Path, *, partial: bool, written: 
 def _tell(found: Family, folder: Path, made: Plan) -> None:
     """Print how a study stands."""
     names = left(folder, made)
-    members = sum(members_of(folder, name) for name in names)
+    members = sum(members_in(folder, name) for name in names)
     work = f", about {duration(made.seconds * members)} of work" if members and made.seconds else ""
     shape = " x ".join(f"{size} {dim}" for dim, size in zip(found.dims(), found.shape, strict=True))
     print(f"{found.name}: {found.size} members ({shape}) in {_counted(len(made.batches))} in {folder}")

@@ -93,6 +93,6 @@ DESIGNS: Mapping[str, Callable[[int, int, int], Points]] = {
 """Kinds of points by their word in a study: functions of the count, the number of keys and the seed."""
 
 
-def members_of(design: str, count: int, keys: int) -> int:
+def number_of_points(design: str, count: int, keys: int) -> int:
     """How many members a design has."""
     return count * {"saltelli": keys + 2, "morris": keys + 1}.get(design, 1)

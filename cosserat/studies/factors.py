@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from cosserat.errors import InputError
 from cosserat.problem import Problem
 from cosserat.reading import read_text
-from cosserat.studies.designs import DESIGNS, Points, members_of
+from cosserat.studies.designs import DESIGNS, Points, number_of_points
 from cosserat.studies.distributions import correlated, distribution, is_distribution
 from cosserat.studies.keys import VariedKey, read_value, varied_key
 from cosserat.studies.study import MOST_MEMBERS, Factor
@@ -143,10 +143,10 @@ def _from_points(
         own = factor.covariance is None
         laws.append(distribution(key, given, study, unit_required=unit_required, own=own))
     count = getattr(factor, factor.design)
-    if members_of(factor.design, count, len(keys)) > MOST_MEMBERS:
+    members = number_of_points(factor.design, count, len(keys))
+    if members > MOST_MEMBERS:
         raise InputError(
-            f"{study}: {factor.design} = {count} gives {members_of(factor.design, count, len(keys))} members; a study "
-            f"may have up to {MOST_MEMBERS}"
+            f"{study}: {factor.design} = {count} gives {members} members; a study may have up to {MOST_MEMBERS}"
         )
     try:
         points = DESIGNS[factor.design](count, len(keys), factor.seed)

@@ -153,7 +153,7 @@ def left(folder: Path, made: Plan) -> list[str]:
     return [name for name in made.batches if not answer_file(folder, name).exists()]
 
 
-def members_of(folder: Path, name: str) -> int:
+def members_in(folder: Path, name: str) -> int:
     """The number of members of a batch."""
     return len(read_arrays(_task_file(folder, name))["digests"])
 

@@ -110,6 +110,23 @@
       if (box.width > 0 && outside(box) > 1) fault("columns", parent, `its text is ${outside(box)} px beyond the column`);
     }
 
+    // ---- words of tables
+    const rows = (range) => new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size;
+    for (const cell of article.querySelectorAll("table :is(th, td)")) {
+      if (!visible(cell)) continue;
+      looked("words");
+      for (const [text, parent] of texts(cell, "mjx-container, script, style, svg, code")) {
+        const range = document.createRange();
+        range.selectNodeContents(text);
+        if (!visible(parent) || rows(range) < 2) continue;
+        for (const word of text.data.matchAll(/[A-Za-z]{4,}/g)) {
+          range.setStart(text, word.index);
+          range.setEnd(text, word.index + word[0].length);
+          if (rows(range) > 1) fault("words", cell, `breaks "${word[0]}"`);
+        }
+      }
+    }
+
     // ---- contrast
     const brush = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
     const known = new Map();

@@ -21,6 +21,7 @@ CHECKS = (
     "equations",
     "mathematics",
     "columns",
+    "words",
     "contrast",
     "requests",
     "console",

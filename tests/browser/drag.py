@@ -1,4 +1,4 @@
-"""`python -m tests.browser.drag results/book` drags the rod of the book with a mouse and a keyboard.
+"""`python -m tests.browser.drag results/book` drags the rod of the book with a mouse, a keyboard and a finger.
 
 Each state is compared with `cosserat.run` for the same place of the tip.  The exit code is 1 if one differs by more
 than `MOST` or if stored states do not stand in where the module cannot run, 2 if there is no browser.
@@ -7,6 +7,7 @@ than `MOST` or if stored states do not stand in where the module cannot run, 2 i
 from __future__ import annotations
 
 import argparse
+import itertools
 import sys
 from pathlib import Path
 
@@ -15,7 +16,7 @@ import numpy as np
 import cosserat
 from cosserat.errors import CosseratError
 from cosserat.export.webassembly import pulled
-from cosserat.thesis.book.browser import browser
+from cosserat.thesis.book.browser import browser, settle
 from cosserat.thesis.book.pulling import LENGTH, STEP, pulled_case
 
 MOST = 1e-9
@@ -65,6 +66,40 @@ def by_keys(tab, keys):
         tab.keyboard.press(key)
 
 
+def by_touch(tab, places):
+    """Drag the ring with a finger, which must not move the page under it."""
+    box = tab.locator(f"{FIGURE} .stage svg").bounding_box()
+    ring = tab.locator(f"{FIGURE} circle.hand").bounding_box()
+    way = [(ring["x"] + ring["width"] / 2, ring["y"] + ring["height"] / 2)]
+    way += [(box["x"] + x * box["width"], box["y"] + y * box["height"]) for x, y in places]
+    before = _scrolled(tab)
+    touch(tab, way)
+    if _scrolled(tab) != before:
+        raise CosseratError(
+            "a finger on the ring scrolls the page; its touchstart needs preventDefault()"
+        )
+
+
+def touch(tab, way, steps=12):
+    """A finger that goes down, moves along a polygon [px] and goes up, as the screen of a phone reports it."""
+    session = tab.context.new_cdp_session(tab)
+
+    def report(kind, *points):
+        said = {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in points]}
+        session.send("Input.dispatchTouchEvent", said)
+
+    report("touchStart", way[0])
+    for begin, end in itertools.pairwise(way):
+        for share in np.linspace(0, 1, steps + 1)[1:]:
+            report("touchMove", tuple((1 - share) * np.array(begin) + share * np.array(end)))
+    report("touchEnd")
+    session.detach()
+
+
+def _scrolled(tab):
+    return tab.evaluate("() => [scrollX, scrollY]")
+
+
 WAYS = (
     ("mouse, up and back", by_mouse, [(0.60, 0.25)]),
     ("mouse, pulled long", by_mouse, [(0.90, 0.45)]),
@@ -72,26 +107,44 @@ WAYS = (
     ("keys, up", by_keys, ["ArrowUp"] * 5),
     ("keys, to the right and down", by_keys, ["Shift+ArrowRight", "ArrowRight", "ArrowDown"]),
 )
+TOUCHED = (
+    ("finger, up and back", by_touch, [(0.60, 0.25)]),
+    ("finger, pulled long and down", by_touch, [(0.90, 0.45), (0.75, 0.70)]),
+)
+DESK = {"viewport": {"width": 1200, "height": 900}}
+PHONE = {
+    "viewport": {"width": 390, "height": 844},
+    "has_touch": True,
+    "is_mobile": True,
+    "device_scale_factor": 3,
+}
 
 
 def tried(book: Path) -> list[tuple[str, tuple[float, ...]]]:
     """Each way from rest, with the differences of its state."""
     found = []
     with browser() as chromium:
-        tab = chromium.new_page(viewport={"width": 1200, "height": 900})
-        tab.goto((book / "pull.html").resolve().as_uri())
-        tab.wait_for_selector(f"{FIGURE}[data-pull='ready']")
-        tab.locator(f"{FIGURE} .stage").scroll_into_view_if_needed()
-        for name, act, what in WAYS:
-            tab.locator(f"{FIGURE} button.reset").click()
-            at_rest = state(tab)
-            act(tab, what)
-            room = state(tab)
-            moved = np.hypot(*(pulled.dofs(room, _VERTICES) - pulled.dofs(at_rest, _VERTICES))[-1, :2])
-            if moved < STEP / 2:
-                raise CosseratError(f"{name}: the tip has not moved")
-            found.append((name, differences(room)))
+        for screen, ways in ((DESK, WAYS), (PHONE, TOUCHED)):
+            tab = chromium.new_page(**screen)
+            tab.goto((book / "pull.html").resolve().as_uri())
+            tab.wait_for_selector(f"{FIGURE}[data-pull='ready']")
+            settle(tab)
+            for name, act, what in ways:
+                tab.locator(f"{FIGURE} button.reset").click()
+                tab.locator(f"{FIGURE} .stage svg").scroll_into_view_if_needed()
+                found.append((name, _followed(tab, name, act, what)))
     return found
+
+
+def _followed(tab, name, act, what):
+    """The differences of the state after a rod at rest has been dragged in one way."""
+    at_rest = state(tab)
+    act(tab, what)
+    room = state(tab)
+    moved = np.hypot(*(pulled.dofs(room, _VERTICES) - pulled.dofs(at_rest, _VERTICES))[-1, :2])
+    if moved < STEP / 2:
+        raise CosseratError(f"{name}: the tip has not moved")
+    return differences(room)
 
 
 def stands_in(book: Path) -> list[tuple[str, bool]]:

@@ -101,6 +101,12 @@ PLANTED = (
         '<pre id="long" tabindex="0" style="overflow-x: auto">' + "x" * 400 + "</pre>",
     ),
     Planted("columns", "#unbroken", '<p id="unbroken">' + "x" * 400 + "</p>"),
+    Planted(
+        "words",
+        "#narrow",
+        '<table><tr><td id="narrow" style="display: block; width: 20px; overflow-wrap: anywhere">claimed'
+        "</td></tr></table>",
+    ),
     Planted("contrast", "#pale", BOX.format("pale", "color: #999")),
     Planted("contrast", "#caption", BOX.format("caption", "color: #111"), "dark"),
     Planted("contrast", "#faded", BOX.format("faded", "opacity: 0.4")),

@@ -9,7 +9,7 @@ from scipy.stats import sobol_indices
 
 import cosserat
 from cosserat.errors import InputError
-from cosserat.studies.designs import DESIGNS, members_of
+from cosserat.studies.designs import DESIGNS, number_of_points
 
 
 def answer_of(design, count, function, keys=3, seed=1):
@@ -45,7 +45,7 @@ def ishigami_indices():
 @pytest.mark.parametrize("design", ["saltelli", "morris", "sobol"])
 def test_more_points_keep_the_first_ones(design):
     few, many = (DESIGNS[design](count, 3, 5) for count in (8, 16))
-    assert (few.cube == many.cube[: members_of(design, 8, 3)]).all()
+    assert (few.cube == many.cube[: number_of_points(design, 8, 3)]).all()
     for name, numbers in few.about.items():
         assert (numbers == many.about[name][: numbers.size]).all()
 

@@ -22,7 +22,7 @@ from cosserat.thesis.book.api import as_markup
 from cosserat.thesis.book.build import render
 from cosserat.thesis.book.edition import edition
 from cosserat.thesis.book.execution import execute
-from cosserat.thesis.book.finish import short
+from cosserat.thesis.book.finish import short, with_breaks
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::DeprecationWarning", "ignore::PendingDeprecationWarning"
@@ -55,6 +55,14 @@ def notebooks(tmp_path_factory):
         ("other", "# Other"),
     ):
         cells = [nbformat.v4.new_markdown_cell(text), shown(table), shown(drawn)]
+        if name == "other":
+            exercise = ":::{admonition} Exercise 1.1: nothing\n:class: exercise\nDo nothing.\n:::"
+            folded = {"tags": ["hide-cell"]}
+            cells += [
+                nbformat.v4.new_code_cell("0", metadata=folded),
+                nbformat.v4.new_markdown_cell(exercise),
+                nbformat.v4.new_code_cell("0", metadata=folded),
+            ]
         book = nbformat.v4.new_notebook(cells=cells)
         book.metadata["language_info"] = {"name": "python", "pygments_lexer": "python3"}
         nbformat.write(book, folder / f"{name}.ipynb")
@@ -135,11 +143,29 @@ def test_a_page_names_its_edition_and_loads_no_more_than_it_needs(built):
     asked = re.findall(r'(?:src|href)="(_static/[^"?]+)', text)
     assert len(asked) > 10
     assert [file for file in asked if not (built / file).is_file()] == []
+    assert "_static/player.js" in asked
+    assert not {"_static/pull.js", "_static/pull.css", "_static/filter.js"} & set(asked)
     kept = contents(built)
     assert not [
         name for name in kept if name.endswith(".map") or "/locales/" in name or name == "genindex.html"
     ]
     assert sum(map(len, kept.values())) < 5e6
+
+
+def test_a_folded_cell_says_whether_it_is_the_solution_of_an_exercise(built):
+    text = (built / "other.html").read_text()
+    assert text.count("Show the code and its result") == text.count("Show the solution") == 1
+    assert text.index("Show the code") < text.index("Exercise 1.1") < text.index("Show the solution")
+
+
+def test_lines_break_inside_names_and_not_beside_mathematics():
+    x = '<span class="math notranslate nohighlight">\\(x\\)</span>'
+    assert (
+        with_breaks(f"at {x}, of {x} (<i>{x}</i>)")
+        == f'at <span class="kept">{x},</span> of {x} (<i>{x}</i>)'
+    )
+    name = '<code><a href="a/b_c.html">a/b_c.d.py</a></code> a/b'
+    assert with_breaks(name) == '<code><a href="a/b_c.html">a/<wbr>b_<wbr>c.<wbr>d.py</a></code> a/b'
 
 
 def test_pictures_are_short_files_with_the_same_lines():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import io
+import itertools
 import json
 import shutil
 import tempfile
@@ -64,10 +65,22 @@ def _gather(notebooks: list[Path], pages: Path) -> None:
         shutil.copytree(here / "static", pages / "_static", ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(here / "conf.py", pages)
     for path in notebooks:
-        shutil.copy(path, pages)
+        _with_solutions(path, pages / path.name)
     (pages / "_static" / "player.css").write_text(player.style(), encoding="utf-8")
     (pages / "_static" / "player.js").write_text(player.script(), encoding="utf-8")
     _copy_mathjax(pages / "_static" / "mathjax")
+
+
+def _with_solutions(notebook: Path, copy: Path) -> None:
+    """A copy of a notebook in which the folded cell after an exercise says that it is the solution."""
+    page = json.loads(notebook.read_text(encoding="utf-8"))
+    for before, cell in itertools.pairwise(page["cells"]):
+        if ":class: exercise" in "".join(before["source"]) and cell["cell_type"] == "code":
+            cell["metadata"]["mystnb"] = {
+                "code_prompt_show": "Show the solution",
+                "code_prompt_hide": "Hide the solution",
+            }
+    copy.write_text(json.dumps(page), encoding="utf-8")
 
 
 def _check_destination(output: Path, of_a_book: set[str] | None = None) -> None:

@@ -11,6 +11,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx_copybutton",
     "cosserat.thesis.book.api",
+    "cosserat.thesis.book.assets",
     "cosserat.thesis.book.links",
 ]
 default_role = "code"
@@ -45,15 +46,8 @@ myst_enable_extensions = ["amsmath", "dollarmath", "colon_fence"]
 html_theme = "sphinx_book_theme"
 html_title = "Cosserat curves"
 html_static_path = ["_static"]
-html_css_files = ["player.css", "pull.css", "book.css", "links.css"]
-html_js_files = [
-    ("book.js", {"defer": "defer"}),
-    "player.js",
-    "pull.js",
-    "equations.js",
-    "equation_preview.js",
-    "filter.js",
-]
+html_css_files = ["book.css", "links.css"]
+html_js_files = [("book.js", {"defer": "defer"}), "equations.js", "equation_preview.js"]
 html_copy_source = False
 html_show_sourcelink = False
 html_use_index = False

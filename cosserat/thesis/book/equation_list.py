@@ -9,7 +9,7 @@ from pathlib import Path
 from IPython.display import HTML
 
 from cosserat.errors import InputError
-from cosserat.thesis.book.tables import prose
+from cosserat.thesis.book.tables import framed, prose, row
 from cosserat.thesis.book.verdicts import errata, report
 from cosserat.thesis.book.workflow import results
 from cosserat.thesis.table.citations import Place, cited, places
@@ -26,15 +26,17 @@ def left_out() -> LeftOutList:
 
 def left_out_table() -> HTML:
     """What is left out, each number an address to which links lead."""
-    body = "".join(
-        f'<tr><td>{prose(item.what)}</td><td class="no-links">{_anchors(item)}{escape(item.where)}</td>'
-        f"<td>{prose(item.why)}</td></tr>"
+    rows = [
+        row(
+            (
+                prose(item.what),
+                f'<span class="no-links">{_anchors(item)}{escape(item.where)}</span>',
+                prose(item.why),
+            )
+        )
         for item in left_out().left_out
-    )
-    head = "".join(f'<th scope="col">{name}</th>' for name in ("what", "in the thesis", "why"))
-    return HTML(
-        f'<table class="rows" tabindex="0"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
-    )
+    ]
+    return framed(rows, ("what", "in the thesis", "why"))
 
 
 def _anchors(item: LeftOut) -> str:
@@ -67,17 +69,20 @@ def equations() -> HTML:
         raise InputError(
             f"no file has the equations {', '.join(nowhere)}; list them in results/left_out.toml with the reason"
         )
-    body = "".join(
-        f'<tr id="eq-{name}" data-about="Eq. ({name}) and the places that use it"><td>({name})</td>'
-        f"<td>{'shown' if name in shown else ''}</td>"
-        f"<td>{_names(found[name])}</td><td>{_tests(found[name])}</td><td>{', '.join(judged.get(name, ()))}</td></tr>"
+    rows = [
+        row(
+            (
+                f"({name})",
+                "shown" if name in shown else "",
+                _names(found[name]),
+                _tests(found[name]),
+                ", ".join(judged.get(name, ())),
+            ),
+            marks=f'id="eq-{name}" data-about="Eq. ({name}) and the places that use it"',
+        )
         for name in numbers
-    )
-    head = "".join(f'<th scope="col">{name}</th>' for name in _COLUMNS)
-    return HTML(
-        '<div class="filtered" data-what="equations"><table class="rows" tabindex="0">'
-        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
-    )
+    ]
+    return framed(rows, _COLUMNS, what="equations")
 
 
 def displayed(root: Path) -> set[str]:
@@ -140,7 +145,7 @@ def _judged() -> dict[str, list[str]]:
     for name, item in errata().items():
         for number in cited(item.where):
             found.setdefault(number, []).append(name)
-    for row in report():
-        for number in cited(row["where"]):
-            found.setdefault(number, []).append(row["id"])
+    for judged in report():
+        for number in cited(judged["where"]):
+            found.setdefault(number, []).append(judged["id"])
     return found

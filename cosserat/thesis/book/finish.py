@@ -1,4 +1,8 @@
-"""Last touches on a built book: what no page needs goes, pictures become files, heads of tables say what they head."""
+"""Last touches on a built book: what no page needs goes, pictures become files, heads of tables say what they head.
+
+Lines break where a reader expects it: after a slash, a point or an underscore in a name of the code, and never between
+mathematics and the comma that follows it.
+"""
 
 from __future__ import annotations
 
@@ -23,6 +27,11 @@ _FILES = (
 _HEAD = re.compile(r'<th (class="head[^"]*")>')
 _SCRIPT = re.compile(r'\s*<script defer src="(?:\.\./)?_static/scripts/fontawesome\.js[^"]*"></script>')
 _PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]+)"')
+_CODE = re.compile(r"(<code[^>]*>)(.*?)(?=</code>)", re.DOTALL)
+_BREAK = re.compile(r"(?<=[\w\]])([/_.])(?=[A-Za-z])(?!py\b)(?![^<]*>)")
+_KEPT = re.compile(
+    r"""[(\[“"]*<span class="math notranslate nohighlight">\\\([^<]*\\\)</span>[^\s<—–-]{1,12}"""
+)
 _LINES = re.compile(r'(?<=\s)(d|x|y|points)="([^"]*)"')
 
 
@@ -34,7 +43,7 @@ def finish(built: Path) -> None:
         file.unlink(missing_ok=True)
     for file in built.rglob("*.html"):
         page = file.read_text(encoding="utf-8")
-        page = _HEAD.sub(r'<th scope="col" \1>', _SCRIPT.sub("", page))
+        page = with_breaks(_HEAD.sub(r'<th scope="col" \1>', _SCRIPT.sub("", page)))
         file.write_text(_PICTURE.sub(lambda found: _as_file(found, built), page), encoding="utf-8")
     for file in (built / "_static").rglob("*.[cj]s*"):
         if file.suffix in (".css", ".js"):
@@ -42,6 +51,12 @@ def finish(built: Path) -> None:
             short = re.sub(r"\n?(?://|/\*)# sourceMappingURL=\S+(?: ?\*/)?\s*$", "\n", text)
             if short != text:
                 file.write_text(short, encoding="utf-8")
+
+
+def with_breaks(page: str) -> str:
+    """A page whose lines break inside long names of the code, but not beside mathematics."""
+    page = _CODE.sub(lambda code: code[1] + _BREAK.sub(r"\1<wbr>", code[2]), page)
+    return _KEPT.sub(r'<span class="kept">\g<0></span>', page)
 
 
 def _as_file(found: re.Match[str], built: Path) -> str:

@@ -11,9 +11,10 @@ from pathlib import Path
 from IPython.display import HTML
 
 from cosserat.errors import InputError
+from cosserat.thesis.book import tables
 from cosserat.thesis.book.module_pages import coloured
-from cosserat.thesis.book.tables import prose, typeset
-from cosserat.thesis.book.verdicts import Row, amount, errata, report
+from cosserat.thesis.book.tables import framed, prose, typeset
+from cosserat.thesis.book.verdicts import Row, amount, assumed, errata, report
 from cosserat.thesis.book.workflow import results
 from cosserat.thesis.table.errata import Erratum
 
@@ -48,7 +49,7 @@ def errata_list(standing: str) -> HTML:
 def _entry(name: str, item: Erratum) -> str:
     about = f"{name}, {_WORDS[item.standing]}: {item.where.replace('$', '')}"
     lines = (("printed", item.printed), ("used instead", item.corrected), ("why", item.why))
-    told = "".join(f"<dt>{word}</dt><dd>{prose(text)}</dd>" for word, text in lines)
+    told = "".join(f"<dt>{word}</dt><dd>{prose(assumed(text))}</dd>" for word, text in lines)
     file, _, test = item.evidence.partition("::")
     code = coloured(_definition(results().parent / file, test.partition("[")[0]))
     return (
@@ -75,13 +76,7 @@ def _definition(file: Path, name: str) -> str:
 def results_table() -> HTML:
     """Every attempted row of the report, verdict first, to filter and to sort; reasons fold."""
     attempted = [row for row in report() if row["standing"] != "not attempted"]
-    head = "".join(f'<th scope="col">{name}</th>' for name in _COLUMNS)
-    body = "".join(_line(row) for row in attempted)
-    total = f'<tr><td colspan="{len(_COLUMNS)}">{total_of(attempted)}</td></tr>'
-    return HTML(
-        '<div class="filtered" data-what="rows"><table class="rows" tabindex="0">'
-        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody><tfoot>{total}</tfoot></table></div>"
-    )
+    return framed([_line(row) for row in attempted], _COLUMNS, what="rows", foot=total_of(attempted))
 
 
 def total_of(rows: Sequence[Row]) -> str:
@@ -109,9 +104,8 @@ def _line(row: Row) -> str:
     )
     about = f"{row['quantity']}: {row['verdict']}"
     mark = row["verdict"].partition(",")[0].lower()
-    return (
-        f'<tr id="row-{name}" data-about="{escape(about)}">'
-        f'<th scope="row" class="verdict-{mark}">{row["verdict"]}</th>'
-        + "".join(f"<td>{cell}</td>" for cell in cells)
-        + "</tr>"
+    return tables.row(
+        cells,
+        marks=f'id="row-{name}" data-about="{escape(about)}"',
+        head=f'<th scope="row" class="verdict-{mark}">{row["verdict"]}</th>',
     )

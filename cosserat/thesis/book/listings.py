@@ -59,6 +59,14 @@ def _code(thing: Any, text: str) -> Markdown:
     )
 
 
+def _without_next_title(table: str) -> str:
+    """A table of a case file without the comment lines that stand over the next one."""
+    lines = table.strip().splitlines()
+    while lines and (lines[-1].startswith("#") or not lines[-1].strip()):
+        lines.pop()
+    return "\n".join(lines)
+
+
 def written(name: str) -> Markdown:
     """A published study as its case file has it, with the base of its case.
 
@@ -73,5 +81,5 @@ def written(name: str) -> Markdown:
         raise InputError(f"there is no study '{name}'")
     base = re.search(r'^of = "(\w+)"', own[0], flags=re.MULTILINE)
     bases = [part for part in tables if base and part.startswith(f"[{base[1]}]")]
-    code = "\n\n".join(part.strip() for part in [*bases, *own])
+    code = "\n\n".join(_without_next_title(part) for part in [*bases, *own])
     return Markdown(f"```toml\n{code}\n```")

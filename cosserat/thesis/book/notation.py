@@ -17,7 +17,7 @@ from cosserat.explain import cited
 from cosserat.parameters import Count, Quantity
 from cosserat.publications import kinds
 from cosserat.thesis.book.symbols import Atom, atom, atoms, formulas
-from cosserat.thesis.book.tables import mathematics, prose
+from cosserat.thesis.book.tables import framed, mathematics, prose, row, unit
 
 _COLUMNS = ("symbol", "meaning", "unit", "first equation", "in the code", "defined on")
 _MOST = 8  # names of the code that a line shows
@@ -151,7 +151,7 @@ def _line(symbol: Symbol, names: list[Declared]) -> tuple[str, ...]:
     return (
         _typeset(symbol),
         prose(symbol.meaning),
-        escape(symbol.unit),
+        unit(symbol.unit),
         escape(cited(symbol.equation)).removeprefix("eq. "),
         ", ".join([*code, *more]),
         _link(symbol.page),
@@ -179,12 +179,7 @@ _TITLES = {
 
 
 def _table(lines: Sequence[tuple[str, ...]], columns: tuple[str, ...] = _COLUMNS) -> HTML:
-    head = "".join(f'<th scope="col">{name}</th>' for name in columns)
-    body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in line)}</tr>" for line in lines)
-    return HTML(
-        '<div class="filtered" data-what="symbols"><table class="rows" tabindex="0">'
-        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
-    )
+    return framed([row(line) for line in lines], columns, what="symbols")
 
 
 def first_uses(pages: Iterable[tuple[str, list[str]]]) -> dict[str, tuple[str, int]]:

@@ -12,7 +12,6 @@ from pydantic import Field
 
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters
-from cosserat.thesis.book.edition import edition
 from cosserat.thesis.book.links import marked
 from cosserat.thesis.book.workflow import results
 
@@ -21,7 +20,7 @@ class Reference(Parameters):
     """One work.
 
     authors : "Family, G. N." each.  place : journal with volume and pages, or publisher.
-    doi, url : where it is found; empty if that was not confirmed.
+    doi, url : where it is found; empty if that was not confirmed.  doi : "none" if the work has no DOI.
     names : the words of a text that lead here.
     """
 
@@ -36,7 +35,7 @@ class Reference(Parameters):
     @property
     def address(self) -> str:
         """Where the work is found, or nothing."""
-        return f"https://doi.org/{self.doi}" if self.doi else self.url
+        return self.url if self.doi in ("", "none") else f"https://doi.org/{self.doi}"
 
 
 def literature() -> dict[str, Reference]:
@@ -56,9 +55,15 @@ def references() -> HTML:
 
 def _item(name: str, work: Reference) -> str:
     about = f"{work.authors[0].partition(',')[0]} ({work.year}): {work.title}"
-    link = f'<a href="{escape(work.address)}">{escape(work.doi or work.url)}</a>' if work.address else ""
     told = f"{', '.join(work.authors)} ({work.year}). <cite>{escape(work.title)}</cite>. {escape(work.place)}."
-    return f"<li {marked(f'ref-{name}', about, work.names)}>{told} {link}</li>"
+    return f"<li {marked(f'ref-{name}', about, work.names)}>{told} {_where(work)}</li>"
+
+
+def _where(work: Reference) -> str:
+    """A link to a work, or that it has no DOI; empty if none is known."""
+    if work.address:
+        return f'<a href="{escape(work.address)}">{escape(work.doi or work.url)}</a>'
+    return "It has no DOI." if work.doi == "none" else ""
 
 
 def bibtex(name: str, work: Reference) -> str:
@@ -75,7 +80,7 @@ def bibtex(name: str, work: Reference) -> str:
         "title": f"{{{work.title}}}",
         "year": str(work.year),
         **found,
-        **({"doi": work.doi} if work.doi else {"url": work.url} if work.url else {}),
+        **({"url": work.url} if work.url else {"doi": work.doi} if work.address else {}),
     }
     lines = ",\n".join(f"  {key} = {{{value}}}" for key, value in fields.items())
     return f"@{kind}{{{name},\n{lines}\n}}"
@@ -99,7 +104,7 @@ def how_to_cite() -> HTML:
         title, year = about["title"], str(about["date-released"])[:4]
         school = thesis["institution"]["name"]
         told = (
-            f"{', '.join(authors)} ({year}). <cite>{escape(title)}</cite>, {edition().text}. "
+            f"{', '.join(authors)} ({year}). <cite>{escape(title)}</cite>, version {about['version']}. "
             f"Licence: {about['license']}.",
             f"{', '.join(by)} ({thesis['year']}). <cite>{escape(thesis['title'])}</cite>. "
             f"{thesis['thesis-type'].capitalize()}, {school}.",

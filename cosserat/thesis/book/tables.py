@@ -23,16 +23,41 @@ def table(lines: Sequence[Sequence[object]], columns: Sequence[str]) -> HTML:
 
     columns : if the first one begins with "Table 3.1", links of that name lead to this table.
     """
-    head = "".join(f'<th scope="col">{mathematics(escape(name))}</th>' for name in columns)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{mathematics(escape(str(value)))}</td>" for value in line) + "</tr>"
-        for line in lines
-    )
     name = re.match(r"Table (\d\.\d)", columns[0])
-    anchor = f' id="table-{name[1]}"' if name else ""
-    return HTML(
-        f'<table class="rows"{anchor} tabindex="0"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    rows = [row([mathematics(escape(str(value))) for value in line]) for line in lines]
+    heads = [mathematics(escape(head)) for head in columns]
+    return framed(rows, heads, anchor=f"table-{name[1]}" if name else "")
+
+
+def row(cells: Sequence[str], *, marks: str = "", head: str = "") -> str:
+    """A row of a table from the HTML of its cells.
+
+    marks : attributes of the row.  head : the HTML of a heading before the cells.
+    """
+    return f"<tr{marks and f' {marks}'}>{head}{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+
+
+def framed(
+    rows: Sequence[str], columns: Sequence[str], *, anchor: str = "", what: str = "", foot: str = ""
+) -> HTML:
+    """A table of rows; each column has a name, as HTML.
+
+    anchor : where links lead to.  foot : a line below the rows.
+    what : what the rows are, such as "equations"; the reader then filters and sorts them.
+    """
+    head = "".join(f'<th scope="col">{name}</th>' for name in columns)
+    last = f'<tfoot><tr><td colspan="{len(columns)}">{foot}</td></tr></tfoot>' if foot else ""
+    place = f' id="{anchor}"' if anchor else ""
+    table = (
+        f'<table class="rows"{place} tabindex="0"><thead><tr>{head}</tr></thead>'
+        f"<tbody>{''.join(rows)}</tbody>{last}</table>"
     )
+    return HTML(f'<div class="filtered" data-what="{what}">{table}</div>' if what else table)
+
+
+def unit(text: str) -> str:
+    """A unit as HTML, with raised powers."""
+    return re.sub(r"\^(-?\d+)", r"<sup>\1</sup>", escape(text))
 
 
 def folded(summary: str, body: HTML) -> HTML:

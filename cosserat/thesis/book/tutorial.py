@@ -83,7 +83,7 @@ class Folder:
         drawn = base64.b64encode((Path(self.home.name) / name).read_bytes()).decode()
         image = f'<img alt="{escape(alt)}" src="data:image/svg+xml;base64,{drawn}">'
         text = f"<b>{escape(name)}.</b> {mathematics(caption)}"
-        return HTML(f'<figure class="plot">{image}<figcaption>{text}</figcaption></figure>')
+        return HTML(f'<figure class="plot drawn">{image}<figcaption>{text}</figcaption></figure>')
 
 
 def _as_on_a_terminal(line: str) -> list[str]:

@@ -132,11 +132,16 @@ def misprint(*names: str) -> HTML:
     notes = [
         f'<details class="misprint"><summary>{_STANDINGS[known[name].standing]} {name}</summary>'
         f"<p>{prose(known[name].where)}. Printed: {prose(known[name].printed)}. "
-        f"Here: {prose(known[name].corrected)}.</p>"
+        f"Here: {prose(assumed(known[name].corrected))}.</p>"
         f"<p>{prose(known[name].why)}</p><p>With its test: {name}.</p></details>"
         for name in names
     ]
     return HTML(f'<aside class="misprints">{"".join(notes)}</aside>')
+
+
+def assumed(text: str) -> str:
+    """A text of the errata table as a sentence: its mark of an assumption in words."""
+    return text.replace("ASSUME ", "we assume ")
 
 
 _STANDINGS = {

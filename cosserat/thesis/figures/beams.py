@@ -111,11 +111,11 @@ def _gallery(shown: list[Deformation]) -> Figure:
         ax.annotate(found.title, above, ha="center", va="bottom", color=INK)
         text = f"${found.measure}$,  ${found.pays}$"
         ax.annotate(text, (above[0], above[1] - 0.06), ha="center", va="top", color=VARIANT)
-        below = (place[0], place[1] - 1.12)
+        below = (place[0], place[1] - 1.25)
         ax.annotate(found.beam or "not in a beam", below, ha="center", va="top")
     ax.set(
         xlim=(-0.5 * _SPACING[0], (_COLUMNS - 0.5) * _SPACING[0]),
-        ylim=(-_SPACING[1] * (rows - 1) - 1.7, 2.0),
+        ylim=(-_SPACING[1] * (rows - 1) - 1.8, 2.0),
         xticks=[],
         yticks=[],
         xlabel=r"along $\mathbf{E}_3$ [heights of the section]",

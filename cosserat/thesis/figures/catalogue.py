@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from cosserat.errors import InputError
 from cosserat.parameters import nearest
 from cosserat.text import shortened
-from cosserat.thesis.figures.entries import FIGURES, Entry
+from cosserat.thesis.figures.entries import FIGURES
+from cosserat.thesis.figures.entry import Entry
 
 if TYPE_CHECKING:
     import xarray as xr

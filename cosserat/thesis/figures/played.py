@@ -113,28 +113,13 @@ def tumbling(data: Data) -> Stage:
     )
 
 
-def column(data: Data) -> Stage:
-    """The buckling column along its path."""
-    alt = (
-        "A column under a thrust. It stays nearly straight until the load comes near the critical one, "
-        "then it bends aside far while the load hardly grows; the dot on the load curve turns from steep"
-        " to flat."
-    )
-    return replace(
-        animations.path(data["column_path"]), title="A column buckles", alt=alt, poster=(0, 8, -1)
-    )
+def along_path(case: str, title: str, alt: str, middle: int) -> Played:
+    """A case along its path; without scripts its first, its last and the point `middle` between them are seen."""
 
+    def stage(data: Data) -> Stage:
+        return replace(animations.path(data[case]), title=title, alt=alt, poster=(0, middle, -1))
 
-def arch(data: Data) -> Stage:
-    """The arch that snaps through along its path."""
-    alt = (
-        "An arch on two hinges under a load at its middle. The load grows to a first limit, falls below "
-        "zero while the arch turns over, and grows again when the arch hangs on the other side; between "
-        "both limits it is unstable."
-    )
-    return replace(
-        animations.path(data["arch_path"]), title="An arch snaps through", alt=alt, poster=(0, 18, -1)
-    )
+    return Played((case,), stage)
 
 
 PLAYED = {
@@ -143,7 +128,21 @@ PLAYED = {
     "play_vibration": Played(("vibration_c4_20",), vibration),
     "play_relaxation": Played(tuple(f"relaxing_{name}" for name in _RELAXING), relaxation),
     "play_tumbling": Played(("tumbling",), tumbling),
-    "play_column": Played(("column_path",), column),
-    "play_arch": Played(("arch_path",), arch),
+    "play_column": along_path(
+        "column_path",
+        "A column buckles",
+        "A column under a thrust. It stays nearly straight until the load comes near the critical one, "
+        "then it bends aside far while the load hardly grows; the dot on the load curve turns from steep"
+        " to flat.",
+        8,
+    ),
+    "play_arch": along_path(
+        "arch_path",
+        "An arch snaps through",
+        "An arch on two hinges under a load at its middle. The load grows to a first limit, falls below "
+        "zero while the arch turns over, and grows again when the arch hangs on the other side; between "
+        "both limits it is unstable.",
+        18,
+    ),
 }
 """Players by the names that chapters use."""

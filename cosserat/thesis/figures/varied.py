@@ -50,7 +50,7 @@ def fig_varied_sections(data: Data) -> Figure:
     )
     problem = problem_of(uniform, RodProblem)
     draw_outline(left, x, d, problem, facecolor="none", edgecolor=VARIANT, linestyle="--")
-    _plane(left, f"(a) a cone; dashed: uniform; × {_SAG}")
+    _plane(left, f"(a) tapered; dashed: uniform; × {_SAG}")
     averaged, added = data["two_materials"], data["two_materials_consistent"]
     rod = problem_of(averaged, RodProblem).rod
     joint, scale = rod.stations[0].at, rod.stations[1]

@@ -1,7 +1,15 @@
-// Boxes that scroll sideways take part in Tab, and mathematics in a line that is wider than its paragraph becomes such a box.
+// Equations that are wider than their column are set smaller.  Boxes that still scroll sideways take part in Tab, and
+// mathematics in a line that is wider than its paragraph becomes such a box.
 (() => {
-  const boxes = "div.math, span.math, pre, table.rows, table.docutils, .cell_output .output";
+  const SMALLEST = 0.72;  // of the size of the text
+  const boxes = "div.math, span.math, pre, table.rows, table.docutils, figure.drawn, .cell_output .output";
+  const fit = (box) => {
+    box.style.fontSize = "";
+    const share = 0.97 * box.clientWidth / box.scrollWidth;
+    if (box.scrollWidth > box.clientWidth + 1) box.style.fontSize = Math.max(SMALLEST, share).toFixed(3) + "em";
+  };
   const mark = () => {
+    document.querySelectorAll("div.math").forEach(fit);
     for (const line of document.querySelectorAll("span.math")) {
       line.classList.remove("wide");
       const block = line.closest("p, td, th, li, dd, figcaption, summary, div");
@@ -19,6 +27,7 @@
     let waiting = 0;
     window.addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(mark, 100); });
     document.addEventListener("toggle", mark, true);  // a box inside a folded part has no width before
+    document.fonts.addEventListener("loadingdone", mark);  // glyphs have their widths then
   };
   window.addEventListener("load", () => {
     const typeset = window.MathJax && window.MathJax.startup && window.MathJax.startup.promise;

@@ -137,6 +137,8 @@
       const box = svg.getBoundingClientRect(), metre = (said.view[1] - said.view[0]) / box.width;
       return [said.view[0] + metre * (event.clientX - box.left), said.view[3] - metre * (event.clientY - box.top)];
     }
+    /* A finger on the ring does not scroll the page; browsers ignore touch-action on parts of a drawing. */
+    ring.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
     ring.addEventListener("pointerdown", (event) => {
       const at = under(event), now = tip();
       hand = [now[0] - at[0], now[1] - at[1]];
