@@ -35,7 +35,8 @@ from cosserat.thesis.book import page
 
 # %% tags=["remove-input"]
 page.player(
-    "play_worm", "Two strides in real time. Heights are drawn three times as large. Segment 50 is marked."
+    "play_worm",
+    "Two strides in real time. Heights are drawn three times as large. Segment 50 is marked.",
 )
 
 # %% [markdown]

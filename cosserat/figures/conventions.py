@@ -66,7 +66,7 @@ def _draw_frame(ax: Axes) -> None:
     label(ax, np.add(corner, (-0.1, -0.02)), r"$\mathbf{E}_1 \otimes$", INK, ha="right", va="top")
     turn(ax, corner, 0.34, 0.1, 1.45)
     label(ax, np.add(corner, (0.33, 0.28)), r"$\varphi, \kappa > 0$", VARIANT)
-    ax.set(title="(a) axes, rotations, surfaces", xlim=(-0.85, 2.0), ylim=(-0.76, 1.9))
+    ax.set(title="(a) axes, rotations, surfaces", xlim=(-0.86, 2.0), ylim=(-0.76, 1.9))
 
 
 def _draw_cut(ax: Axes) -> None:

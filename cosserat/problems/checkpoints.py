@@ -39,7 +39,8 @@ from cosserat.solvers.integrate import (
     stable_step,
     step_count,
 )
-from cosserat.solvers.system import MechanicalSystem, Tangent
+from cosserat.solvers.system import MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 if TYPE_CHECKING:
     from cosserat.problems.motion import RodMotion

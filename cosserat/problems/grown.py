@@ -16,7 +16,8 @@ from cosserat.rods.constraints import MovedOn, PrescribedRotation
 from cosserat.rods.reference import Geometry
 from cosserat.solvers.equilibrium import Equilibrium, NewtonSettings
 from cosserat.solvers.frames import framed
-from cosserat.solvers.system import MechanicalSystem, Tangent
+from cosserat.solvers.system import MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 _STALLED = 16.0  # of the tolerance of an equilibrium, beyond which a force is not balanced
 BODY = ("rod", "imperfection", "pose", "springs", "foundations")

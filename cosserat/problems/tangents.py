@@ -27,7 +27,8 @@ from cosserat.solution import Field, FieldRates, Solution
 from cosserat.solvers.climb import BESIDE, NEARLY_CRITICAL
 from cosserat.solvers.equilibrium import Equilibrium
 from cosserat.solvers.slopes import slope
-from cosserat.solvers.system import History, MechanicalSystem, Tangent
+from cosserat.solvers.system import History, MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

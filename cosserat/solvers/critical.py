@@ -26,7 +26,8 @@ from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.incremental import unloaded
 from cosserat.solvers.modes import FEW, MOST_DENSE
 from cosserat.solvers.special import SpecialPoint, special_points
-from cosserat.solvers.system import History, MechanicalSystem, Tangent
+from cosserat.solvers.system import History, MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 if TYPE_CHECKING:
     from scipy.sparse import dia_array

@@ -20,7 +20,8 @@ from cosserat.solvers.banded import Vector, absolute_product
 from cosserat.solvers.climb import MAX_ROUND_OFF_FRACTION, balance, largest_product, stalled
 from cosserat.solvers.heartbeat import beat
 from cosserat.solvers.indefinite import lowest_eigenvector
-from cosserat.solvers.system import History, MechanicalSystem, Tangent
+from cosserat.solvers.system import History, MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 if TYPE_CHECKING:
     from cosserat.solvers.corrector import Corrector

@@ -16,7 +16,8 @@ from scipy.linalg import eigvalsh
 from cosserat.errors import DivergedError, InputError
 from cosserat.parameters import Parameters, Quantity
 from cosserat.solvers.banded import Vector, band_product, to_sparse
-from cosserat.solvers.system import History, MechanicalSystem, Tangent
+from cosserat.solvers.system import History, MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 if TYPE_CHECKING:
     from scipy.sparse import dia_array

@@ -12,7 +12,8 @@ from scipy.linalg import cholesky, eig, eigh, solve, solve_triangular
 from cosserat.errors import InputError, UnstableError
 from cosserat.solvers.banded import Band, Vector, band_product, to_sparse
 from cosserat.solvers.integrate import free_matrices
-from cosserat.solvers.system import History, MechanicalSystem, Tangent
+from cosserat.solvers.system import History, MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 if TYPE_CHECKING:
     from scipy.sparse import dia_array

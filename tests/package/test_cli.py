@@ -305,6 +305,7 @@ def test_help_has_the_commands_of_a_user_first_and_the_published_work_last(capsy
         assert re.search(rf"^  {name}  +\w", text, flags=re.MULTILINE), f"{name} is not listed"
 
 
+@pytest.mark.workflow
 def test_the_commands_of_the_workflow_run_by_hand(capsys, solved, tmp_path):
     for place in ("cases", "studies"):
         (tmp_path / place).mkdir()

@@ -424,7 +424,7 @@ def test_the_version_is_written_in_one_place():
     assert f"version: {version}" in (ROOT / "CITATION.cff").read_text()
 
 
-LONGER = {"energy_momentum.py": 710, "reissner_kernel.py": 430, "climb.py": 1120}
+LONGER = {"energy_momentum.py": 720, "reissner_kernel.py": 430, "climb.py": 1120}
 """Compiled functions that call each other stand in one file."""
 
 

@@ -15,7 +15,7 @@ from cosserat.problems.critical import RodCriticalLoads
 from cosserat.problems.path import RodPath
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
-from cosserat.solvers.system import Tangent
+from cosserat.solvers.tangent import Tangent
 
 CLAMP = ["x3", "x2", "d3", "d2"]
 ENDS = {  # what is fixed at both ends, and the wave number over pi

@@ -16,7 +16,8 @@ from cosserat.rods.kinematics import Kinematics
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.flat import FixedDofs, FlatSpace
 from cosserat.solvers.potential import COMMIT, GRADIENT, HESSIAN, KERNEL, Potential
-from cosserat.solvers.system import MechanicalSystem, Tangent
+from cosserat.solvers.system import MechanicalSystem
+from cosserat.solvers.tangent import Tangent
 
 WELL = np.dtype([("quartic", "f8"), ("quadratic", "f8"), ("middle", "f8")])
 SPRING = np.dtype([("one", "i8"), ("other", "i8"), ("stiffness", "f8"), ("length", "f8")])

@@ -16,7 +16,7 @@ from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
 from cosserat.solvers.incremental import unloaded
 from cosserat.solvers.indefinite import Factors
 from cosserat.solvers.special import special_points
-from cosserat.solvers.system import Tangent
+from cosserat.solvers.tangent import Tangent
 
 STEEPEST = 0.41702882811414952
 """Half span of two bars over their height, beyond which the apex does not sway; `swaying` has no root from here on."""

@@ -142,7 +142,13 @@ def test_a_motion_takes_equal_steps_between_frames():
     """The steps that are taken, not those that are asked for: frames of this motion are 2.5 ms apart."""
     case = cosserat.case("tumbling")
     steps = ("step", [1.3e-3, 1e-3, 1.25e-3], {"key": "integrator.step"})
-    attrs = {"study": json.dumps({"case": case.model_dump(mode="json")})}
+    study = {
+        "kind": "study",
+        "of": "tumbling",
+        "vary": [{"integrator.step": [1e-3]}],
+        "keep": {"end": "x.E3 at last"},
+    }
+    attrs = {"study": json.dumps({"case": case.model_dump(mode="json"), "study": study})}
     assert np.allclose(
         sizes_of(xr.Dataset(coords={"step": steps}, attrs=attrs), "step"), [1.25e-3, 2.5e-3 / 3, 1.25e-3]
     )

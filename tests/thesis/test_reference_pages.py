@@ -20,7 +20,7 @@ Newton Gauss Runge Kutta Rayleigh Lobatto Cholesky Hermite Sylvester Hessian Jac
 Poisson Young Euler Bernoulli Cauchy Hooke Lamé Piola
 Voronoi Kronecker Cosserat Voigt Kelvin Dirac Greenhill Steiner
 University California Berkeley Evan Grant Debian Python Numba Dataset Snakemake Slurm Exudyn Ctrl Jupyter Chromium
-Chapter Chapters Table Fig Figs Exercise Misprint Strains Discrete Curves Descriptions Peristalsis Pa
+Lustre Chapter Chapters Table Fig Figs Exercise Misprint Strains Discrete Curves Descriptions Peristalsis Pa
 """,
     )
 )
