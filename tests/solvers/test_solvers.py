@@ -23,8 +23,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 
 from cosserat.errors import InputError
-from cosserat.solvers import continuation, equilibrium, runge_kutta
-from cosserat.solvers import system as system_module
+from cosserat.solvers import continuation, equilibrium, runge_kutta, tangent
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
@@ -470,7 +469,7 @@ def test_an_integrator_that_commits_trial_states_is_noticed(monkeypatch):
 
 def test_a_solver_that_forgets_the_skew_part_is_noticed(monkeypatch):
     right = "factors = Factors(self.band, self.skew)\n        return None"
-    faulty = patched(system_module, right, "factors = Factors(self.band)\n        return None")
+    faulty = patched(tangent, right, "factors = Factors(self.band)\n        return None")
     monkeypatch.setattr(equilibrium, "Tangent", faulty.Tangent)
     with pytest.raises(AssertionError):
         test_a_force_without_a_potential_has_a_skew_tangent_and_the_equilibrium_of_both()

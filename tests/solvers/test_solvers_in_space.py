@@ -11,8 +11,7 @@ from scipy.spatial.transform import Rotation
 from spatial_rod import arch, follower, straight
 from test_solvers import energy_of, followed, moved, solver_of
 
-from cosserat.solvers import equilibrium
-from cosserat.solvers import system as system_module
+from cosserat.solvers import equilibrium, tangent
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.integrate import State
@@ -282,7 +281,7 @@ def test_the_tangent_of_a_follower_force_has_a_skew_part():
 
 def test_newtons_method_is_quadratic_with_the_skew_part_and_slower_without(monkeypatch):
     last = "factors = Factors(self.band, self.skew)\n        return None"
-    faulty = patched(system_module, last, "factors = Factors(self.band)\n        return None")
+    faulty = patched(tangent, last, "factors = Factors(self.band)\n        return None")
     fast, slow = bent(monkeypatch), bent(monkeypatch, faulty.Tangent)
     falls, lags = (np.diff(np.log(r[r > 1e-12 * r.max()])) for r in (fast, slow))
     assert falls[-1] < 1.8 * falls[-2] < 0
