@@ -85,6 +85,7 @@ def test_a_page_of_the_book_has_no_fault_at_any_width_in_any_theme_or_on_paper(s
     )
 
 
+@pytest.mark.workflow
 @needs_a_browser
 def test_every_planted_fault_is_found_and_nothing_else(tmp_path):
     write(tmp_path)
