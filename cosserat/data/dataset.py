@@ -27,7 +27,7 @@ INTACT = "intact"
 _SHORT = 150  # characters of a foreign error in a sentence
 FORMAT = 1
 """Number of the format of files, raised when an older version could misread a new one."""
-_ALONG = ("time", "point")
+_ALONG = ("time", "point", "special")
 """Dimensions that may come before those of one state."""
 
 

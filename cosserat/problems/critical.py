@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import replace
 from typing import Annotated, Literal, Self
 
@@ -14,6 +14,7 @@ from cosserat.parameters import Count, Parameters, Quantity
 from cosserat.problem import ALONE, Forecast, Run
 from cosserat.problems.forecasts import of_modes
 from cosserat.problems.grown import GrownProblem
+from cosserat.problems.outputs import coupled_energies, of_equilibria, outputs
 from cosserat.problems.posed import PosedProblem
 from cosserat.problems.special import scaled, special_fields
 from cosserat.rods.problem import LOADS, RodProblem
@@ -52,7 +53,8 @@ class RodCriticalLoads(GrownProblem):
     The linear criterion (linear buckling) adds to the stiffness where they begin the geometric one, of the loads and
     of the stresses that they cause, in the shape there: it is for rods that hardly bend before they buckle.  The true
     criterion follows the equilibria themselves to the first that is singular, a bifurcation or a limit point.  The
-    largest displacement of a mode is one.
+    largest displacement of a mode is one.  Displacements, forces, moments, stresses and reactions are those in this
+    critical state.
     """
 
     kind: Literal["critical loads"] = "critical loads"
@@ -107,7 +109,16 @@ class RodCriticalLoads(GrownProblem):
         fields = {**_start(self.rod, geometry, start), **linear_fields(self.rod, linear), **special}
         words = {"axis": self.rod.kinematics.axes, "special": labels}
         warnings += self._warnings(linear, true, reached, system.symmetric)
-        return Solution(fields, statistics, words, warnings)
+
+        def derive(names: Set[str] = frozenset()) -> Solution:
+            """Forces, moments, stresses, reactions and energies in the critical state."""
+            points, body = [one.point for one in found], system.unframed
+            if not points:
+                return Solution({}, {})
+            couples = coupled_energies(body, points)
+            return outputs(of_equilibria(self, geometry, body, points, "special", couples), names)
+
+        return Solution(fields, statistics, words, warnings, derive)
 
     def criteria(
         self, system: MechanicalSystem, name: str

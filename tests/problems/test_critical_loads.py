@@ -81,6 +81,18 @@ def test_both_criteria_meet_the_closed_form_of_the_discrete_column(ends):
     np.testing.assert_allclose(found["linear_u"][0], found["special_u"][0], atol=0.02)
 
 
+def test_forces_and_reactions_are_those_of_the_critical_state():
+    """A column is straight until it buckles: its normal force is the critical load, and its clamp bears it."""
+    found = critical(column(9, force=2.0))
+    (factor,) = found["special_load_factor"]
+    state = found.derive()
+    np.testing.assert_allclose(state["normal_force"], [[-2 * factor] * 8], rtol=1e-9)
+    np.testing.assert_allclose(state["reaction_force"], [[[2 * factor, 0.0]]], rtol=1e-9, atol=1e-7)
+    for name in ("shear_force", "bending_moment"):
+        assert np.abs(state[name]).max() < 1e-7 * factor
+    assert critical(column(9), limit=0.5).derive().fields == {}
+
+
 def test_higher_critical_loads_of_the_linear_criterion():
     found = critical(column(11), 3)["linear_load_factor"]
     right = [linear_load(discrete_column(10, k + 1 / 2)) for k in range(3)]
