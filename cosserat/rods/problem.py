@@ -247,7 +247,7 @@ class RodProblem(Problem):
             tuple(self._potentials(body)),
             RodConstraints(mask, self.moves(geometry)),
             RodSpace(self.rod.kinematics, at_rest, displacements, rounded),
-            body.mass,
+            lambda: body.mass,
             attached=(attached_energy(attached, body),) if attached else (),
         )
         return framed(system, frame).prepared()

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import isfinite, sqrt
+from math import exp, isfinite, log, sqrt
 
 import numpy as np
 
@@ -24,6 +24,8 @@ from cosserat.solvers.system import ConfigurationSpace
 _BISECTION_TOLERANCE = 0.02  # fraction of the first arc to which a bifurcation is located
 _FACTOR_TOLERANCE = 0.005  # fraction of the load factor to which a bifurcation is located
 _FINEST_BISECTION = 0.001  # fraction of the first arc at which bisection ends
+_LARGEST_BEND = 0.25  # of a chord, between points of a path
+_LARGEST_LOG = 700.0  # whose power is finite
 _RETURN_DISTANCE = 10.0  # multiple of the first arc after which a branch may return to its start
 
 
@@ -86,6 +88,7 @@ def trace_path(
                     yield across[0]
                 origin = point = across[0]
                 found, direction, ds = _switch_branch(solver, point, motion, arc)
+                _watch(solver).passed(point, found, ds)
                 ahead, turned = path_tangent(solver, found, direction), None
         if (found.factor - arc.until) * (point.factor - arc.until) <= 0:
             last = _at_end(solver, point, found, arc.until)
@@ -150,8 +153,7 @@ def _next_or_bifurcation(
             raise solver.failure(point.factor, point.factor + direction[1] * ds, point)
         return (across[1], direction, ds), across
     found, ahead, ds = further
-    watch = solver.watch = solver.watch or Watch(solver)
-    between = watch.between(
+    between = _watch(solver).between(
         Stop(point, direction), Stop(found, ahead), ds, lambda s: _stop(solver, point, direction, s, ds)
     )
     if between is not None:
@@ -160,12 +162,17 @@ def _next_or_bifurcation(
     crosses = found.negative != point.negative and ahead[1] * direction[1] > 0
     if not crosses:
         return further, None
-    across = _locate_bifurcation(solver, point, direction, ds, arc)
+    across = _locate_bifurcation(solver, point, direction, found, ds, arc)
     if (across[0].factor - arc.until) * (
         point.factor - arc.until
     ) < 0:  # the path ends before the crossing
         return (across[0], ahead, ds), None
     return further, across
+
+
+def _watch(solver: EquilibriumSolver) -> Watch:
+    solver.watch = solver.watch or Watch(solver)
+    return solver.watch
 
 
 def _stop(
@@ -179,9 +186,19 @@ def _stop(
 def _at_end(
     solver: EquilibriumSolver, point: Equilibrium, found: Equilibrium, until: float
 ) -> Equilibrium:
-    """The equilibrium at the end of the path, between two points of it; the second point if there is none."""
-    fraction = (until - point.factor) / (found.factor - point.factor)
-    last = solver.correct(point.q + fraction * (found.q - point.q), until, point.history)
+    """The equilibrium at the end of the path, between two points of it; the second point if there is none.
+
+    It is sought from the cubic in the load factor through both, with their rates, where that is near the chord.
+    """
+    span, chord = found.factor - point.factor, found.q - point.q
+    s = (until - point.factor) / span
+    start = point.q + s * chord
+    if point.rate is not None and found.rate is not None:
+        leave, arrive = span * point.rate - chord, span * found.rate - chord
+        bend = s * (1 - s) * ((1 - s) * leave - s * arrive)
+        if np.abs(bend).max() < _LARGEST_BEND * np.abs(chord).max():
+            start += bend
+    last = solver.correct(start, until, point.history)
     return found if last is None else last
 
 
@@ -254,33 +271,50 @@ def _locate_bifurcation(
     solver: EquilibriumSolver,
     point: Equilibrium,
     direction: tuple[Vector, float],
+    found: Equilibrium,
     ds: float,
     arc: ArcLengthSettings,
 ) -> tuple[Equilibrium, Equilibrium]:
-    """The points just before and just after the first change of sign of an eigenvalue within an arc."""
-    low, high = 0.0, ds
-    before, after = point, None
-    while high - low > _BISECTION_TOLERANCE * arc.first or (
-        _wide(before, after) and high - low > _FINEST_BISECTION * arc.first
-    ):
-        middle = high if after is None else (low + high) / 2
-        found = corrected(solver, point, *direction, middle, TANGENT_TOLERANCE * ds)
-        if found is not None and found.negative != point.negative:
-            high, after = middle, found
-        elif after is None:
-            break
-        elif found is not None and _goes_on(solver, before, found):
-            low, before = middle, found
+    """The points just before and just after the first change of sign of an eigenvalue within an arc.
+
+    They are the ends of the part that bisection of the arc leads to; the determinant tells which parts are worth a try.
+    found : the end of the arc.
+    """
+    parts, low, before, after = 1, 0, point, found
+    while ds / parts > _BISECTION_TOLERANCE * arc.first:
+        parts *= 2
+    high, runs = parts, 0  # runs : how often the same end has moved in turn, negative for the first
+    while high - low > 1 or (_wide(before, after) and ds > _FINEST_BISECTION * arc.first * parts):
+        if high - low == 1:
+            parts, low, high = 2 * parts, 2 * low, 2 * high
+        middle = low + _share(before, after, high - low, runs)
+        between = corrected(solver, point, *direction, middle * (ds / parts), TANGENT_TOLERANCE * ds)
+        if between is not None and between.negative != point.negative:
+            high, after, runs = middle, between, max(runs, 0) + 1
+        elif between is not None and _goes_on(solver, before, between):
+            low, before, runs = middle, between, min(runs, 0) - 1
         else:  # no equilibrium, or a stable one beside the crossing, perhaps on the other side
-            high = middle
-    if after is None:
-        raise solver.failure(point.factor, point.factor, point)
+            high, after = middle, replace(after, log_determinant=None)
     return before, after
 
 
-def _wide(before: Equilibrium, after: Equilibrium | None) -> bool:
+def _share(before: Equilibrium, after: Equilibrium, parts: int, runs: int) -> int:
+    """How many of some parts between two points lie before the zero of the determinant, at least one and not all.
+
+    By the Illinois rule: the value at an end counts half after the other end has moved twice.  A half, where the values
+    are not known or have no zero between them.
+    """
+    one, other = before.log_determinant, after.log_determinant
+    if one is None or other is None or (after.negative - before.negative) % 2 == 0:
+        return parts // 2
+    stays = max(abs(runs) - 1, 0) * log(2.0)
+    rise = other - one + (stays if runs > 0 else -stays)
+    return min(max(round(parts / (1.0 + exp(min(rise, _LARGEST_LOG)))), 1), parts - 1)
+
+
+def _wide(before: Equilibrium, after: Equilibrium) -> bool:
     """Whether the change of load between two points can reverse the pull to one side."""
-    return after is None or abs(after.factor - before.factor) > _FACTOR_TOLERANCE * abs(before.factor)
+    return abs(after.factor - before.factor) > _FACTOR_TOLERANCE * abs(before.factor)
 
 
 def _goes_on(solver: EquilibriumSolver, before: Equilibrium, found: Equilibrium) -> bool:

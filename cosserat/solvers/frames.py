@@ -160,7 +160,7 @@ def framed(system: MechanicalSystem, frame: Frame) -> MechanicalSystem:
         attached=tuple(replace(potential, frame=frame) for potential in system.attached),
         held=tuple(replace(load, frame=frame) for load in system.held),
         space=FramedSpace(system.space, frame),
-        mass=None if system.mass is None else frame.band(system.mass),
+        mass=None if system.mass is None else lambda: frame.band(system.inertia),
         frame=frame,
         plain=system,
         began=None if system.began is None else frame.into(system.began),

@@ -2,9 +2,10 @@
 
 derived: D, the determinant of the Hessian of the free DOFs, is smooth along the path and zero where an eigenvalue is.
 Two zeros at the distances a and b within an arc of length h make it fall by more than the factor (1 + g / h)^2 over an
-arc of length g before, since a, b < h; so an arc is looked at only if D has fallen by more than the root of that.
-Its values and slopes at both ends then give a cubic, which has a dip there.  Where it does, the path is followed to
-the bottom of the dip, which becomes the end of a shorter interval, until D is negative there or no dip is left.
+arc of length g before, since a, b < h; so an arc is looked at only if D has fallen by more than the root of that,
+or if nothing is known of the arc before; and only if D grows again at its end.  Its values and slopes at both ends
+then give a cubic, which has a dip there.  Where it does, the path is followed to the bottom of the dip, which becomes
+the end of a shorter interval, until D is negative there or no dip is left.
 """
 
 from __future__ import annotations
@@ -59,6 +60,12 @@ class Watch:
         self.solver = solver
         self._seen: _Seen | None = None
 
+    def passed(self, start: Equilibrium, end: Equilibrium, ds: float) -> None:
+        """Keep what is known of an arc that is not looked at."""
+        before, after = start.log_determinant, end.log_determinant
+        if before is not None and after is not None:
+            self._seen = _Seen(end, after, before - after, ds)
+
     def between(
         self, start: Stop, end: Stop, ds: float, follow: Callable[[float], Stop | None]
     ) -> float | None:
@@ -69,12 +76,15 @@ class Watch:
         """
         after, same = self._log(end.point), end.point.negative == start.point.negative
         seen = self._seen if self._seen is not None and self._seen.point is start.point else None
-        before = self._log(start.point) if seen is None else seen.log
-        self._seen = _Seen(end.point, after, before - after if same else inf, ds)
+        fall = inf if seen is None or not same else seen.log - after
+        self._seen = _Seen(end.point, after, fall, ds)
         if not same or (seen is not None and seen.fall <= log1p(seen.arc / ds)):
             return None
-        low = _Place(0.0, before, self._slope(start, start, before, ds, ahead=True))
         high = _Place(1.0, after, self._slope(start, end, after, ds, ahead=False))
+        if high.slope <= 0.0:
+            return None
+        before = self._log(start.point) if seen is None else seen.log
+        low = _Place(0.0, before, self._slope(start, start, before, ds, ahead=True))
         for _ in range(_STEPS):
             s, depth = _bottom(low, high)
             reached = follow(s * ds) if depth < _DIP else None

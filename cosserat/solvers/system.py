@@ -108,7 +108,8 @@ class MechanicalSystem:
 
     internal : the energy of the body.  external : its loads; a load factor multiplies all of them.
     damping_rate, damping_time : c [1/s] and T [s] of the force -c M v - T K v, K the stiffness of the material alone.
-    damped_modes : modes that are damped on their own.  mass : symmetric band (n, w + 1); None for statics.
+    damped_modes : modes that are damped on their own.
+    mass : gives the symmetric band (n, w + 1) when it is asked for; None for statics.
     attached : energies of what the body is attached to, such as springs; no load factor multiplies them.
     frame : frames of some pairs of DOFs.  plain : the same body without them, if there are some.
     began : (n,) the equilibrium from which its loads grow; None for the reference.
@@ -119,7 +120,7 @@ class MechanicalSystem:
     external: tuple[Potential, ...]
     constraints: Constraints
     space: ConfigurationSpace
-    mass: Band | None = None
+    mass: Callable[[], Band] | None = None
     damping_rate: float = 0.0
     attached: tuple[Potential, ...] = ()
     frame: Frame = NO_FRAME
@@ -206,11 +207,11 @@ class MechanicalSystem:
             np.array([self.load_sizes]),
         )
 
-    @property
+    @cached_property
     def inertia(self) -> Band:
         """The mass of a body that moves."""
         assert self.mass is not None  # problems in motion and of vibration give one
-        return self.mass
+        return self.mass()
 
     @cached_property
     def _reference_loads(self) -> tuple[Vector, Vector]:

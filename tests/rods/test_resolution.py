@@ -127,16 +127,16 @@ def test_the_filter_agrees_with_the_modes():
     found = modes(system, q, 80, "x", supported=True)
     rng = np.random.default_rng(0)
     v = np.where(system.constrained, 0.0, rng.uniform(-1, 1, q.size))
-    fraction = found.coordinates(system.mass, [v])[0] ** 2 / 2
+    fraction = found.coordinates(system.inertia, [v])[0] ** 2 / 2
     gradient, band = np.empty(q.size), np.empty((q.size, 14))
     system.internal.assemble(q, gradient, band)
     for h in (1e-6, 1e-5, 1e-4, 1e-3):
         x = found.angular_frequency * h
         right = float((fraction * x**16 / (1 + x**16)).sum())
-        assert unresolved_energy(band, system.mass, system.constrained, v, h) == pytest.approx(
+        assert unresolved_energy(band, system.inertia, system.constrained, v, h) == pytest.approx(
             right, rel=1e-6, abs=1e-9 * fraction.sum()
         )
-    assert fraction.sum() == pytest.approx(v @ to_dense(system.mass) @ v / 2, rel=1e-9)
+    assert fraction.sum() == pytest.approx(v @ to_dense(system.inertia) @ v / 2, rel=1e-9)
 
 
 def test_unresolved_modes_are_warned_of_and_resolved_ones_are_not():

@@ -69,7 +69,7 @@ def test_a_hanging_bar_of_two_materials_has_the_tip_and_the_mass_of_two_bars(nam
     assert rod.part_masses(geometry).sum() == pytest.approx(mass, rel=1e-12)
     still = np.zeros((51, 4))
     still[:, 0] = 1.0
-    whole = still.ravel() @ banded.band_product(bar.problem.system(geometry).mass, still.ravel())
+    whole = still.ravel() @ banded.band_product(bar.problem.system(geometry).inertia, still.ravel())
     assert whole == pytest.approx(mass, rel=1e-12)
     data = cosserat.run(bar)
     assert data.support_force.sel(dof="x3")[0].item() == pytest.approx(-mass * g, rel=1e-6)
@@ -385,7 +385,7 @@ def test_a_curved_bar_has_castiglianos_displacement():
 def test_mass_couples_position_and_director_as_in_3_3_43():
     problem = cosserat.case("vibration_c4_20").vary("offset", rod={"centreline": 0.3}).problem
     geometry = problem.geometry
-    mass = problem.system(geometry).mass
+    mass = problem.system(geometry).inertia
     rng = np.random.default_rng(1)
     v = rng.standard_normal((20, 4))
     part = problem.rod.part_masses(geometry)

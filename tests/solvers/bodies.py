@@ -186,9 +186,11 @@ def body(internal, *loads, mass=None, space=None, held=(), n=None, **more):
     n = internal.constants.size if n is None else n
     mask = np.zeros(n, bool)
     mask[list(held)] = True
-    band = None if mass is None else np.broadcast_to(np.asarray(mass, float), (n,))[:, None].copy()
+    band = np.broadcast_to(np.asarray(0.0 if mass is None else mass, float), (n,))[:, None].copy()
     space = FlatSpace(np.ones(n)) if space is None else space
-    return MechanicalSystem(internal, loads, FixedDofs(mask), space, band, **more)
+    return MechanicalSystem(
+        internal, loads, FixedDofs(mask), space, None if mass is None else lambda: band, **more
+    )
 
 
 def hessian(system, q, history=None, factor=1.0):

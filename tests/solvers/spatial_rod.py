@@ -189,7 +189,7 @@ class SpatialRod:
         mass = np.repeat(self.masses.ravel(), 3)[:, None]
         q = self.at_rest.ravel()
         space = RodSpace(SPATIAL, q, displacements=False, rounded=np.zeros_like(q))
-        return MechanicalSystem(self.energy(), loads, FixedDofs(mask), space, mass)
+        return MechanicalSystem(self.energy(), loads, FixedDofs(mask), space, lambda: mass)
 
     def pulled(self, vertex, force):
         """A dead force (3,) at a vertex."""

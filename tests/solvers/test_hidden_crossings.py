@@ -10,6 +10,7 @@ from scipy.linalg import eigvalsh
 from scipy.optimize import brentq
 
 import cosserat
+from cosserat.solvers import continuation
 from cosserat.solvers.banded import to_dense
 from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import EquilibriumSolver, NewtonSettings
@@ -164,3 +165,28 @@ def test_the_determinant_of_a_point_is_that_of_its_dense_hessian():
         tangent.constrain(system.constrained)
         tangent.band[~free, 0] = 1.0
         assert Factors(tangent.band).log == pytest.approx(point.log_determinant, rel=1e-11)
+
+
+@pytest.mark.parametrize("it", ["column", "arch"])
+def test_a_crossing_is_located_where_bisection_of_its_arc_locates_it(it, monkeypatch):
+    """The determinant only tells which parts of the arc are worth a try."""
+
+    def crossings():
+        problem, tries = (arch() if it == "arch" else cosserat.case("column_path")).problem, []
+        system, _ = problem.grown(problem.geometry, it)
+        solver = EquilibriumSolver(system, problem.newton, it)
+        locate = continuation._share
+        with monkeypatch.context() as patched:
+            patched.setattr(continuation, "_share", lambda *known: (tries.append(1), locate(*known))[1])
+            list(trace_path(solver, unloaded(solver), ArcLengthSettings(0.05, 0.3, 100, 1.0, 3.0, 1)))
+        return solver.crossings, len(tries)
+
+    found, few = crossings()
+    monkeypatch.setattr(continuation, "_share", lambda before, after, parts, runs: parts // 2)
+    halved, many = crossings()
+    assert few < many
+    assert len(found) == len(halved) > 0
+    for pair, same in zip(found, halved, strict=True):
+        for one, other in zip(pair, same, strict=True):
+            assert one.factor == other.factor
+            np.testing.assert_array_equal(one.q, other.q)

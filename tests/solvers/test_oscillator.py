@@ -34,7 +34,7 @@ def oscillator(omega, damping_rate):
         (),
         FixedDofs(np.array([False])),
         FlatSpace(np.ones(1)),
-        mass=np.ones((1, 1)),
+        mass=lambda: np.ones((1, 1)),
         damping_rate=damping_rate,
     )
 

@@ -138,7 +138,7 @@ def test_masses_coupled_by_inertia_alone_move_by_the_matrix_exponential(method):
     """The mass reaches farther than the energy, whose Hessian is diagonal."""
     n, rng = 12, np.random.default_rng(0)
     band = np.tile([2.0, 0.5, 0.0, 0.3], (n, 1))
-    system = replace(body(wells(*[(0.0, 2.0, 0.0)] * n)), mass=band)
+    system = replace(body(wells(*[(0.0, 2.0, 0.0)] * n)), mass=lambda: band)
     start = State(rng.normal(size=n), np.zeros(n), system.history)
     squared, shapes = eigh(2 * np.eye(n), to_dense(band))
     right = shapes @ (np.cos(3 * np.sqrt(squared)) * (shapes.T @ to_dense(band) @ start.q))

@@ -76,8 +76,7 @@ def first_mode_energy(run: xr.Dataset) -> Array:
     """The part of the kinetic energy that is in the first mode of the beam at rest, (time,) [J]."""
     problem = problem_of(run, RodMotion)
     rates = np.concatenate([run.x_rate.to_numpy(), run.d_rate.to_numpy()], axis=2)
-    mass = problem.system(problem.geometry).mass
-    assert mass is not None
+    mass = problem.system(problem.geometry).inertia
     speed = problem.modes(1).coordinates(mass, rates.reshape(run.sizes["time"], -1))[:, 0]
     energy: Array = speed**2 / 2
     return energy
