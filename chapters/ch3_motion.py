@@ -267,7 +267,7 @@ explicit = cosserat.run(
 problem = beam.problem
 system, start = problem.system(problem.rod.geometry()), problem.begin()
 every = problem.modes(start.q.size)
-coordinates = every.coordinates(system.mass, [start.q - problem.rod.geometry().q])[0]
+coordinates = every.coordinates(system.inertia, [start.q - problem.rod.geometry().q])[0]
 energy = (every.angular_frequency * coordinates) ** 2 / 2
 stiff = int(np.argmax(energy[1:])) + 1
 shape = np.abs(every.shape[stiff]).reshape(problem.rod.vertices, -1)
@@ -282,7 +282,7 @@ def tip(run):
 def first_mode(run):
     """Kinetic energy of the lowest mode."""
     rates = np.concatenate([run.x_rate, run.d_rate], axis=2).reshape(run.sizes["time"], -1)
-    return every.coordinates(system.mass, rates)[:, 0] ** 2 / 2
+    return every.coordinates(system.inertia, rates)[:, 0] ** 2 / 2
 
 
 def difference(read):
