@@ -224,6 +224,7 @@ def show(options: argparse.Namespace) -> None:
     from cosserat.data.dataset import (
         by_name,
         case_of,
+        content_of,
         holding_what_is_needed,
         statistics_of,
         warnings_of,
@@ -231,7 +232,7 @@ def show(options: argparse.Namespace) -> None:
     from cosserat.data.netcdf import load
 
     dataset = load(options.file)
-    if "study" in dataset.attrs:
+    if "study" in dataset.attrs and "bands" not in dataset.attrs:
         from cosserat.studies.analysis.contents import contents
 
         with holding_what_is_needed(dataset, "'show'"):
@@ -239,7 +240,7 @@ def show(options: argparse.Namespace) -> None:
         return
     title, solver = str(dataset.attrs.get("title", "")), dict[str, object]()
     case = case_of(dataset) if "parameters" in dataset.attrs else None
-    if case is not None and not {"fit", "design", "method"} & set(dataset.attrs):
+    if case is not None and not content_of(dataset):
         title, solver = f"{case.name}: {case.title}", dict(statistics_of(dataset))
     lines = [title, str(dataset.attrs.get("source", ""))]
     lines += [f"warning: {warning}" for warning in warnings_of(dataset)]

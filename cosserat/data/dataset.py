@@ -24,6 +24,14 @@ from cosserat.text import printable
 P = TypeVar("P")
 INTACT = "intact"
 """Key of a Dataset's encoding: whether it was read from a file whose digest holds."""
+_OTHER_CONTENTS = {
+    "bands": "quantiles of a study",
+    "study": "the answer of a study",
+    "fit": "the answer of a fit",
+    "design": "the answer of a design",
+    "method": "sensitivities",
+    "analysis": "",
+}  # in words, by an attribute; of the last one its value
 _SHORT = 150  # characters of a foreign error in a sentence
 FORMAT = 1
 """Number of the format of files, raised when an older version could misread a new one."""
@@ -140,6 +148,14 @@ def case_of(dataset: xr.Dataset) -> Case:
         wrote, own = version_of(dataset), source().split(",")[0]
         other = f", written by {wrote} and read by {own}," if wrote != own else ""
         raise InputError(f"{name_of(dataset)}{other}: {error}") from None
+
+
+def content_of(dataset: xr.Dataset) -> str:
+    """What a Dataset holds in place of the result of one case, in words; empty if it is such a result."""
+    for attribute, words in _OTHER_CONTENTS.items():
+        if attribute in dataset.attrs:
+            return words or printable(str(dataset.attrs[attribute]))[:_SHORT]
+    return ""
 
 
 def name_of(dataset: xr.Dataset) -> str:

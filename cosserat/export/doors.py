@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cosserat.data.dataset import holding_what_is_needed
+from cosserat.data.dataset import content_of, holding_what_is_needed
 from cosserat.data.files import check_destination
 from cosserat.data.netcdf import existing, load
 from cosserat.errors import InputError, path_of
@@ -42,10 +42,10 @@ def export(file: Path, to: str | None, output: Path | None, place: str | None) -
             f"'--place {shortened(place)}' chooses rows of a table; leave it out, or write csv"
         )
     dataset = load(file)
-    if to == "vtk" and "study" in dataset.attrs:
+    if to == "vtk" and (content := content_of(dataset)):
         raise InputError(
-            f"{file} is the answer of a study, which has no body; write csv, or the body of one of its members: "
-            "'cosserat run STUDY --member NUMBER'"
+            f"{file} holds {content}, without a body; write csv, or the body of one case: 'cosserat run CASE', of a "
+            "study 'cosserat run STUDY --member NUMBER'"
         )
     ending = "csv" if to == "csv" else "vtu" if instant_of(dataset) is None else "pvd"
     path = named or folder / f"{file.stem}.{ending}"

@@ -8,7 +8,7 @@ from pathlib import Path
 import xarray as xr
 from matplotlib.figure import Figure
 
-from cosserat.data.dataset import case_of, holding_what_is_needed, name_of, warnings_of
+from cosserat.data.dataset import case_of, content_of, holding_what_is_needed, name_of, warnings_of
 from cosserat.data.files import check_destination
 from cosserat.data.netcdf import opened
 from cosserat.errors import InputError, path_of
@@ -64,7 +64,7 @@ def _drawn_by(data: xr.Dataset) -> Callable[[xr.Dataset], Figure]:
         from cosserat.figures.answers import picture as of_answer
 
         return of_answer
-    _refuse_analysis(data)
+    _refuse_others(data, "a picture")
     kind = case_of(data).problem.kind
     if not kinds()[kind].picture:
         raise InputError(
@@ -73,12 +73,12 @@ def _drawn_by(data: xr.Dataset) -> Callable[[xr.Dataset], Figure]:
     return kinds()[kind].picture_function()
 
 
-def _refuse_analysis(data: xr.Dataset) -> None:
-    """Raise InputError for indices and the like, which have no picture."""
-    if "analysis" in data.attrs:
+def _refuse_others(data: xr.Dataset, what: str) -> None:
+    """Raise InputError for what is not the result of one case, which has no such thing."""
+    if content := content_of(data):
         raise InputError(
-            f"{name_of(data)} holds {data.attrs['analysis']}, which have no picture; plot the study, or see them with "
-            "'cosserat show'"
+            f"{name_of(data)} holds {content}, without {what}; see it with 'cosserat show', or take one case: "
+            "'cosserat run CASE', of a study 'cosserat run STUDY --member NUMBER'"
         )
 
 
@@ -104,12 +104,7 @@ def animate(
             f"an animation of {shown(frames)} frames cannot be drawn; take 2 to {MOST_FRAMES}"
         )
     data = opened(result)
-    if "study" in data.attrs:
-        raise InputError(
-            f"{name_of(data)} is the answer of a study, which does not move; animate one of its members: 'cosserat run "
-            "STUDY --member NUMBER'"
-        )
-    _refuse_analysis(data)
+    _refuse_others(data, "a motion")
     kind = case_of(data).problem.kind
     if not kinds()[kind].animate:
         moving = ", ".join(f"'{name}'" for name, entry in kinds().items() if entry.animate)

@@ -8,18 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import exp, isfinite, log, sqrt
+from math import exp, log
 
 import numpy as np
 
 from cosserat.errors import NotConvergedError
+from cosserat.solvers.arcs import corrected, cosine, distance, path_tangent, step_size
 from cosserat.solvers.banded import Vector
-from cosserat.solvers.climb import MAX_TARGET_STEPS, next_arc
+from cosserat.solvers.climb import next_arc
 from cosserat.solvers.corrector import LEAST_COSINE, TANGENT_TOLERANCE, Corrector
 from cosserat.solvers.equilibrium import SMALLEST, Equilibrium, EquilibriumSolver
 from cosserat.solvers.hidden import Stop, Watch, Way
-from cosserat.solvers.members import Plane
-from cosserat.solvers.system import ConfigurationSpace
 
 _BISECTION_TOLERANCE = 0.02  # fraction of the first arc to which a bifurcation is located
 _FACTOR_TOLERANCE = 0.005  # fraction of the load factor to which a bifurcation is located
@@ -100,9 +99,9 @@ def trace_path(
             return
         _check_limit(solver, point, found, arc)
         if origin is not None:
-            distance = _distance(space, origin, found)
-            went_away = went_away or distance > _RETURN_DISTANCE * arc.first
-            if went_away and distance < ds:
+            away = distance(space, origin, found)
+            went_away = went_away or away > _RETURN_DISTANCE * arc.first
+            if went_away and away < ds:
                 raise _returned(solver, origin, point)
         solver.note_crossing(point, found, turned=turned)
         yield found
@@ -221,7 +220,7 @@ def _next(
         found = corrected(solver, point, *direction, ds, TANGENT_TOLERANCE * ds)
         if found is not None:
             ahead = path_tangent(solver, found, direction)
-            if _cosine(direction, ahead) > LEAST_COSINE:
+            if cosine(direction, ahead) > LEAST_COSINE:
                 return found, ahead, ds
         ds /= 2
     return None
@@ -255,16 +254,6 @@ def _passes_limit_point(
     bend = ds * s * (1 - s) * (direction[1] * (1 - s) - ahead[1] * s)
     left = (until - rise - bend) * np.sign(until - point.factor)
     return bool((left <= _BISECTION_TOLERANCE * abs(until)).any())
-
-
-def _cosine(one: tuple[Vector, float], other: tuple[Vector, float]) -> float:
-    """Cosine of the angle between two tangents."""
-    (a, rise), (b, climb) = one, other
-    square = float(a @ a)
-    weight = square or 1.0
-    product = float(a @ b) + weight * rise * climb
-    first, second = square + weight * rise**2, float(b @ b) + weight * climb**2
-    return product / sqrt(first * second)
 
 
 def _locate_bifurcation(
@@ -305,7 +294,7 @@ def _share(before: Equilibrium, after: Equilibrium, parts: int, runs: int) -> in
     are not known or have no zero between them.
     """
     one, other = before.log_determinant, after.log_determinant
-    if one is None or other is None or (after.negative - before.negative) % 2 == 0:
+    if one is None or other is None or abs(after.negative - before.negative) != 1:
         return parts // 2
     stays = max(abs(runs) - 1, 0) * log(2.0)
     rise = other - one + (stays if runs > 0 else -stays)
@@ -320,91 +309,7 @@ def _wide(before: Equilibrium, after: Equilibrium) -> bool:
 def _goes_on(solver: EquilibriumSolver, before: Equilibrium, found: Equilibrium) -> bool:
     """Whether a point lies ahead of the one before it."""
     chord = found.q - before.q, found.factor - before.factor
-    return _cosine(path_tangent(solver, before, chord), chord) > LEAST_COSINE
-
-
-def step_size(space: ConfigurationSpace, q: Vector, step: Vector) -> float:
-    """Length of a step, in step limits."""
-    fraction = space.max_step_fraction(q, step)
-    return 1 / fraction if isfinite(fraction) else 0.0
-
-
-def _distance(space: ConfigurationSpace, one: Equilibrium, other: Equilibrium) -> float:
-    """Distance of two points, in step limits and load factors."""
-    return float(np.hypot(step_size(space, one.q, other.q - one.q), other.factor - one.factor))
-
-
-def rate_with_load(solver: EquilibriumSolver, point: Equilibrium) -> Vector | None:
-    """Derivative of the DOFs by the load factor at a point; None if the Hessian is singular."""
-    system, tangent = solver.system, solver.tangent
-    change = point.rate
-    if change is None:
-        system.assemble(point.q, point.history, point.factor, tangent)
-        rate = system.rate(point.factor, tangent)
-        tangent.constrain(system.constrained)
-        right = np.where(system.constrained, 0.0, -rate)
-        change = tangent.solve(right, positive=point.stable)
-    if change is None or not system.constraints.moving:
-        return change
-    return np.where(system.constrained, system.prescribed_rate(point.factor), change)
-
-
-def path_tangent(
-    solver: EquilibriumSolver, point: Equilibrium, before: tuple[Vector, float] | None
-) -> tuple[Vector, float]:
-    """Direction of the path at a point: changes of DOFs and factor, of unit length, forward from the point before."""
-    system, change = solver.system, rate_with_load(solver, point)
-    if change is None:
-        change = np.where(
-            system.constrained, system.prescribed_rate(point.factor), np.zeros_like(point.q)
-        )
-    size = np.hypot(step_size(system.space, point.q, change), 1.0)
-    change, slope = change / size, 1.0 / size
-    if before is not None and float(change @ before[0]) + slope * before[1] * _weight(before[0]) < 0:
-        change, slope = -change, -slope
-    return change, slope
-
-
-def _weight(tangent: Vector) -> float:
-    """Weight of the load factor relative to the DOFs in products of tangents."""
-    return float(tangent @ tangent) or 1.0
-
-
-def corrected(
-    solver: EquilibriumSolver,
-    point: Equilibrium,
-    direction: Vector,
-    slope: float,
-    ds: float,
-    stray: float,
-) -> Equilibrium | None:
-    """The equilibrium on the plane normal to a direction at an arc of ds; None if it is farther than `stray`."""
-    system = solver.system
-    corrector = solver.corrector or Corrector(solver)
-    if corrector.compiled:
-        return corrector.alone(point, (direction, slope), ds, stray)
-    start = point.q + ds * direction
-    plane = Plane(
-        point.q,
-        direction,
-        point.factor,
-        slope,
-        ds,
-        _weight(direction),
-        system.load_sizes[0],
-        solver.settings.tolerance,
-        2 * MAX_TARGET_STEPS,
-    )
-    found = corrector.balanced(start.copy(), plane, point.history)
-    if found is None:
-        return None
-    missing = found.factor - point.factor - ds * slope
-    strayed = np.hypot(step_size(system.space, found.q, found.q - start), missing)
-    if strayed > stray:
-        return None  # an equilibrium of another path
-    end = solver.accepted(found.q, found.factor, point.history, found.rounding, negative=found.negative)
-    known = end.history is point.history  # else the Hessian is another
-    return replace(end, rate=found.rate, log_determinant=found.log) if known else end
+    return cosine(path_tangent(solver, before, chord), chord) > LEAST_COSINE
 
 
 def _switch_branch(
@@ -420,7 +325,7 @@ def _switch_branch(
     while ds > SMALLEST * arc.first:
         found = corrected(solver, point, motion, 0.0, ds, arc.first)
         if found is not None and step_size(space, point.q, found.q - point.q) > ds / 4:
-            size = _distance(space, found, point)
+            size = distance(space, found, point)
             away = (found.q - point.q) / size, (found.factor - point.factor) / size
             return found, away, ds
         ds /= 2

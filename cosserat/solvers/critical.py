@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 from scipy.linalg import eig, eigh
 
 from cosserat.errors import UnstableError
+from cosserat.solvers.arcs import rate_with_load
 from cosserat.solvers.banded import Vector, to_sparse
-from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, trace_path
+from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.incremental import unloaded
 from cosserat.solvers.modes import FEW, MOST_DENSE

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from cosserat.solvers.arcs import rate_with_load
 from cosserat.solvers.climb import MAX_ROTATION, NEGLIGIBLE_ROTATION, PREDICTION_TOLERANCE
-from cosserat.solvers.continuation import ArcLengthSettings, rate_with_load, trace_path
+from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver
 from cosserat.solvers.many import climbed
 from cosserat.solvers.system import Fields, MechanicalSystem

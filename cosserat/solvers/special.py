@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cosserat.solvers.arcs import corrected, path_tangent, step_size
 from cosserat.solvers.banded import Vector, absolute_product
-from cosserat.solvers.continuation import corrected, path_tangent, step_size
 from cosserat.solvers.equilibrium import Equilibrium, EquilibriumSolver, NewtonSettings
 from cosserat.solvers.indefinite import Factors
 from cosserat.solvers.system import MechanicalSystem

@@ -12,6 +12,8 @@ REFUSAL = 2.0
 LONGEST = 600
 """Most characters of a sentence."""
 
+OWN_FAULT = "this is a fault of cosserat"
+"""What a sentence says where the package is wrong and no input is."""
 _PROGRESS = re.compile(r"^(?!cosserat: |warning: )[A-Za-z][\w-]*: ")
 _WARNING = re.compile(r"\b\w*Warning\b: ")
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]")
@@ -160,6 +162,8 @@ def _spoken(ended: Outcome) -> list[str]:
         found.append(f"warning leaked: {place.rpartition('/')[2]}{said[:60]}")
     else:
         found += _sentence(ended.code, lines)
+    if OWN_FAULT in ended.err:
+        found.append(f"own fault: {ended.err.partition(' failed')[0][-40:]}")
     spoken = ended.out + ended.err.replace("\r", "")
     if control := _CONTROL.search(spoken):
         found.append(f"control character: U+{ord(control[0]):04X}")

@@ -34,7 +34,7 @@ def test_a_changed_case_is_read_or_refused_in_one_sentence(worker, example):
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
-    return damage.results(tmp_path_factory.mktemp("results"), ["rod statics", "posture"])
+    return damage.results(tmp_path_factory.mktemp("results"), ["rod statics", "posture", "study"])
 
 
 def test_a_changed_command_line_ends_in_one_sentence(worker, results):

@@ -7,7 +7,8 @@ import pytest
 
 from cosserat.cases.catalogue import find
 from cosserat.solvers import corrector
-from cosserat.solvers.continuation import ArcLengthSettings, path_tangent, trace_path
+from cosserat.solvers.arcs import path_tangent
+from cosserat.solvers.continuation import ArcLengthSettings, trace_path
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.incremental import unloaded
 

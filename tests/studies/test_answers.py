@@ -240,11 +240,42 @@ def test_export_and_plot_take_the_file_of_an_answer(file, tmp_path, capsys):
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
     capsys.readouterr()
     for words, sentence in (
-        (("export", str(file), "--to", "vtk"), "which has no body; write csv"),
-        (("plot", str(file), "--animate", str(tmp_path / "a.gif")), "which does not move"),
+        (("export", str(file), "--to", "vtk"), "holds the answer of a study, without a body; write csv"),
+        (
+            ("plot", str(file), "--animate", str(tmp_path / "a.gif")),
+            "holds the answer of a study, without a motion",
+        ),
     ):
         assert main(list(words)) == 2
         assert sentence in capsys.readouterr().err
+
+
+def test_what_is_not_of_one_case_says_so_in_place_of_a_picture_a_motion_or_a_body(tmp_path, capsys):
+    base = cosserat.case("elastica").vary("small", rod={"vertices": 7})
+    points = {"saltelli": 4, "rod": {"length": {"uniform": ["1 m", "1.2 m"]}}}
+    study = cosserat.study(base, [points], {"tip": "u.E2 at last"})
+    made = {
+        "sensitivities": cosserat.sensitivity(base, ["rod.length"], {"tip": "u.E2 at last"}),
+        "the answer of a design": cosserat.design(
+            base, {"rod.length": ("0.9 m", "1.2 m")}, "max |kappa|"
+        ),
+        "indices": cosserat.indices(study, "tip"),
+        "quantiles of a study": cosserat.bands(study, "tip"),
+    }
+    for content, answer in made.items():
+        path = str(tmp_path / "a.nc")
+        cosserat.save(answer, path)
+        for words, lacking in (
+            (("export", path, "--to", "vtk"), "a body"),
+            (("plot", path, "--animate", str(tmp_path / "a.gif")), "a motion"),
+            (("plot", path), "a picture"),
+        ):
+            if "bands" not in answer.attrs or lacking != "a picture":
+                assert main(list(words)) == 2
+                assert f"a.nc holds {content}, without {lacking}; " in capsys.readouterr().err
+        for words in (("show", path), ("export", path, "--to", "csv")):
+            assert main(list(words)) == 0
+            assert capsys.readouterr().err == ""
 
 
 def test_bands_are_quantiles_of_the_members(file, tmp_path):
