@@ -87,7 +87,6 @@ def trace_path(
                     yield across[0]
                 origin = point = across[0]
                 found, direction, ds = _switch_branch(solver, point, motion, arc)
-                _watch(solver).passed(point, found, ds)
                 ahead, turned = path_tangent(solver, found, direction), None
         if (found.factor - arc.until) * (point.factor - arc.until) <= 0:
             last = _at_end(solver, point, found, arc.until)
@@ -325,6 +324,7 @@ def _switch_branch(
     while ds > SMALLEST * arc.first:
         found = corrected(solver, point, motion, 0.0, ds, arc.first)
         if found is not None and step_size(space, point.q, found.q - point.q) > ds / 4:
+            _watch(solver).passed(point, found, ds)
             size = distance(space, found, point)
             away = (found.q - point.q) / size, (found.factor - point.factor) / size
             return found, away, ds

@@ -78,7 +78,7 @@ def test_a_large_motion_conserves_energy_and_the_plain_midpoint_rule_does_not():
 def plain_midpoint(system, q, v, h):
     """A step of the midpoint rule without a correction of the energy, by dense Newton."""
     change, free = np.where(system.constrained, 0.0, h * v), ~system.constrained
-    mass = banded.to_dense(system.mass)
+    mass = banded.to_dense(system.inertia)
     gradient, band = np.empty(q.size), np.empty((q.size, system.internal.half_bandwidth + 1))
     for _ in range(10):
         system.internal.assemble(q + change / 2, gradient, band)
@@ -150,7 +150,7 @@ def test_both_integrators_agree_on_the_published_case_in_what_they_resolve():
     """
     problem, system, state = parts_of(BEAM)
     found = problem.modes(state.q.size)
-    start = found.coordinates(system.mass, [state.q - problem.geometry.q])[0]
+    start = found.coordinates(system.inertia, [state.q - problem.geometry.q])[0]
     energy = (found.angular_frequency * start) ** 2 / 2
     stiff = int(np.argmax(energy[1:])) + 1
     assert energy.sum() == pytest.approx(system.internal.energy(state.q), rel=1e-3)
@@ -162,7 +162,7 @@ def test_both_integrators_agree_on_the_published_case_in_what_they_resolve():
     tips = [data.x.sel(axis="E2").isel(vertex=-1).to_numpy() for data in runs]
     assert np.abs(tips[0] - tips[1]).max() < 0.02 * 0.01
     rates = [np.concatenate([d.x_rate, d.d_rate], axis=2).reshape(d.sizes["time"], -1) for d in runs]
-    first = [found.coordinates(system.mass, rate)[:, 0] ** 2 / 2 for rate in rates]
+    first = [found.coordinates(system.inertia, rate)[:, 0] ** 2 / 2 for rate in rates]
     assert np.abs(first[0] - first[1]).max() < 5e-3 * first[0].max()
     whole = [data.kinetic_energy.to_numpy() for data in runs]
     assert np.abs(whole[0] - whole[1]).max() > 0.1 * whole[0].max()
@@ -200,7 +200,7 @@ def test_modes_are_orthonormal_and_free_rods_have_three_of_no_frequency():
     found = problem.modes(6)
     system = problem.system(problem.geometry)
     products = np.array(
-        [[a @ banded.band_product(system.mass, b) for b in found.shape] for a in found.shape]
+        [[a @ banded.band_product(system.inertia, b) for b in found.shape] for a in found.shape]
     )
     np.testing.assert_allclose(products, np.eye(6), atol=1e-9)
     assert (found.angular_frequency[:3] == 0).all()
@@ -336,7 +336,7 @@ def test_kinetic_energy_and_angular_momentum_of_a_spinning_rod():
     h = rod.length / (rod.vertices - 1)
     J = rod.line_density * (rod.length**3 / 3 + rod.length * h**2 / 6 + rod.length * rod.height**2 / 12)
     assert integrate.kinetic_energy(system, state) == pytest.approx(J * 49 / 2, rel=1e-12)
-    spin = PLANAR.rigid_motions(state.q)[2] @ banded.band_product(system.mass, state.v)
+    spin = PLANAR.rigid_motions(state.q)[2] @ banded.band_product(system.inertia, state.v)
     assert spin == pytest.approx(J * 7, rel=1e-12)
 
 

@@ -387,7 +387,7 @@ def kkt(problem, q, v, time):
     system = problem.system(geometry)
     gradient = np.zeros(q.size)
     system.add_gradient(q, system.history, gradient)
-    M, fixed = to_dense(system.mass), np.flatnonzero(system.constrained)
+    M, fixed = to_dense(system.inertia), np.flatnonzero(system.constrained)
     damping = system.damping_rate * M @ v
     damping[fixed] = 0.0
     n, k = q.size, fixed.size
