@@ -4,10 +4,15 @@ import sys
 
 from cosserat.memory import limit_of_memory, watched
 from cosserat.signals import Stopped, end_by_signals, ignore_signals, received, uninterrupted
+from cosserat.surroundings import has_current_folder, open_streams
 
 
 def main() -> int:
     """Run the command of the command line; returns its exit status."""
+    open_streams()
+    if not has_current_folder():
+        print("cosserat: the current folder is gone; change to one that exists", file=sys.stderr)
+        return 2
     if (limit := limit_of_memory()) is not None and (status := watched(limit)) is not None:
         return status
     return _main()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import gc
+import logging
 import os
 import signal
 import sys
@@ -80,6 +81,7 @@ def main(arguments: list[str] | None = None) -> int:
     SIGHUP).
     """
     gc.set_threshold(100_000)  # a tenth of the time of a short run, mostly imports
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # where it keeps its fonts
     try:
         with _warnings_as_lines():
             options = _read(sys.argv[1:] if arguments is None else arguments)

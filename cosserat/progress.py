@@ -25,7 +25,7 @@ def bar(title: str) -> Iterator[Progress]:
     the log of a batch system, lines come after ten seconds and then ever more slowly.  The environment variable
     TQDM_DISABLE=1 switches both off.
     """
-    if not (sys.stderr.isatty() or _in_notebook()):
+    if not ((sys.stderr is not None and sys.stderr.isatty()) or _in_notebook()):
         yield Lines(title)
         return
     with warnings.catch_warnings():
@@ -69,7 +69,8 @@ class Lines:
         if fraction > 0:
             left = duration(passed * (1 / fraction - 1))
             words = f"{fraction:.0%}, {words}, about {left} left"
-        print(f"{self.title}: {words}", file=sys.stderr, flush=True)
+        if sys.stderr is not None:  # there is none where a program has no console
+            print(f"{self.title}: {words}", file=sys.stderr, flush=True)
 
 
 def duration(seconds: float) -> str:

@@ -8,6 +8,8 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from cosserat.errors import InputError
+
 _PACKAGE = Path(__file__).parents[1]
 FOLDERS = ("solvers", "rods", "rods/energies", "rods/loads", "rods/attachments", "peristalsis")
 """Folders of the package that hold compiled kernels."""
@@ -18,7 +20,13 @@ def choose_cache() -> None:
 
     If none is writable, every process compiles the kernels. A choice other than the first is reported once on stderr:
     when the folder is made, or by each process that keeps nothing. If NUMBA_CACHE_DIR is set, it is left as it is.
+
+    Raises
+    ------
+    InputError : Numba is told not to compile.
     """
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        raise InputError("NUMBA_DISABLE_JIT is set, and no solver runs uncompiled; unset it")
     beside = [_PACKAGE / folder / "__pycache__" for folder in FOLDERS]
     if os.environ.get("NUMBA_CACHE_DIR") or all(map(_is_writable, beside)):
         return

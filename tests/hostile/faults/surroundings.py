@@ -103,6 +103,9 @@ PIPES = (
     "run motion --file {file} -o x.nc | true",
     "cases >&-",
     "show {motion} 2>&-",
+    "run motion --file {file} -o x.nc 2>&-",
+    "run motion --file {file} -o x.nc <&- >&- 2>&-",
+    "run motion --file {file} -o x.nc <&-",
 )
 
 
@@ -121,6 +124,17 @@ def _pipe(trial: Trial) -> Iterator[None]:
     expect(done.returncode == 0 and not done.stderr, f"{PIPES[trial.number]}: {told}")
     if " run " in f" {text} ":
         expect_bytes(trial.folder / "x.nc", undisturbed("motion").bytes)
+    yield
+
+
+@fault(KIND, "the current folder is gone", "One sentence, exit 2; nothing is written.", 2)
+def _gone(trial: Trial) -> Iterator[None]:
+    output = trial.folder.parent / f"{trial.folder.name}.nc"
+    words = run_words("motion", output) if trial.number else ("cases",)
+    done = call(trial.folder, *words, before=lambda: shutil.rmtree(trial.folder))
+    trial.folder.mkdir()
+    expect_sentence(done, 2)
+    expect("current folder" in done.err and not output.exists(), done.told)
     yield
 
 

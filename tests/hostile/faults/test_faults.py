@@ -17,6 +17,8 @@ QUICK = (
     ("loaded in Python", 1),
     ("the output is the input", 0),
     ("a closed pipe", 0),
+    ("a closed pipe", 10),
+    ("the current folder is gone", 1),
 )
 """Names of faults, and the number of the attempt that is a test."""
 LONGER = (
