@@ -82,6 +82,8 @@ _NUMBER = re.compile(
 _BEGINS_A_UNIT = re.compile(r"[^\W\d]|[%°(/\"']|1\s*/|$")
 LONGEST_TEXT = 100
 """Most characters of a number with its unit."""
+_EXACT = decimal.Context(LONGEST_TEXT, Emin=decimal.MIN_EMIN, Emax=decimal.MAX_EMAX, traps=[])
+_ROUNDING = 1e-14  # of a factor that a library computes
 _UNIT = re.compile(r"(?:1 */)?(?:[^\W\d]\w*|[%°()*/ ]|\^ *\(?[+-]?\d{1,2}\)?(?! *\^))*")
 
 
@@ -151,7 +153,6 @@ def _read_text(text: str, unit: str) -> float:
     if found is None or not _BEGINS_A_UNIT.match(rest) or not int(found["divisor"] or 1):
         raise refused("type", "which is not a number with a unit")
     sign_or_number = found["number"] if found["number"].strip("+-") else f"{found['number']}1"
-    number = float(sign_or_number) * (math.pi if found["pi"] else 1) / int(found["divisor"] or 1)
     root = _written_root(rest)
     if root is None:
         raise refused("type", "whose unit is not known", _meant(rest, unit))
@@ -162,7 +163,19 @@ def _read_text(text: str, unit: str) -> float:
     zero, factor = _zero_and_one(rest, unit)
     if zero:
         raise refused("unit", f"{said}, whose zero is not zero {unit}")
-    return number * factor
+    if found["pi"] or found["divisor"]:
+        number = float(sign_or_number) * (math.pi if found["pi"] else 1) / int(found["divisor"] or 1)
+        return number * factor
+    return _times(sign_or_number, factor)
+
+
+def _times(number: str, factor: float) -> float:
+    """A written number times a factor; if that is a power of ten, the float nearest to it, so that 9 mm are 0.009 m."""
+    power = round(math.log10(factor))
+    moved = _EXACT.scaleb(_EXACT.create_decimal(number), power)
+    if abs(factor / 10.0**power - 1) < _ROUNDING and moved.is_finite():
+        return float(moved)
+    return float(number) * factor
 
 
 @functools.lru_cache(1000)

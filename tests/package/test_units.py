@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+from decimal import Decimal
 
 import pytest
 from hypothesis import given
@@ -144,3 +145,28 @@ def test_any_text_gives_a_number_or_an_error_sentence(text):
     for unit in ("Pa", "m^-1", "1"):
         with contextlib.suppress(PydanticCustomError):  # no error of another kind
             assert math.isfinite(to_si(text, unit, unit_required=True))
+
+
+@pytest.mark.parametrize(
+    ("written", "unit", "power"),
+    [
+        ("mm", "m", -3),
+        ("cm", "m", -2),
+        ("µm", "m", -6),
+        ("km", "m", 3),
+        ("MPa", "Pa", 6),
+        ("GPa", "Pa", 9),
+        ("N/mm^2", "Pa", 6),
+        ("mN", "N", -3),
+        ("N*mm", "N*m", -3),
+        ("g", "kg", -3),
+        ("%", "1", -2),
+        ("ms", "s", -3),
+        ("mm^2", "m^2", -6),
+    ],
+)
+def test_a_decimal_number_in_a_decimal_unit_is_the_nearest_float(written, unit, power):
+    """The right one is Python's own reading of the number with the power of ten behind it."""
+    for number in (*range(1, 300), 0.1, 0.7, 2.4, 7.3, 1.27, 12.345678901234567, 1e-5, 8.1e7):
+        found = to_si(f"{number} {written}", unit, unit_required=True)
+        assert found == float(f"{Decimal(repr(number)):f}e{power}"), number
