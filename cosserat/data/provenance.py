@@ -40,6 +40,7 @@ _COMPUTING = (
             "discretization",
             "needs",
             "keys",
+            "between",
             "readouts",
             "distributions",
             "designs",

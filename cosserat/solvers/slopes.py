@@ -29,7 +29,8 @@ _KINK = 1e-3  # of the largest derivative, by which one from the left and one fr
 class Slope:
     """A derivative.
 
-    value : of any shape.  error : the change by the last extrapolation, of the same shape.
+    value : of any shape.  error : the larger change by the last extrapolation, or what round-off can do if that is
+        more, of the same shape.
     kink : where the derivatives from both sides differ, of the same shape.
     relative : the largest error as a fraction of the largest derivative, beyond round-off; zero where all is round-off.
     """
@@ -50,10 +51,12 @@ def halved(step: float) -> tuple[float, ...]:
     return tuple(step / 2**level for level in range(_LEVELS))
 
 
-def slope(values: Callable[[float], Array], floor: float) -> Slope:
+def slope(values: Callable[[float], Array], floor: float, round_off: float = 0.0) -> Slope:
     """The derivative of a function at zero.
 
-    values : the function, smooth to steps of at most `LARGEST`.  floor : size of the round-off in its values.
+    values : the function, smooth to steps of at most `LARGEST`.
+    floor : largest size of the round-off in its values, below which no kink is seen.
+    round_off : its standard deviation; the error is never less than what three of these make of the shortest step.
 
     Raises
     ------
@@ -63,7 +66,7 @@ def slope(values: Callable[[float], Array], floor: float) -> Slope:
     first: InputError | None = None
     for trial in range(_TRIALS):
         try:
-            found = _tried(values, LARGEST / _SHORTER**trial, floor)
+            found = _tried(values, LARGEST / _SHORTER**trial, floor, round_off)
         except InputError as error:
             first = first or error
             continue
@@ -71,7 +74,8 @@ def slope(values: Callable[[float], Array], floor: float) -> Slope:
             best = found
         elif not best.kink.any():
             break  # round-off grows
-        if best.rank <= (False, _GOOD * float(np.abs(best.value).max(initial=0.0))):
+        noise = _deviation(round_off, LARGEST / _SHORTER**trial)
+        if best.rank <= (False, max(noise, _GOOD * float(np.abs(best.value).max(initial=0.0)))):
             break
     if best is None:
         assert first is not None  # every trial ended in one
@@ -79,7 +83,7 @@ def slope(values: Callable[[float], Array], floor: float) -> Slope:
     return best
 
 
-def _tried(values: Callable[[float], Array], step: float, floor: float) -> Slope:
+def _tried(values: Callable[[float], Array], step: float, floor: float, round_off: float) -> Slope:
     middle = np.asarray(values(0.0), dtype=np.float64)
     steps = halved(step)
     ahead, behind = ([np.asarray(values(sign * h)) for h in steps] for sign in (1.0, -1.0))
@@ -90,18 +94,27 @@ def _tried(values: Callable[[float], Array], step: float, floor: float) -> Slope
     size, noise = float(np.abs(value).max(initial=0.0)), 8 * floor / steps[-1]
     beyond = float(error.max(initial=0.0)) - noise
     kink = np.abs(jump[-1]) > _KINK * size + noise
+    error = np.maximum(error, _deviation(round_off, step))
     return Slope(value, error, kink, beyond / size if beyond > 0 else 0.0)
 
 
 def extrapolated(
     ahead: Sequence[Array], behind: Sequence[Array], steps: Sequence[float]
 ) -> tuple[Array, Array]:
-    """A derivative from values after steps to both sides, each `halved`, and the change by the last extrapolation."""
+    """A derivative from values after steps to both sides, each `halved`, and the change by the last extrapolation.
+
+    The change is that from the entry with the shortest steps, which round-off alone can make small by chance.
+    """
     table = [(a - b) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
     before = table
     for order in range(1, _LEVELS):
         before, table = table, _eliminated(table, 4**order)
     return table[-1], np.abs(table[-1] - before[-1])
+
+
+def _deviation(round_off: float, step: float) -> float:
+    """Three standard deviations of an extrapolated derivative, of which the shortest step has nearly all."""
+    return 3 * round_off / halved(step)[-1]
 
 
 def _eliminated(table: list[Array], ratio: float) -> list[Array]:

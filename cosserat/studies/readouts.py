@@ -3,14 +3,17 @@
     "u.E2 at last"              a component at the last vertex
     "max |kappa|"               the largest size of a variable
     "x.E3 at 1.2 m"             between two vertices, by linear interpolation along the reference
+    "x.E3 at 50 %"              likewise at a part of the length
     "natural_frequency at 0"    the first mode
     "kinetic_energy at 0.5 s"   between two instants, by linear interpolation
     "max |u.E2| at last"        over what is left after a place was taken: here the instants of a motion
     "load_factor where |u.E2| at last reaches 5 cm"    the first time, by linear interpolation between instants
 
 Words before the variable: max, min, mean, norm (the root of the sum of squares), range (max less min), final (at the
-last instant or point of a path) and change (from the first one to the last).  The value of a member of a study is
-bit-equal to that of its own result.
+last instant or point of a path) and change (from the first one to the last).  The order is always the same: components,
+the place, sizes |...|, and then what the word says.  With "where" all of it is done at every instant, change is from
+the first one, and the numbers found are interpolated; final names an instant itself and has no "where".  The value of a
+member of a study is bit-equal to that of its own result.
 """
 
 from __future__ import annotations
@@ -27,6 +30,7 @@ from cosserat.data.variables import LABELS, VARIABLES
 from cosserat.errors import InputError, OutOfReachError
 from cosserat.parameters import nearest
 from cosserat.solution import Field
+from cosserat.studies.between import at_level, first_met, interpolated, place, reaches, taken
 from cosserat.text import shown
 from cosserat.units import to_si
 
@@ -81,6 +85,11 @@ class ReadOut:
         return VARIABLES[self.variable].units
 
     @property
+    def sized(self) -> bool:
+        """Whether `picked` takes the sizes |...|, since it combines values of several instants."""
+        return self.where is not None or self.over == "change"
+
+    @property
     def long_name(self) -> str:
         """Its meaning in words."""
         return f"{VARIABLES[self.variable].long_name}: {self.text}"
@@ -91,9 +100,10 @@ class ReadOut:
         found = {self.variable} if self.where is None else {self.variable} | self.where.needs()
         if not self.at:
             return found
-        _, unit = _place(self.at)
-        wanted = {"m": ("vertex", "edge", "section"), "s": ("time",)}.get(unit, ())
-        return found | {_ALONG[dim] for dim in wanted if dim in dims or dim == "time"}
+        _, unit = place(self.at)
+        wanted = {"s": ("time",), "": ()}.get(unit, ("vertex", "edge", "section"))
+        found |= {_ALONG[dim] for dim in wanted if dim in dims or dim == "time"}
+        return found | ({"xi"} if unit == "%" and "edge" in dims else set())
 
     def of(
         self, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]], members: int = 0
@@ -109,12 +119,12 @@ class ReadOut:
         dims, values = self.picked(fields, labels)
         if self.where is not None:
             return values
-        values = np.abs(values) if self.size else values
+        values = np.abs(values) if self.size and not self.sized else values
         left = tuple(k for k, dim in enumerate(dims) if dim != "member")
         if self.over in _OVER:
             rows = np.moveaxis(values, dims.index("member"), 0) if "member" in dims else values[None]
             values = _OVER[self.over](np.ascontiguousarray(rows).reshape(len(rows), -1))
-            values = values if "member" in dims else _taken(values, 0, 0)
+            values = values if "member" in dims else taken(values, 0, 0)
         elif left:
             names = ", ".join(f"{dims[k]} ({values.shape[k]})" for k in left)
             raise InputError(
@@ -133,65 +143,65 @@ class ReadOut:
         Raises
         ------
         InputError : the result has no such variable, component or place.
+        OutOfReachError : the level of `where` is not reached.
         """
+        if self.where is not None:
+            return (), np.asarray(self._where(self.where, fields, labels))
+        return self._ends(*self._read(fields, labels))
+
+    def _read(
+        self, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]]
+    ) -> tuple[tuple[str, ...], Array]:
+        """The values of the components at the place."""
         if self.variable not in fields:
             raise InputError(
                 f"'{self.name}': the result has no variable '{self.variable}'{nearest(self.variable, list(fields))}"
             )
-        dims, values = fields[self.variable]
-        dims, values = self._components(dims, values, labels)
-        if self.at:
-            dims, values = self._placed(dims, values, fields)
-        if self.where is not None:
-            return (), np.asarray(self._where(self._of_instants(dims, values), fields, labels))
-        return self._ends(dims, values)
+        dims, values = self._components(*fields[self.variable], labels)
+        return self._placed(dims, values, fields) if self.at else (dims, values)
 
     def _where(
-        self, values: Array, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]]
+        self, other: ReadOut, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]]
     ) -> float:
-        """The value at the instant where the other read-out first reaches its level."""
-        assert self.where is not None
-        dims, other = fields[self.where.variable]
-        dims, other = self.where._components(dims, other, labels)
-        if self.where.at:
-            dims, other = self.where._placed(dims, other, fields)
-        over = self.where._of_instants(dims, np.abs(other) if self.where.size else other) - self.level
-        if over.shape != values.shape:
+        """The value at the instant where another read-out first reaches the level."""
+        values, found = self._series(fields, labels), other._series(fields, labels)
+        if found.shape != values.shape:
             raise InputError(
                 f"'{self.name}': {shown(self.text)} needs two values along the same instants"
             )
-        passed = np.flatnonzero((over[:-1] < 0) != (over[1:] < 0))
-        if not passed.size:
+        met = first_met(found, self.level)
+        if met is None:
             raise OutOfReachError(
-                f"'{self.name}': {shown(self.where.text)} does not reach {self.level:g}; it goes from "
-                f"{over.min() + self.level:g} to {over.max() + self.level:g}"
+                f"'{self.name}': {shown(other.text)} does not reach {self.level:g}; it goes from "
+                f"{found.min():g} to {found.max():g}"
             )
-        k = int(passed[0])
-        share = over[k] / (over[k] - over[k + 1])
-        return float((1 - share) * values[k] + share * values[k + 1])
+        return at_level(values, *met)
 
-    def _of_instants(self, dims: tuple[str, ...], values: Array) -> Array:
-        """Values along the instants alone, (n,)."""
+    def _series(self, fields: Mapping[str, Field], labels: Mapping[str, Sequence[str]]) -> Array:
+        """One number at every instant, (n,)."""
+        dims, values = self._read(fields, labels)
         found = [dim for dim in dims if dim in _INSTANTS]
         if not found:
             raise InputError(
                 f"'{self.name}': '{self.variable}' has no instants at which something is reached"
             )
-        rows = np.moveaxis(values, dims.index(found[0]), 0).reshape(
-            values.shape[dims.index(found[0])], -1
+        axis = dims.index(found[0])
+        rows = np.moveaxis(np.abs(values) if self.size else values, axis, 0).reshape(
+            values.shape[axis], -1
         )
-        if rows.shape[1] == 1:
-            return rows[:, 0]
-        if self.over not in _OVER:
+        if self.over in _OVER:
+            return _OVER[self.over](np.ascontiguousarray(rows))
+        if rows.shape[1] > 1:
             raise InputError(
                 f"'{self.name}': {shown(self.text)} leaves more than one value at an instant"
             )
-        return _OVER[self.over](np.ascontiguousarray(rows))
+        return rows[:, 0] - rows[0, 0] if self.over == "change" else rows[:, 0]
 
     def _ends(self, dims: tuple[str, ...], values: Array) -> tuple[tuple[str, ...], Array]:
         """What is asked for at the last instant."""
         if self.over not in ("final", "change"):
             return dims, values
+        values = np.abs(values) if self.size and self.sized else values
         left, last = self._instant(dims, values, -1)
         return left, last if self.over == "final" else last - self._instant(dims, values, 0)[1]
 
@@ -206,14 +216,14 @@ class ReadOut:
                     f"'{self.name}': '{self.variable}' has no component {shown(label)}{nearest(label, known)}"
                 )
             axis = dims.index(found[0])
-            values = _taken(values, list(labels[found[0]]).index(label), axis)
+            values = taken(values, list(labels[found[0]]).index(label), axis)
             dims = dims[:axis] + dims[axis + 1 :]
         return dims, values
 
     def _placed(
         self, dims: tuple[str, ...], values: Array, fields: Mapping[str, Field]
     ) -> tuple[tuple[str, ...], Array]:
-        number, unit = _place(self.at)
+        number, unit = place(self.at)
         if unit == "s":
             return self._between(dims, values, "time", number, fields)
         places = [dim for dim in dims if dim not in (*_INSTANTS, *LABELS, "member")]
@@ -221,15 +231,15 @@ class ReadOut:
             raise InputError(
                 f"'{self.name}': '{self.variable}' has no places, but {shown(self.text)} names one"
             )
-        if unit == "m":
-            return self._between(dims, values, places[0], number, fields)
+        if unit:
+            return self._between(dims, values, places[0], number, fields, part=unit == "%")
         axis = dims.index(places[0])
         count, index = values.shape[axis], int(number)
         if not -count <= index < count:
             raise InputError(
                 f"'{self.name}': there is no {places[0]} {index}; they are numbered from 0 to {count - 1}"
             )
-        return dims[:axis] + dims[axis + 1 :], _taken(values, index, axis)
+        return dims[:axis] + dims[axis + 1 :], taken(values, index, axis)
 
     def _instant(
         self, dims: tuple[str, ...], values: Array, index: int
@@ -238,70 +248,40 @@ class ReadOut:
         if not found:
             return dims, values
         axis = dims.index(found[0])
-        return dims[:axis] + dims[axis + 1 :], _taken(values, index, axis)
+        return dims[:axis] + dims[axis + 1 :], taken(values, index, axis)
 
     def _between(
-        self, dims: tuple[str, ...], values: Array, dim: str, at: float, fields: Mapping[str, Field]
+        self,
+        dims: tuple[str, ...],
+        values: Array,
+        dim: str,
+        at: float,
+        fields: Mapping[str, Field],
+        *,
+        part: bool = False,
     ) -> tuple[tuple[str, ...], Array]:
-        """Linear interpolation along a dimension with a coordinate."""
-        if dim not in dims or dim not in _ALONG or _ALONG[dim] not in fields:
+        """Linear interpolation along a dimension with a coordinate; part : whether `at` is a part of the length."""
+        length = "xi" if part and dim == "edge" else _ALONG.get(dim, "")
+        if dim not in dims or not {_ALONG.get(dim, ""), length} <= set(fields):
             raise InputError(
-                f"'{self.name}': '{self.variable}' has no {'instants' if dim == 'time' else 'places in metres'}, but "
+                f"'{self.name}': '{self.variable}' has no {'instants' if dim == 'time' else 'places along it'}, but "
                 f"{shown(self.text)} names one"
             )
         axis = dims.index(dim)
         along, where = fields[_ALONG[dim]]
         left, moved = dims[:axis] + dims[axis + 1 :], np.moveaxis(values, axis, -1)
+        ends = fields[length][1][..., -1] if part else 1.0
         if "member" in dims:
             rows = where if "member" in along else np.broadcast_to(where, (len(moved), where.size))
-            return left, np.array(
-                [_interpolated(row, own, at) for row, own in zip(rows, moved, strict=True)]
-            )
-        if not _reaches(where, at):
+            places = np.broadcast_to(at * np.asarray(ends), len(moved))
+            every = zip(rows, moved, places, strict=True)
+            return left, np.array([interpolated(row, own, float(there)) for row, own, there in every])
+        at *= float(ends)
+        if not reaches(where, at):
             raise InputError(
                 f"'{self.name}': {shown(self.at)} is outside the result, from {where[0]:g} to {where[-1]:g}"
             )
-        return left, _interpolated(where, moved, at)
-
-
-def _taken(values: Array, index: int, axis: int) -> Array:
-    return np.asarray(values.take(index, axis=axis))
-
-
-def _reaches(where: Array, at: float) -> bool:
-    return bool(where[0] <= at <= where[-1] * (1 + 1e-12))
-
-
-def _interpolated(where: Array, values: Array, at: float) -> Array:
-    """Values (..., n) between places (n,); not a number outside them."""
-    if not _reaches(where, at):
-        return np.full(values.shape[:-1], np.nan)
-    k = int(np.clip(np.searchsorted(where, at, side="right"), 1, where.size - 1))
-    share = (at - where[k - 1]) / (where[k] - where[k - 1])
-    found: Array = (1 - share) * values[..., k - 1] + share * values[..., k]
-    return found
-
-
-def _place(text: str) -> tuple[float, str]:
-    """A place or an instant: a number and its unit, "" for the number of a vertex, edge, section or mode.
-
-    Raises
-    ------
-    PydanticCustomError : it is neither.
-    """
-    if text in ("first", "last"):
-        return (0.0, "") if text == "first" else (-1.0, "")
-    if re.fullmatch(r"\d{1,6}", text):
-        return float(text), ""
-    for unit in ("m", "s"):
-        try:
-            return to_si(text, unit, unit_required=True), unit
-        except PydanticCustomError:
-            continue
-    raise PydanticCustomError(
-        "place",
-        f"has 'at' {shown(text)}; write first, last, a number from 0, or a place or time with its unit: 1.2 m",
-    )
+        return left, interpolated(where, moved, at)
 
 
 def meant_variable(word: str) -> str:
@@ -357,7 +337,7 @@ def read_out(name: str, text: object, study: str) -> ReadOut:
         )
     try:
         if at:
-            _place(at)
+            place(at)
     except PydanticCustomError as error:
         raise InputError(f"{study}: '{name}' {error.message()}") from None
     labels = tuple(part for part in found["labels"].split(".") if part)
@@ -369,6 +349,10 @@ def read_out(name: str, text: object, study: str) -> ReadOut:
 def _reaching(name: str, found: re.Match[str], study: str) -> ReadOut:
     """The read-out of a value where another one reaches a level."""
     own, other = read_out(name, found["value"], study), read_out(name, found["inner"], study)
+    if "final" in (own.over, other.over):
+        raise InputError(
+            f"{study}: '{name}' is {shown(found[0].strip())}; 'final' and 'where' name two instants, keep one of them"
+        )
     unit = unit_to_read(other.units)
     try:
         level = to_si(found["level"], unit, unit_required=True)

@@ -9,7 +9,11 @@ from cosserat.studies.readouts import ReadOut
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-_TIE = 1e-13  # of the largest value, within which two are the same
+_EQUAL = 1e-13  # of the largest value, within which two are equal and the first one stands for both
+_TIE = 1e-9
+"""Of the largest value, within which a solve cannot tell which of two is larger: an equilibrium resolves its state to
+about 1e-12, and strains and forces, which are differences of it between neighbours, to 1e-10.  Such a tie matters only
+if the values change differently: what a symmetry makes equal keeps its derivative."""
 _SAME = 1e-6  # of the largest derivative, within which two are the same
 _ZERO = 1e-9  # of its change with the step, below which a value is zero
 _KINK = "its values have a kink there"
@@ -22,7 +26,7 @@ def reduced(one: ReadOut, values: Array, rates: Array, kinks: Mask) -> tuple[Arr
     kinks : (R, L) where the values have no derivative.
     """
     over = "" if one.where is not None else one.over
-    if one.size and one.where is None:
+    if one.size and not one.sized:
         kinks = kinks | (np.abs(values) < _ZERO * np.abs(rates))
         rates, values = rates * np.where(values < 0, -1.0, 1.0), np.abs(values)
     if over in ("max", "min"):
@@ -53,12 +57,13 @@ def _of_norm(values: Array, rates: Array, why: dict[int, str]) -> tuple[Array, d
 
 def _extreme(sign: float, values: Array, rates: Array, kinks: Mask) -> tuple[Array, dict[int, str]]:
     """The derivatives of the largest values, or with a negative sign of the smallest."""
-    over, round_off = sign * values, _TIE * np.abs(values).max(axis=-1)
-    tied = over >= (over.max(axis=-1) - round_off)[:, None]
-    first = tied.argmax(axis=-1)
+    over, size = sign * values, np.abs(values).max(axis=-1)
+    below = over.max(axis=-1)[:, None] - over
+    tied = below <= _TIE * size[:, None]
+    first = (below <= _EQUAL * size[:, None]).argmax(axis=-1)
     found = np.take_along_axis(rates, first[:, None], axis=-1)[:, 0]
     away = np.abs(rates - found[:, None]).max(axis=-1, where=tied, initial=0.0)
-    split = np.flatnonzero(away > _SAME * np.abs(rates).max(axis=-1) + round_off)
+    split = np.flatnonzero(away > _SAME * np.abs(rates).max(axis=-1) + _EQUAL * size)
     which = "largest" if sign > 0 else "smallest"
     why = {
         row: f"{tied[row].sum()} values share the {which} one and change differently"

@@ -106,7 +106,8 @@ class Study(Parameters):
     keep: dict[str, str] = {}  # noqa: RUF012 - pydantic copies it
     """Read-outs by name: a variable of the result, as 'cosserat show' lists them, such as "u.E2 at last" or
     "max |kappa|".  Before it may stand max, min, mean, norm, range, final or change, behind it a place or an instant
-    with 'at'; "load_factor where |u.E2| at last reaches 5 cm" is the value at an instant."""
+    with 'at', such as 1.2 m, 50 % or 0.5 s; "load_factor where |u.E2| at last reaches 5 cm" is the value at an
+    instant."""
     keep_whole: Annotated[tuple[str, ...], Items(0, 50)] = ()
     """Variables of the result that are kept whole; where sizes differ between members, ends are filled with NaN."""
     sensitivities: Annotated[bool, Strict()] = False
