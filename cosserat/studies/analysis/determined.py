@@ -123,13 +123,20 @@ def undetermined(found: Estimate, keys: Sequence[Free]) -> str:
     _, singular, directions = found.along(keys)
     if not singular[-1] <= _FAINT * singular[0]:
         return ""
-    return f"the data hardly determine {_in_words(directions[-1], keys)}; {_faint(singular[-1] / singular[0])}"
+    return _faint(directions[-1], keys, singular[-1] / singular[0])
 
 
-def _faint(ratio: float) -> str:
+def _faint(direction: Array, keys: Sequence[Free], ratio: float) -> str:
+    """A direction that hardly changes the fitted values, and what to do."""
+    several = np.count_nonzero(np.abs(direction) > _SHARE) > 1
+    fix = (
+        "fix one of these keys, or measure what tells them apart"
+        if several
+        else "fix it, or measure more"
+    )
     return (
-        f"it changes the fitted values by {ratio:.2g} of what the best determined direction does; fix one of these "
-        "keys, or measure what tells them apart"
+        f"the data hardly determine {_in_words(direction, keys)}; it changes the fitted values by {ratio:.2g} of what "
+        f"the best determined direction does; {fix}"
     )
 
 
