@@ -26,7 +26,10 @@ def answer():
         (lambda d: d.assign_attrs(by=True), "attribute 'by' of the Dataset is True"),
         (lambda d: d.assign_attrs({3: "x"}), "attribute of the Dataset is called 3"),
         (lambda d: d.assign_attrs({"a/b": "x"}), "attribute of the Dataset is called 'a/b'"),
-        (lambda d: d.assign(tip=d.tip.assign_attrs(by=[1, "x"])), r"attribute 'by' of 'tip' is \[1, 'x'\]"),
+        (
+            lambda d: d.assign(tip=d.tip.assign_attrs(by=[1, "x"])),
+            r"attribute 'by' of 'tip' is \[1, 'x'\]",
+        ),
         (lambda d: d.assign({"a/b": d.tip}), "is called 'a/b'"),
         (lambda d: d.assign({5: d.tip}), "is called 5"),
         (lambda d: d.assign(z=d.tip * 1j), "'z' has values of type complex128"),

@@ -13,12 +13,14 @@ from cosserat.data.dataset import name_of
 from cosserat.errors import InputError
 from cosserat.parameters import nearest
 from cosserat.studies.analysis.answered import answer_of, dims_of, keys_along, solved, unit_of
+from cosserat.studies.analysis.arguments import NUMBERS, TEXT, TEXTS, taking
 from cosserat.text import shown
 
 USUAL = (0.05, 0.5, 0.95)
 """Quantiles by default."""
 
 
+@taking(of=TEXT, quantiles=NUMBERS, over=TEXTS)
 def bands(
     answer: xr.Dataset | str | Path,
     of: str,

@@ -16,6 +16,7 @@ from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
 from cosserat.errors import CosseratError, InputError, NotConvergedError
+from cosserat.studies.analysis.arguments import COLUMNS, KEYS, TABLE, taking
 from cosserat.studies.analysis.determined import (
     ROUNDING,
     Estimate,
@@ -38,6 +39,7 @@ _LARGEST = 1e30  # of a measured value in its SI unit, so that its square is a n
 _APART = 1e15  # how far a deviation may be from the size of the measured values, for the same reason
 
 
+@taking(data=COLUMNS, free=KEYS, deviations=TABLE)
 def fit(
     case: Case | str,
     data: str | Path | Columns,
