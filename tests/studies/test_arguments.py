@@ -94,3 +94,27 @@ def test_arguments_of_orders():
     with pytest.raises(InputError, match="orders has along = .*; give a text"):
         cosserat.orders(answer, np.array(["vertices"]))
     assert "end_order" in cosserat.orders(answer, of=np.array(["end"]))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda d: d.assign(u=d.u * np.nan), "has no number in a member with an answer"),
+        (lambda d: d.isel(vertex=[]), "is empty along vertex, axis"),
+        (lambda d: d.assign_coords(xi=d.status * 1.0 + d.length), "has members with different places"),
+    ],
+)
+def test_bands_of_values_that_are_not_there(sample, change, said):
+    with pytest.raises(InputError, match=f"'u' of this Dataset {said}"):
+        cosserat.bands(change(sample), "u")
+
+
+def test_bands_over_members_of_different_meshes_are_refused():
+    """Vertex 4 of one is the tip and of the other the middle; two vertices of one mesh were averaged with none."""
+    factor = {"rod.vertices": [5, 9, 5], "forces.0.force": [1.0, 2.0, 2.0], "name": "p"}
+    answer = cosserat.study(bar(), [factor], keep_whole=["u"])
+    with pytest.raises(InputError, match="members with different places along vertex, axis.*one mesh"):
+        cosserat.bands(answer, "u", over="p")
+    found = cosserat.bands(answer.isel(p=[0, 2]), "u", (0.0, 1.0), over="p")
+    assert found["u"].sel(axis="E3")[:, 4].to_numpy() == pytest.approx([1e-5, 2e-5], rel=1e-4)
