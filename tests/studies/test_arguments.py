@@ -118,3 +118,39 @@ def test_bands_over_members_of_different_meshes_are_refused():
         cosserat.bands(answer, "u", over="p")
     found = cosserat.bands(answer.isel(p=[0, 2]), "u", (0.0, 1.0), over="p")
     assert found["u"].sel(axis="E3")[:, 4].to_numpy() == pytest.approx([1e-5, 2e-5], rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda d: d.assign(u=d.u * np.nan), "'u' of this Dataset is not finite"),
+        (lambda d: d.isel(axis=0), r"'x_ref' of this Dataset is along \('vertex',\), not"),
+        (lambda d: d.isel(dof=0), "is along"),
+        (lambda d: d.assign_attrs(bands="u"), "holds quantiles of a study"),
+        (lambda d: 5, "estimate_error has result = 5"),
+    ],
+)
+def test_results_of_which_no_errors_can_be_estimated(result, change, said):
+    with pytest.raises(InputError, match=said):
+        cosserat.estimate_error(bar(), {"end": "u.E3 at last"}, result=change(result))
+
+
+@pytest.fixture(scope="module")
+def result():
+    """The bar's own result."""
+    return cosserat.run(bar())
+
+
+@pytest.mark.filterwarnings("error")
+def test_pictures_of_points_leave_out_coordinates_that_are_no_numbers(sample):
+    """The mean of an empty interval was taken."""
+    lengths = sample["length"].where(sample["length"] > sample["length"].min())
+    cosserat.plot(sample.assign_coords(length=lengths))
+    cosserat.plot(sample.assign_coords(length=lengths * np.nan))
+
+
+def test_a_status_of_texts_is_refused(sample):
+    changed = sample.assign(status=sample["status"].astype(str))
+    for given in (lambda: cosserat.bands(changed, "u"), lambda: cosserat.indices(changed, "end")):
+        with pytest.raises(InputError, match="has a 'status' of type .*, which is a number"):
+            given()

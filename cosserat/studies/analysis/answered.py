@@ -27,6 +27,11 @@ def answer_of(given: xr.Dataset | str | Path) -> xr.Dataset:
         raise InputError(
             f"{name_of(data)} is no answer of a study: it has no 'study' and 'status'; use one of cosserat.study"
         )
+    if data["status"].dtype.kind not in "iuf":
+        raise InputError(
+            f"{name_of(data)} has a 'status' of type {data['status'].dtype}, which is a number for each member; use "
+            "the answer as cosserat made it"
+        )
     return data
 
 
