@@ -1,11 +1,12 @@
-"""Datasets that a user changed: what no netCDF file can hold is one sentence, which names it."""
+"""Datasets that a user changed: parts of answers stay tables and pictures, and what no file holds is named."""
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import cosserat
-from cosserat.errors import InputError
+from cosserat.data.dataset import holding_what_is_needed
+from cosserat.errors import CosseratError, InputError
 
 
 @pytest.fixture(scope="module")
@@ -59,3 +60,50 @@ def test_encodings_that_do_not_fit_are_left_out(answer, tmp_path):
 def test_members_that_were_masked_are_written(answer, tmp_path):
     """`where` leaves texts beside values that are missing."""
     cosserat.save(answer.where(answer.force > 1.5), tmp_path / "masked.nc")
+
+
+@pytest.mark.parametrize(
+    ("part", "rows", "words"),
+    [
+        (lambda d: d.where(d.force > 1.5, drop=True), 4, {"solved"}),
+        (lambda d: d.where(d.force > 1.5), 6, {"solved", ""}),
+        (lambda d: d.mean("height"), 3, {"solved"}),
+        (lambda d: d[["tip", "mx"]], 6, {""}),
+        (lambda d: d.assign(status=d.status + 0.5), 6, {""}),
+        (lambda d: d.isel(force=[]), 0, set()),
+    ],
+)
+def test_parts_of_an_answer_have_a_row_for_each_member(answer, part, rows, words):
+    """These were an IndexError, or the rows of a table of places."""
+    table = cosserat.to_dataframe(part(answer))
+    assert len(table) == rows
+    assert set(table["status"]) == words
+    assert set(table["reason"]) <= {""}
+    force = table["force [N]"] if "force [N]" in table else table.iloc[:, 0]
+    first = table[(force == 2.0)] if rows else table
+    if rows and "height [m]" in table and "tip [m]" in table:
+        tip = answer["tip"].sel(force=2.0, height=0.01).item()
+        assert first[first["height [m]"] == 0.01]["tip [m]"].tolist() == [tip]
+
+
+def test_the_picture_of_read_outs_without_their_status(answer, tmp_path):
+    """It was called a fault of cosserat; how many members are solved is not known, and not said."""
+    cosserat.save(answer, tmp_path / "answer.nc")
+    stored = cosserat.load(tmp_path / "answer.nc")
+    assert cosserat.plot(stored[["tip", "mx"]]).get_suptitle().endswith(": 6 members")
+    assert cosserat.plot(stored.where(stored.force > 1.5, drop=True)).axes
+    for given, said in (
+        (stored[["tip"]], "use it as cosserat made it"),
+        (stored, "a fault of cosserat"),
+    ):
+        with pytest.raises(CosseratError, match=said), holding_what_is_needed(given, "its picture"):
+            raise KeyError
+
+
+def test_what_is_no_table(answer):
+    with pytest.raises(InputError, match="no numbers for a table"):
+        cosserat.to_dataframe(xr.Dataset())
+    with pytest.raises(InputError, match="has a 'status' of type"):
+        cosserat.to_dataframe(answer.assign(status=answer.status.astype(str)))
+    with pytest.raises(InputError, match="neither 'status' nor varied keys"):
+        cosserat.to_dataframe(answer[["tip"]].drop_vars(["force", "height"]))
