@@ -29,7 +29,7 @@ def digest_of_values(data: xr.Dataset) -> str:
 
 def _digest(data: xr.Dataset) -> str:
     """SHA-256 of the values and of the attributes of a Dataset."""
-    about = sorted((key, str(value)) for key, value in data.attrs.items() if key not in _BESIDE)
+    about = sorted((str(key), str(value)) for key, value in data.attrs.items() if key not in _BESIDE)
     return hashlib.sha256(f"{digest_of_values(data)}{about!r}".encode()).hexdigest()
 
 
@@ -46,4 +46,4 @@ def stamp(data: xr.Dataset) -> xr.Dataset:
 
 def is_as_computed(data: xr.Dataset) -> bool:
     """Whether a Dataset has its values and attributes of the time when it was stamped."""
-    return data.attrs.get(_STAMP) == _digest(data)
+    return str(data.attrs.get(_STAMP)) == _digest(data)

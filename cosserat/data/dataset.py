@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, parse
-from cosserat.data.content import stamp, stamped
+from cosserat.data.content import is_as_computed, stamp, stamped
 from cosserat.data.provenance import environment, source
 from cosserat.data.variables import COORDINATES, LABELS, VARIABLES
 from cosserat.errors import CosseratError, InputError
@@ -178,7 +178,7 @@ def holding_what_is_needed(dataset: xr.Dataset, purpose: str) -> Iterator[None]:
         raise
     except Exception as error:
         what = printable(f"{type(error).__name__}: {error}")[:_SHORT]
-        if dataset.encoding.get(INTACT):
+        if dataset.encoding.get(INTACT) and is_as_computed(dataset):
             raise CosseratError(
                 f"{purpose} failed for {name_of(dataset)} ({what}); this is a fault of cosserat: please report it"
             ) from error

@@ -14,14 +14,16 @@ from cosserat.data.content import is_as_computed
 from cosserat.data.dataset import FORMAT, INTACT, version_of
 from cosserat.data.digest import DamagedError, digest_of, is_marked, seal
 from cosserat.data.files import check_destination, whole_or_absent
+from cosserat.data.writable import check_writable
 from cosserat.errors import ChangedResultWarning, InputError, path_of
 from cosserat.signals import uninterrupted
-from cosserat.text import printable
+from cosserat.text import printable, shown
 
 _FRAME = "frame"
 """Dimension of instants in a file, with `time` along it.  Tools of CF take a dimension named `time` for dates; here
 times are plain seconds from the start."""
 _UNKNOWN = "the netCDF library failed, perhaps for want of memory"
+_SHORT = 150  # characters of an error of the library in a sentence
 _PROBE_TIME = 10.0  # seconds for a file that another program wrote, and more by its size
 _PROBE_MEMORY = 2 << 30  # bytes, likewise
 
@@ -33,13 +35,21 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
     end; a changed one has none, and says so when it is read.  Instants are along the dimension `frame` of
     the file, with `time` as their coordinate in plain seconds.
 
+    How a file that was read stored its values (`encoding`) is left out, since it need not fit to others.
+
     Raises
     ------
-    InputError : the destination cannot be written.
+    InputError : the destination cannot be written, or the Dataset holds what no netCDF file can: an attribute or values
+        that are neither texts nor numbers, or a name that is no text.
     """
     path = path_of(path)
     check_destination(path, ".nc")
-    written = dataset.rename_dims(time=_FRAME) if "time" in dataset.dims else dataset
+    if not isinstance(dataset, xr.Dataset):
+        raise InputError(f"save takes a Dataset, not {shown(dataset)}; give a result of cosserat")
+    check_writable(dataset)
+    written = dataset.drop_encoding()
+    if "time" in dataset.dims:
+        written = written.rename_dims(time=_FRAME)
     encoding = {
         str(name): {"_FillValue": None}
         for name, variable in dataset.variables.items()
@@ -51,6 +61,11 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
                 written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
         except RuntimeError:  # of HDF5, which does not say why
             raise OSError(_UNKNOWN) from None
+        except (TypeError, ValueError, AttributeError, KeyError) as error:
+            raise InputError(
+                f"{path} cannot be written: the netCDF library refuses what the Dataset holds "
+                f"({printable(error)[:_SHORT]}); take out what was added to it"
+            ) from error
         if is_as_computed(dataset):
             seal(temporary)
 

@@ -19,6 +19,7 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
+from cosserat.data.dataset import name_of
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.data.netcdf import opened
 from cosserat.data.variables import LABELS
@@ -44,11 +45,11 @@ def to_dataframe(result: xr.Dataset | str | Path, place: str | None = None) -> p
     place : only the rows of this place, such as "vertex", without the columns that are empty there.
 
     The answer of a study gives a row for each member: the varied keys, the read-outs, "status" and "reason", without
-    the variables that are kept whole.
+    the variables that are kept whole.  It may be a part or means that were taken of it.
 
     Raises
     ------
-    InputError : the result has no such place, or its file cannot be read.
+    InputError : the result has no such place or no numbers, or its file cannot be read.
     """
     dataset = opened(result)
     if is_answer(dataset):
@@ -67,6 +68,8 @@ def to_dataframe(result: xr.Dataset | str | Path, place: str | None = None) -> p
         for instant in _instants(known, one)
         if place in (None, one)
     ]
+    if not tables:
+        raise InputError(f"{name_of(dataset)} has no numbers for a table; give a result of cosserat")
     columns = dict.fromkeys(name for table in tables for name in table.columns)
     return pd.concat(tables, ignore_index=True)[list(columns)]
 

@@ -108,8 +108,9 @@ def _most_telling(flat: xr.Dataset, keys: list[str], names: tuple[str, ...]) -> 
         found = [0.0]
         for name in names:
             x, y = _solved_values(flat, key, name)
-            _, means = binned(x, y)
-            found.append(float(np.std(means) / (np.std(y) or 1.0)))
+            if x.size:
+                _, means = binned(x, y)
+                found.append(float(np.std(means) / (np.std(y) or 1.0)))
         return max(found)
 
     first = sorted(keys, key=moved, reverse=True)[:MOST_PANELS]
@@ -117,8 +118,9 @@ def _most_telling(flat: xr.Dataset, keys: list[str], names: tuple[str, ...]) -> 
 
 
 def _solved_values(flat: xr.Dataset, key: str, name: str) -> tuple[Array, Array]:
-    there = solved(flat).to_numpy()
-    return flat[key].to_numpy()[there].astype(np.float64), flat[name].to_numpy()[there]
+    x, y = flat[key].to_numpy().astype(np.float64), flat[name].to_numpy()
+    there = solved(flat).to_numpy() & np.isfinite(x) & np.isfinite(y)
+    return x[there], y[there]
 
 
 def binned(x: Array, y: Array) -> tuple[Array, Array]:

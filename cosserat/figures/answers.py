@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.dataset import name_of
 from cosserat.errors import InputError
+from cosserat.export.members import dims_of_members
 from cosserat.figures.style import (
     BODY,
     COMPUTED,
@@ -66,6 +67,7 @@ def picture(data: xr.Dataset) -> Figure:
     ------
     InputError : the answer has no read-out, or no member has an answer.
     """
+    data = _with_status(data)
     names = read_outs(data)[:MOST_PANELS]
     if not names:
         raise InputError(
@@ -90,6 +92,15 @@ def picture(data: xr.Dataset) -> Figure:
     return lines(data, names, numbers[0] if numbers else None)
 
 
+def _with_status(data: xr.Dataset) -> xr.Dataset:
+    """An answer; where a user took variables without "status", every member counts as solved and none is said to be."""
+    dims = dims_of_members(data)
+    if "status" in data:
+        return data
+    none = np.zeros([data.sizes[dim] for dim in dims], dtype=np.int8)
+    return data.assign(status=(dims, none, {"assumed": 1}))
+
+
 def is_axis(data: xr.Dataset, dim: str) -> bool:
     """Whether a dimension is one varied number, and so an axis of a picture."""
     return dim in data.coords and "key" in data[dim].attrs and data[dim].dtype.kind in "fi"
@@ -105,7 +116,9 @@ def is_points(data: xr.Dataset, dim: str) -> bool:
 def head(figure: Figure, data: xr.Dataset) -> None:
     """The title over all panels, with the counts of members."""
     width = int(14 * figure.get_size_inches()[0])
-    said = textwrap.fill(f"{title_of(data)}: {counts(data)}", width)
+    status = data["status"]
+    known = f"{status.size} members" if "assumed" in status.attrs else counts(data)
+    said = textwrap.fill(f"{title_of(data)}: {known}", width)
     figure.suptitle(said, x=0.01, ha="left", fontsize=9)
 
 

@@ -6,7 +6,8 @@ from scipy import stats
 
 import cosserat
 from cosserat.cli import main
-from cosserat.errors import InputError
+from cosserat.errors import InputError, NotConvergedError
+from cosserat.studies.analysis import fit as fits
 
 from . import fit as coverage
 
@@ -125,3 +126,51 @@ def test_a_fit_in_a_case_file_by_the_command_line(tmp_path, capsys):
     assert found["young_low"].item() < 1e9 < found["young_high"].item()
     with pytest.raises(InputError, match="is a fit, not a case"):
         cosserat.cases.catalogue.find("stiffness", tmp_path / "my.toml")
+
+
+TIP = {"tip": "u.E2 at last"}
+STIFFNESS = {"rod.material.young": ("0.5 GPa", "2 GPa"), "rod.section.height": ("5 mm", "20 mm")}
+FORCES = np.array([0.5, 1.0, 2.0, 3.0, 4.0])
+
+
+@pytest.fixture(scope="module")
+def tips():
+    """The case's own tips, without noise: E h^3 decides them, but for stretch and shear."""
+    found = cosserat.study("elastica", {"forces.0.force": FORCES.tolist()}, keep=TIP)
+    return {"forces.0.force": FORCES, "tip": found["tip"].to_numpy()}
+
+
+def test_a_search_that_does_not_end_names_what_the_data_leave_open(tips, monkeypatch):
+    """It asked for ranges, which were given."""
+    monkeypatch.setattr(fits, "_MOST_STEPS", 6)  # it does not end in a hundred either
+    start = cosserat.case("elastica").vary("start", rod={"material": {"young": 9e8}})
+    named = r"determine the relative change .0.95 'rod.material.young' .0.32 'rod.section.height'"
+    with pytest.raises(NotConvergedError, match=named + ".*fix one of these keys"):
+        cosserat.fit(start, tips, STIFFNESS, TIP)
+
+
+@pytest.mark.filterwarnings("error")
+def test_exact_data_of_a_nearly_open_direction_give_a_warning_and_no_error_of_zero(tips):
+    """Their standard errors were 0, their correlation no number, and nothing was said."""
+    found = cosserat.fit("elastica", tips, STIFFNESS, TIP)
+    assert found["young"].item() == pytest.approx(1e9, rel=1e-6)
+    assert 0 < found["young_error"].item() < 1e-4 * found["young"].item()
+    assert found["correlation"].to_numpy() == pytest.approx(np.array([[1, -1], [-1, 1]]), abs=1e-6)
+    open_direction, residuals = found.attrs["warnings"].split("\n")
+    assert "-0.95 'rod.material.young' +0.32 'rod.section.height'" in open_direction
+    assert residuals.startswith("residuals: the fit meets the data to the round-off of the solves")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("deviation", ["1e-300 m", 1e300])
+def test_deviations_without_squares_are_refused_with_a_range(tips, deviation):
+    with pytest.raises(InputError, match="standard deviation of 'tip' is .*; give it from .* to"):
+        cosserat.fit("elastica", tips, ["rod.material.young"], TIP, deviations={"tip": deviation})
+
+
+@pytest.mark.filterwarnings("error")
+def test_measured_values_without_squares_are_refused(tips):
+    with pytest.raises(
+        InputError, match=r"'tip' has the measured value 1e\+300; give values up to 1e\+30"
+    ):
+        cosserat.fit("elastica", tips | {"tip": [1e300] * 5}, ["rod.material.young"], TIP)

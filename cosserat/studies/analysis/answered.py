@@ -10,6 +10,7 @@ import xarray as xr
 from cosserat.data.dataset import name_of
 from cosserat.data.netcdf import opened
 from cosserat.errors import InputError
+from cosserat.export.members import dims_of_members
 from cosserat.parameters import nearest
 from cosserat.studies.solving import NOT_CONVERGED
 from cosserat.text import shown
@@ -27,6 +28,7 @@ def answer_of(given: xr.Dataset | str | Path) -> xr.Dataset:
         raise InputError(
             f"{name_of(data)} is no answer of a study: it has no 'study' and 'status'; use one of cosserat.study"
         )
+    dims_of_members(data)  # refuses a status that is no number
     return data
 
 

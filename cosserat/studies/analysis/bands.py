@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,15 +11,18 @@ import xarray as xr
 
 from cosserat.data.content import stamped
 from cosserat.data.dataset import name_of
+from cosserat.data.variables import COORDINATES
 from cosserat.errors import InputError
 from cosserat.parameters import nearest
 from cosserat.studies.analysis.answered import answer_of, dims_of, keys_along, solved, unit_of
+from cosserat.studies.analysis.arguments import NUMBERS, TEXT, TEXTS, taking
 from cosserat.text import shown
 
 USUAL = (0.05, 0.5, 0.95)
 """Quantiles by default."""
 
 
+@taking(of=TEXT, quantiles=NUMBERS, over=TEXTS)
 def bands(
     answer: xr.Dataset | str | Path,
     of: str,
@@ -39,7 +43,8 @@ def bands(
     Raises
     ------
     InputError : the answer has no such variable or dimension, the points are no sample of their distribution, fewer
-        than two members have an answer, or a quantile is not between 0 and 1.
+        than two members have an answer, members have different places, as of other meshes, or a quantile is not
+        between 0 and 1.
     """
     data = answer_of(answer)
     if (
@@ -58,11 +63,12 @@ def bands(
     dims = _members(data, over)
     done = solved(data)
     used = done.sum(dims)
-    if int(used.min()) < 2:
-        raise InputError(
-            f"'{of}' of {name_of(data)} has {int(used.min())} members with an answer; quantiles need at least two"
-        )
-    values = data[of].where(done).quantile(levels, dims, skipna=True, keep_attrs=True)
+    _check_members(data, of, dims)
+    with warnings.catch_warnings():
+        warnings.filterwarnings(
+            "ignore", "All-NaN slice"
+        )  # places that only finer meshes of other factors have
+        values = data[of].where(done).quantile(levels, dims, skipna=True, keep_attrs=True)
     left = [dim for dim in data[of].dims if dim not in dims]
     factors = [dim for dim in dims_of(data) if dim not in dims]
     values = values.transpose(*factors, "quantile", *[dim for dim in left if dim not in factors])
@@ -75,6 +81,34 @@ def bands(
     made["quantile"].attrs = {"units": "1", "long_name": "probability of a smaller value"}
     made.attrs = {**data.attrs, "bands": of}
     return stamped(made)
+
+
+def _check_members(data: xr.Dataset, of: str, dims: list[str]) -> None:
+    """Raise InputError if there are few members, some have no values, or they have values at different places."""
+    values, done = data[of], solved(data)
+    least = int(done.sum(dims).to_numpy().min(initial=values.size))
+    own = [dim for dim in values.dims if dim not in dims_of(data)]
+    called = f"'{of}' of {name_of(data)}"
+    if not values.size:
+        raise InputError(f"{called} is empty along {', '.join(map(str, own))}; take a part with values")
+    if least < 2:
+        raise InputError(f"{called} has {least} members with an answer; quantiles need at least two")
+    there = values.notnull()
+    if not bool((there.any(own) | ~done).all()):
+        raise InputError(
+            f"{called} has no number in a member with an answer: its mesh has no such place, or the answer was "
+            "changed; keep a read-out such as 'u.E2 at last', or leave such members out"
+        )
+    known = [data[str(name)] for name in data.variables if name in COORDINATES]
+    for place in (there, *known):
+        along = [dim for dim in dims if dim in place.dims]
+        numbers = place.astype(np.float64).where(done)
+        if along and bool((numbers.max(along) > numbers.min(along)).any()):
+            raise InputError(
+                f"{called} has members with different places along {', '.join(map(str, own))}, as of other meshes, "
+                "where the same number is another place; take members of one mesh, or keep a read-out such as "
+                "'u.E2 at last'"
+            )
 
 
 def _members(data: xr.Dataset, over: str | Sequence[str] | None) -> list[str]:

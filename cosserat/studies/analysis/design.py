@@ -18,6 +18,7 @@ from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
 from cosserat.errors import InputError, NotConvergedError
+from cosserat.studies.analysis.arguments import KEYS, TEXT, taking
 from cosserat.studies.analysis.model import Bounds, Model, free_keys
 from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives
@@ -59,6 +60,7 @@ class Limit:
         return max(self.low - value, value - self.high, 0.0) / self.scale
 
 
+@taking(free=KEYS, minimise=TEXT, maximise=TEXT)
 def design(
     case: Case | str,
     free: Mapping[str, Bounds],
@@ -92,7 +94,7 @@ def design(
     name = f"the design of case '{base.name}'"
     if bool(minimise) == bool(maximise):
         raise InputError(f"{name}: give one of 'minimise' and 'maximise'")
-    if not isinstance(subject_to or {}, Mapping):
+    if not isinstance({} if subject_to is None else subject_to, Mapping):
         raise InputError(
             f"{name}: 'subject_to' is {shown(subject_to)}; give each read-out a range, such as "
             "{'u.E2 at last': (None, '5 mm')}"
@@ -110,6 +112,7 @@ def design(
 
 def _limit(number: int, text: str, given: object, name: str) -> Limit:
     one = read_out(f"constraint_{number}", text, name)
+    given = given.tolist() if isinstance(given, np.ndarray) else given
     pair = isinstance(given, Sequence) and not isinstance(given, str)
     ends = list(given) if pair and isinstance(given, Sequence) else [given, given]
     where = f"{name}: the range of '{one.text}'"

@@ -13,6 +13,7 @@ import xarray as xr
 
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.content import stamped
+from cosserat.data.dataset import content_of, holding_what_is_needed, name_of
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError, OverLimitError
 from cosserat.limits import Limits
@@ -127,7 +128,8 @@ def estimate_error(
 
     Raises
     ------
-    InputError : the case has no mesh or no such read-out, or a read-out names a vertex by its number.
+    InputError : the case has no mesh or no such read-out, a read-out names a vertex by its number, or `result` is not
+        that of one case, or only a part of it.
     CosseratError : the case itself has no solution, as of `cosserat.run`.
     """
     known = find(case) if isinstance(case, str) else case
@@ -137,9 +139,12 @@ def estimate_error(
         )
     ways, asked = what_to_estimate(known, of)
     budget = _Budget(limits or Limits())
+    if result is not None:
+        _check_result(result)
     own = run(known, limits=budget.allowed(), progress=progress) if result is None else result
-    keep = asked or tuple(one for one in _usual(known) if _has(own, one))
-    values = _values(own, keep)
+    with holding_what_is_needed(own, "an estimate of its errors"):
+        keep = asked or tuple(one for one in _usual(known) if _has(own, one))
+        values = _values(own, keep)
     floors = {one.name: VARIABLES[one.variable].floor for one in keep}
     found = [_Meshes(how, {how.count: values}, floors) for how in ways]
     if progress is not None:
@@ -148,6 +153,29 @@ def estimate_error(
         with bar(f"{known.name}: meshes") as report:
             _solve(known, found, keep, budget, report)
     return _dataset(known, keep, values, found)
+
+
+def _check_result(result: xr.Dataset) -> None:
+    """Raise InputError for what is not the result of one case, whole and of numbers."""
+    if not isinstance(result, xr.Dataset):
+        raise InputError(
+            f"estimate_error has result = {shown(result)}; give the Dataset of cosserat.run, or leave it out"
+        )
+    if content := content_of(result):
+        raise InputError(f"{name_of(result)} holds {content}; give as 'result' that of the case itself")
+    for name in map(str, result.variables):
+        if name not in VARIABLES:
+            continue
+        values, dims = result[name], VARIABLES[name].dims
+        if values.dims[-len(dims) :] != dims if dims else len(values.dims) > 1:
+            raise InputError(
+                f"'{name}' of {name_of(result)} is along {shown(values.dims)}, not {shown(dims)}; give as 'result' the "
+                "whole one, as cosserat made it"
+            )
+        if values.dtype.kind != "f" or not bool(np.isfinite(values).all()):
+            raise InputError(
+                f"'{name}' of {name_of(result)} is not finite everywhere; give as 'result' one that cosserat made"
+            )
 
 
 def _solve(

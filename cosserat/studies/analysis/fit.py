@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 import xarray as xr
@@ -17,6 +16,15 @@ from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
 from cosserat.errors import CosseratError, InputError, NotConvergedError
+from cosserat.studies.analysis.arguments import COLUMNS, KEYS, TABLE, taking
+from cosserat.studies.analysis.determined import (
+    ROUNDING,
+    Estimate,
+    Statistics,
+    sentences,
+    statistics_of,
+    undetermined,
+)
 from cosserat.studies.analysis.measured import Columns, Measured, measured
 from cosserat.studies.analysis.model import Bounds, Free, Model, free_keys
 from cosserat.studies.answer import cf_unit
@@ -25,55 +33,13 @@ from cosserat.studies.sensitivity import short_names
 from cosserat.text import shown
 
 Array = NDArray[np.float64]
-_CONFIDENCE = 0.95
 _TOLERANCE = 1e-10  # relative change of estimates, sum and gradient at which the search ends
 _MOST_STEPS = 100
-_SINGULAR = 1e-9  # of the largest singular value, below which a direction has no effect at all
-_WEAK = 1.0  # relative standard error of a direction, above which the data hardly determine it
-_AT_BOUND = 1e-6  # of the range, within which an estimate is at its end
-_SHARE = 0.1  # of a direction, below which a key is not named
+_LARGEST = 1e30  # of a measured value in its SI unit, so that its square is a number with room to spare
+_APART = 1e15  # how far a deviation may be from the size of the measured values, for the same reason
 
 
-@dataclass(frozen=True)
-class Estimate:
-    """What least squares found.
-
-    values : (k,) of the free keys.  residuals : (m,) measured less fitted, over their deviations.
-    jacobian : (m, k) of the fitted values over their deviations.  steps : evaluations of the Jacobian.
-    """
-
-    values: Array
-    residuals: Array
-    jacobian: Array
-    steps: int
-
-
-@dataclass(frozen=True)
-class Statistics:
-    """What follows from an estimate.
-
-    variance : of the residuals, m - k degrees of freedom.  covariance : (k, k).  quantile : of Student's t.
-    singular, directions : (k,) and (k, k) of the Jacobian by relative changes of the keys, the largest first.
-    """
-
-    freedom: int
-    variance: float
-    covariance: Array
-    quantile: float
-    singular: Array
-    directions: Array
-
-    @property
-    def errors(self) -> Array:
-        """The standard errors, (k,)."""
-        return np.sqrt(np.diag(self.covariance))
-
-    @property
-    def correlation(self) -> Array:
-        """The correlations of the estimates, (k, k)."""
-        return np.asarray(self.covariance / np.outer(self.errors, self.errors))
-
-
+@taking(data=COLUMNS, free=KEYS, deviations=TABLE)
 def fit(
     case: Case | str,
     data: str | Path | Columns,
@@ -95,12 +61,14 @@ def fit(
     The Dataset has each key with its standard error and the ends of its 95 % interval by Student's t, 'young',
     'young_error', 'young_low', 'young_high'; the correlations; the singular values of the weighted Jacobian by relative
     changes, with their directions; and on the dimension 'row' the conditions, and for each read-out what was measured,
-    fitted and left.  A direction that the data hardly determine is named by a sentence in the attribute 'warnings'.
+    fitted and left.  A direction that the data hardly determine is named by a sentence in the attribute 'warnings':
+    its standard error is above the values, or it changes the fitted values by less than 1e-4 of what the direction does
+    that changes them most.  Errors are never below those that the round-off of the solves gives.
 
     Raises
     ------
     InputError : a key, a column or a value is not valid, there are too few data, or they do not determine the keys.
-    NotConvergedError : the search does not end.
+    NotConvergedError : the search does not end; if the data leave a direction open, the sentence names it.
     CosseratError : the case at which the search begins has no answer.
     """
     base = find(case) if isinstance(case, str) else case
@@ -114,8 +82,9 @@ def fit(
     table = measured(data, base.problem, read_outs, deviations or {}, name)
     _check(table, keys, name)
     search = _Search(Model(base, keys, read_outs), table, name)
-    found = search.run()
-    statistics = _statistics(found, keys, name)
+    with np.errstate(all="ignore"):  # the search refuses an end that is no number
+        found = search.run()
+        statistics = statistics_of(found, keys, name)
     return _dataset(search, found, statistics)
 
 
@@ -134,6 +103,25 @@ def _check(table: Measured, keys: Sequence[Free], name: str) -> None:
         raise InputError(
             f"{name}: {count} measured values cannot determine {len(keys)} keys with an error; give more"
         )
+    for word, column in table.values.items():
+        _check_sizes(word, column, table.deviations[word], name)
+
+
+def _check_sizes(word: str, column: Array, spread: Array | None, name: str) -> None:
+    """Raise InputError for measured values and deviations whose squares are no numbers."""
+    there = np.isfinite(column)
+    largest = float(np.abs(column[there]).max(initial=0.0))
+    if largest > _LARGEST:
+        raise InputError(
+            f"{name}: '{word}' has the measured value {largest:g}; give values up to {_LARGEST:g}, in SI units"
+        )
+    size = largest or 1.0
+    for one in [] if spread is None else spread[there]:
+        if not size / _APART <= one <= size * _APART:
+            raise InputError(
+                f"{name}: the standard deviation of '{word}' is {one:g}; give it from {size / _APART:.3g} to "
+                f"{size * _APART:.3g}, for measured values of up to {size:.3g}"
+            )
 
 
 class _Search:
@@ -209,71 +197,29 @@ class _Search:
             gtol=_TOLERANCE,
             max_nfev=_MOST_STEPS,
         )
-        if found.status <= 0:
-            raise NotConvergedError(
-                f"{self.name} does not end within {_MOST_STEPS} steps; begin nearer, or give ranges",
-                iterations=int(found.nfev),
-            )
+        weighed = self.weighed(self.measured)
+        rounding = float(np.sqrt(np.mean(weighed**2))) * ROUNDING
         jacobian = self.jacobian(found.x) / self.scales
-        return Estimate(found.x * self.scales, -found.fun, jacobian, int(found.njev))
+        estimate = Estimate(found.x * self.scales, -found.fun, jacobian, int(found.njev), rounding)
+        if found.status <= 0 or not estimate.is_finite:
+            self._refuse(estimate, int(found.nfev))
+        return estimate
 
+    def _refuse(self, estimate: Estimate, steps: int) -> NoReturn:
+        """Say why the search does not end.
 
-def _statistics(found: Estimate, keys: Sequence[Free], name: str) -> Statistics:
-    """Errors and directions of an estimate.
-
-    Raises
-    ------
-    InputError : the data do not determine the keys at all.
-    """
-    from scipy.special import stdtrit
-
-    count, unknown = found.jacobian.shape
-    sizes = np.where(found.values == 0, [one.scale for one in keys], np.abs(found.values))
-    _, singular, directions = np.linalg.svd(found.jacobian * sizes, full_matrices=False)
-    if singular[-1] <= _SINGULAR * singular[0]:
-        raise InputError(
-            f"{name}: the data do not determine {_in_words(directions[-1], keys)}; free fewer keys, or measure more"
+        Raises
+        ------
+        NotConvergedError : always.
+        """
+        why = undetermined(estimate, self.model.free) if estimate.is_finite else ""
+        bounded = all(np.isfinite(one.high - one.low) for one in self.model.free)
+        why = why or (
+            "begin nearer, or narrow the ranges" if bounded else "begin nearer, or give ranges"
         )
-    variance = float(found.residuals @ found.residuals) / (count - unknown)
-    half = (directions.T / singular) * sizes[:, None]
-    return Statistics(
-        count - unknown,
-        variance,
-        variance * half @ half.T,
-        float(stdtrit(count - unknown, (1 + _CONFIDENCE) / 2)),
-        singular,
-        directions,
-    )
-
-
-def _in_words(direction: Array, keys: Sequence[Free]) -> str:
-    """A direction of relative changes, its larger parts."""
-    named = [
-        f"{share:+.2f} '{one.path}'"
-        for share, one in zip(direction, keys, strict=True)
-        if abs(share) > _SHARE
-    ]
-    return named[0][6:] if len(named) == 1 else "the relative change " + " ".join(named)
-
-
-def _sentences(found: Estimate, statistics: Statistics, keys: Sequence[Free]) -> list[str]:
-    """What to know about the estimates."""
-    said = []
-    spread = np.sqrt(statistics.variance) / statistics.singular
-    for size, direction in zip(spread, statistics.directions, strict=True):
-        if size > _WEAK:
-            said.append(
-                f"identifiability: the data hardly determine {_in_words(direction, keys)}; its standard error is "
-                f"{size:.2g} of the values"
-            )
-    for value, one in zip(found.values, keys, strict=True):
-        width = one.high - one.low
-        ends = [end for end in (one.low, one.high) if abs(value - end) <= _AT_BOUND * width]
-        if np.isfinite(width) and ends:
-            said.append(
-                f"bound: '{one.path}' is at the end {ends[0]:g} of its range, where its interval does not hold"
-            )
-    return said
+        raise NotConvergedError(
+            f"{self.name} does not end within {_MOST_STEPS} steps; {why}", iterations=steps
+        )
 
 
 def _dataset(search: _Search, found: Estimate, statistics: Statistics) -> xr.Dataset:
@@ -377,7 +323,7 @@ def _described(
         "degrees_of_freedom": statistics.freedom,
         "reduced_chi_square": statistics.variance,
         "steps": found.steps,
-        "warnings": "\n".join(_sentences(found, statistics, search.model.free)),
+        "warnings": "\n".join(sentences(found, statistics, search.model.free)),
         "parameters": json.dumps(base.model_dump(mode="json"), sort_keys=True),
         "fit": json.dumps(
             {

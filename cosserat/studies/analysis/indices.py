@@ -22,6 +22,7 @@ from cosserat.data.content import stamped
 from cosserat.data.dataset import name_of
 from cosserat.errors import InputError
 from cosserat.studies.analysis.answered import answer_of, dims_of, keys_along, read_out, unit_of
+from cosserat.studies.analysis.arguments import NUMBER, TEXT, WHOLE, taking
 from cosserat.text import shown
 
 Array = NDArray[np.float64]
@@ -56,6 +57,7 @@ class _Design:
     about: dict[str, str]
 
 
+@taking(of=TEXT, confidence=NUMBER, resamples=WHOLE, seed=WHOLE)
 def indices(
     answer: xr.Dataset | str | Path,
     of: str,

@@ -14,6 +14,7 @@ from cosserat.data.dataset import name_of
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
 from cosserat.studies.analysis.answered import answer_of, dims_of, read_out, read_outs, unit_of
+from cosserat.studies.analysis.arguments import TEXT, TEXTS, taking
 from cosserat.studies.analysis.sequences import STATES, convergence
 from cosserat.studies.door import case_of_study
 from cosserat.studies.readouts import read_out as parsed
@@ -24,6 +25,7 @@ MESHES = ("vertices", "sections", "elements", "step")
 """Last words of the keys that refine a case: numbers of points, of elements, and times."""
 
 
+@taking(along=TEXT, of=TEXTS)
 def orders(
     answer: xr.Dataset | str | Path, along: str | None = None, of: str | Sequence[str] | None = None
 ) -> xr.Dataset:
