@@ -75,9 +75,16 @@ def write_arrays(path: Path, arrays: Mapping[str, Values]) -> bytes:
             plain[name] = values
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **plain)
+    _check_link(path)
     with whole_or_absent(path, buffer.tell()) as temporary:
         temporary.write_bytes(buffer.getvalue())
     return buffer.getvalue()
+
+
+def _check_link(path: Path) -> None:
+    """Raise InputError for a link in the place of a file that leads nowhere, perhaps to itself."""
+    if path.is_symlink() and not path.exists():
+        raise InputError(f"{path} is a link that leads to no file; delete it and {_AGAIN}")
 
 
 def read_arrays(path: Path) -> dict[str, Values]:
@@ -134,6 +141,7 @@ def write_plan(folder: Path, plan: Plan, found: Family) -> None:
         **told_of(found),
     }
     told["digest"] = _digest(told, members)
+    _check_link(folder / PLAN)
     with whole_or_absent(folder / PLAN) as temporary:
         temporary.write_text(json.dumps(told, sort_keys=True), encoding="utf-8")
 
