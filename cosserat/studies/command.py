@@ -23,6 +23,7 @@ from cosserat.studies.plan import (
     left,
     members_in,
     plan,
+    set_aside,
     sweep,
 )
 from cosserat.studies.stored import BATCHES, Plan, read_task, write_solved
@@ -53,10 +54,12 @@ def study(options: argparse.Namespace) -> None:
     check_destination(path, ".nc", inputs=() if options.file is None else (options.file,))
     check_replaceable(path)
     folder = folder_of(path)
-    if folder.exists() and not folder.is_dir():
-        raise InputError(
-            f"{folder} is a file, where the parts of the study go; move it or choose another --output"
-        )
+    for part in (folder, folder / BATCHES):
+        if os.path.lexists(part) and not os.path.isdir(part):
+            kind = "a link that leads to no folder" if part.is_symlink() else "a file"
+            raise InputError(
+                f"{part} is {kind}, where the parts of the study go; move it or choose another --output"
+            )
     if options.cancel:
         ended = cancel(folder)
         print(f"{found.name}: {len(ended)} jobs ended on Slurm; what is solved is in {folder}")
@@ -113,6 +116,7 @@ def _solve(options: argparse.Namespace, found: Family, folder: Path, path: Path,
             f"study '{found.name}'",
             path,
         )
+    set_aside(folder, names)
     if by_snakemake:
         _by_snakemake(
             options,
@@ -133,7 +137,7 @@ def _here(found: Family, folder: Path, given: list[str]) -> None:
     """
     used = (folder / ".snakemake").is_dir()
     with alone(folder) if used else contextlib.nullcontext():
-        _each(found, folder, [name for name in given if not answer_file(folder, name).exists()])
+        _each(found, folder, [name for name in given if not os.path.lexists(answer_file(folder, name))])
 
 
 def _each(found: Family, folder: Path, names: list[str]) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from cosserat.cases.catalogue import Case, find, find_base, parse, study_tables
@@ -18,10 +19,12 @@ from cosserat.progress import bar
 from cosserat.studies.answer import answer
 from cosserat.studies.family import Family, family
 from cosserat.studies.solving import solve_members
-from cosserat.studies.study import Study
+from cosserat.studies.study import MOST_MEMBERS, Study
 from cosserat.text import shortened, shown
 
 Vary = Mapping[str, Any] | Sequence[Mapping[str, Any]]
+_DEEPEST = 20
+"""Most lists and tables inside each other."""
 
 
 def find_study(name: str, file: str | Path | None = None) -> Family:
@@ -84,7 +87,7 @@ def study(
 
     vary : dotted keys with lists of values, each a dimension; or a list of factors as in a case file, such as
         [{"rod.length": [1, 2]}, {"sobol": 64, "forces.0.force": {"uniform": [0, 1]}}].  Numbers are in SI units, and
-        texts may have others.
+        texts may have others.  Arrays of NumPy and xarray are lists.
     keep : read-outs by name, such as {"tip": "u.E2 at last"}.  keep_whole : names of variables that are kept whole.
     sensitivities : whether the exact derivative of each read-out by each varied quantity is stored, "tip_by_young", as
         by `cosserat.sensitivity`; where one does not exist, "reason" says why.
@@ -136,15 +139,52 @@ def family_of(
         raise InputError(
             f"study '{name}': 'keep_whole' is {shown(keep_whole)}; give a list, such as ['x']"
         )
-    factors = (
-        [{key: values} for key, values in vary.items()] if isinstance(vary, Mapping) else list(vary)
-    )
+    if not isinstance(vary, Mapping | list | tuple):
+        raise InputError(
+            f"study '{name}': 'vary' is {shown(vary)}; give a table of keys with their values, or a list of such tables"
+        )
+    factors = [{key: values} for key, values in vary.items()] if isinstance(vary, Mapping) else vary
     table = {
         "of": base.name,
-        "vary": factors,
+        "vary": plain(factors, f"study '{shortened(name)}': 'vary'"),
         "keep": dict(keep),
         "keep_whole": list(keep_whole),
         "sensitivities": sensitivities,
     }
     read = Study.read(table, f"study '{shortened(name)}'", units_required=False)
     return family(name, read, base, Path(), unit_required=False)
+
+
+def plain(value: object, where: str, depth: int = 0) -> object:
+    """A value as a case file may have it: tables, lists, texts, numbers and truth values of Python alone.
+
+    Arrays of NumPy and of xarray become lists, and their items plain numbers; where : it stands, in errors.
+
+    Raises
+    ------
+    InputError : it is something else, or too long or deep.
+    """
+    if isinstance(value, xr.DataArray | xr.Variable):
+        value = value.to_numpy()
+    if isinstance(value, np.generic | np.ndarray):
+        if value.size > MOST_MEMBERS:
+            raise InputError(f"{where} has {value.size} values; it may have up to {MOST_MEMBERS}")
+        value = value.tolist()
+    if depth > _DEEPEST:
+        raise InputError(f"{where} has more than {_DEEPEST} lists inside each other; give fewer")
+    if isinstance(value, Mapping):
+        return {
+            str(key): None
+            if item is None
+            else plain(item, f"{where}, '{shortened(str(key))}'", depth + 1)
+            for key, item in value.items()
+        }
+    if isinstance(value, Sequence) and not isinstance(value, str | bytes | bytearray | memoryview):
+        if len(value) > MOST_MEMBERS:
+            raise InputError(f"{where} has {len(value)} values; it may have up to {MOST_MEMBERS}")
+        return [plain(item, f"{where}, item {number}", depth + 1) for number, item in enumerate(value)]
+    if isinstance(value, str | bool | int | float):
+        return value
+    raise InputError(
+        f"{where} is {shown(value)}; give numbers, texts, truth values, or lists or arrays of them"
+    )

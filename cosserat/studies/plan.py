@@ -3,31 +3,38 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import math
+import os
+import re
 import time
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cosserat.errors import InputError
+from cosserat.errors import CosseratWarning, InputError
 from cosserat.problem import Progress, silent
 from cosserat.solution import Field
 from cosserat.studies.family import Family, Task
 from cosserat.studies.solving import Solved, solve_members
 from cosserat.studies.stored import (
+    ASIDE,
     BATCHES,
+    Digests,
     Plan,
-    read_arrays,
+    batch_name,
+    planned_members,
     read_family,
     read_plan,
     read_solved,
+    told_of,
     write_plan,
     write_task,
 )
 
-Digests = NDArray[np.bytes_]
 BATCH_SECONDS = 60.0
 """Time that a batch should take: the start of a process is then 2 % of it, and a kill loses no more."""
 MOST = 1 << 16
@@ -37,6 +44,8 @@ MOST_BATCHES = 10_000
 _SMALL = 5.0  # seconds of work that are one batch
 _TRIED, _TRYING = 4096, 0.1  # members and seconds for the estimate
 _BATCHES = 8  # batches at least, of a study that takes long
+_NAME = re.compile(r"[0-9a-f]{24}")
+_TOLD = 5  # files that are named one by one where they are not believed
 
 
 def folder_of(answer: Path) -> Path:
@@ -47,7 +56,8 @@ def folder_of(answer: Path) -> Path:
 def plan(found: Family, folder: Path, size: int | None = None, progress: Progress = silent) -> Plan:
     """The batches of a study, stored in its folder; an earlier plan of the same study is taken as it is.
 
-    Members that a stored batch has solved are not planned again.
+    Members that a stored batch has solved are not planned again.  A plan that is damaged, or whose batches are, is made
+    again.
 
     size : members of a batch; by default as many as take `BATCH_SECONDS`.  progress : called while members are named.
 
@@ -59,21 +69,18 @@ def plan(found: Family, folder: Path, size: int | None = None, progress: Progres
         raise InputError(f"--batch is {size}; a batch has 1 to {MOST} members")
     task = found.task()
     digests = task.digests(progress)
-    asked = hashlib.blake2b(digests.tobytes() + task.about.encode(), digest_size=16).hexdigest()
+    about = task.about + json.dumps(told_of(found), sort_keys=True)
+    asked = hashlib.blake2b(digests.tobytes() + about.encode(), digest_size=16).hexdigest()
+    wanted, first = np.unique(digests, return_index=True)
     known = read_plan(folder)
-    if (
-        known is not None
-        and known.study == asked
-        and all(_task_file(folder, name).exists() for name in known.batches)
-    ):
+    if known is not None and known.study == asked and _holds_all(folder, known, wanted):
         return known
     try:
         (folder / BATCHES).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(
-            f"cannot make the folder {folder}: {error.strerror}; choose another with --output"
+            f"cannot make the folder {folder / BATCHES}: {error.strerror}; choose another with --output"
         ) from None
-    wanted, first = np.unique(digests, return_index=True)
     old, missing = _stored_already(folder, wanted)
     members = np.sort(first[missing])
     seconds = estimate(task) if members.size else 0.0
@@ -89,15 +96,32 @@ def plan(found: Family, folder: Path, size: int | None = None, progress: Progres
     return made
 
 
+def _holds_all(folder: Path, known: Plan, wanted: Digests) -> bool:
+    """Whether the files of the batches of a plan are there, with all wanted members."""
+    held = [_members(folder, name) for name in known.batches]
+    whole = [own for own in held if own is not None]
+    return len(whole) == len(held) > 0 and bool(np.isin(wanted, np.concatenate(whole)).all())
+
+
+def _members(folder: Path, name: str) -> Digests | None:
+    """The digests of the members of a batch, to solve or solved; None if neither file says so."""
+    try:
+        return planned_members(_task_file(folder, name))
+    except InputError:
+        pass
+    try:
+        return read_solved(answer_file(folder, name))[0]
+    except InputError:
+        return None
+
+
 def _stored_already(folder: Path, wanted: Digests) -> tuple[list[str], NDArray[np.bool_]]:
     """The solved batches that hold wanted members, and which members no batch holds."""
     missing, names = np.ones(wanted.size, dtype=np.bool_), []
     for path in sorted((folder / BATCHES).glob("*.nc")):
-        file = path.with_suffix(".npz")
-        if not file.exists():
-            continue
-        at = np.isin(wanted, read_arrays(file)["digests"]) & missing
-        if at.any():
+        own = _members(folder, path.stem) if _NAME.fullmatch(path.stem) else None
+        at = np.zeros_like(missing) if own is None else np.isin(wanted, own) & missing
+        if at.any() and not _doubt(path):
             names.append(path.stem)
             missing &= ~at
     return names, missing
@@ -109,9 +133,12 @@ def _new_batches(
     for begin in range(0, members.size, size):
         picked = members[begin : begin + size]
         own = digests[picked]
-        name = hashlib.blake2b(own.tobytes() + task.about.encode(), digest_size=12).hexdigest()
-        if not _task_file(folder, name).exists():
-            write_task(_task_file(folder, name), task.part(picked), own)
+        name = batch_name(own, task.about)
+        file = _task_file(folder, name)
+        try:
+            planned_members(file)
+        except InputError:
+            write_task(file, task.part(picked), own)
         yield name
 
 
@@ -149,19 +176,68 @@ def answer_file(folder: Path, name: str) -> Path:
 
 
 def left(folder: Path, made: Plan) -> list[str]:
-    """The batches that are not solved yet."""
-    return [name for name in made.batches if not answer_file(folder, name).exists()]
+    """The batches that are not solved yet; a warning names files in their places that are not their answers."""
+    missing, doubts = [], []
+    for name in made.batches:
+        path = answer_file(folder, name)
+        doubt = _doubt(path) if os.path.lexists(path) else ""
+        if doubt or not os.path.lexists(path):
+            missing.append(name)
+        doubts += [doubt] if doubt else []
+    for doubt in doubts[:_TOLD]:
+        warnings.warn(doubt, CosseratWarning, stacklevel=2)
+    if len(doubts) > _TOLD:
+        more = f"so it is with {len(doubts) - _TOLD} more files in {folder / BATCHES}"
+        warnings.warn(more, CosseratWarning, stacklevel=2)
+    return missing
+
+
+def _doubt(path: Path) -> str:
+    """Why a file is not the answer of its batch; "" if it is."""
+    try:
+        read_solved(path)
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+def set_aside(folder: Path, names: Sequence[str]) -> None:
+    """Rename files that stand in the places of answers that are to be solved; none is replaced.
+
+    Raises
+    ------
+    InputError : the folder cannot be written.
+    """
+    for path in (answer_file(folder, name) for name in names):
+        if not os.path.lexists(path):
+            continue
+        free, number = path.with_name(path.name + ASIDE), 1
+        while os.path.lexists(free):
+            number += 1
+            free = path.with_name(f"{path.name}{ASIDE}{number}")
+        try:
+            path.rename(free)
+        except OSError as error:
+            raise InputError(
+                f"cannot rename {path}: {error.strerror}; check the permissions of its folder, or delete it"
+            ) from None
 
 
 def members_in(folder: Path, name: str) -> int:
-    """The number of members of a batch."""
-    return len(read_arrays(_task_file(folder, name))["digests"])
+    """The number of members of a batch to solve.
+
+    Raises
+    ------
+    InputError : its file is missing or damaged.
+    """
+    return len(planned_members(_task_file(folder, name)))
 
 
 def gathered(folder: Path, *, partial: bool = False) -> tuple[Family, Solved]:
     """The study in a folder and the answers of its members.
 
-    partial : members whose batch is not solved yet have the status "not_yet"; if not, that is an error.
+    partial : members whose batch is not solved yet, or whose file is not its answer, have the status "not_yet"; if not,
+        that is an error.
 
     Raises
     ------
@@ -171,17 +247,17 @@ def gathered(folder: Path, *, partial: bool = False) -> tuple[Family, Solved]:
     task = found.task()
     wanted, inverse = np.unique(task.digests(), return_inverse=True)
     whole = Solved.nothing(task, wanted.size)
+    passed_over = set(left(folder, made)) if partial else set()
     for name in made.batches:
-        if not answer_file(folder, name).exists():
-            if partial:
-                continue
-            raise InputError(
-                f"the batch {answer_file(folder, name)} is missing; run the same command again"
-            )
-        own = read_arrays(_task_file(folder, name))["digests"]
+        path = answer_file(folder, name)
+        if name in passed_over:
+            continue
+        if not os.path.lexists(path):
+            raise InputError(f"the batch {path} is missing; run the same command again")
+        own, part = read_solved(path)
         at = np.searchsorted(wanted, own)
         at[at == wanted.size] = 0
-        _put(whole, read_solved(answer_file(folder, name)), np.flatnonzero(wanted[at] == own), at)
+        _put(whole, part, np.flatnonzero(wanted[at] == own), at)
     return found, _spread(whole, inverse)
 
 
@@ -219,7 +295,8 @@ def sweep(folder: Path, made: Plan) -> int:
     """Delete batches that the plan does not use; returns how many."""
     used, gone = set(made.batches), set()
     for path in (folder / BATCHES).glob("*.n*"):
-        if path.suffix in (".nc", ".npz") and path.stem not in used:
+        ours = path.suffix in (".nc", ".npz") and _NAME.fullmatch(path.stem)
+        if ours and path.stem not in used:
             path.unlink()
             gone.add(path.stem)
     return len(gone)

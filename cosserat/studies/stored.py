@@ -6,14 +6,15 @@
     NAME.study/batches/DIGEST.nc    their answers
 
 Nothing in the files of a batch depends on its place in the study, so a study that is extended or changed back finds
-them again.
+them again.  A plan has a digest of its parts, and the name of a batch is the digest of its members: what does not agree
+is not believed.
 """
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -36,8 +37,12 @@ from cosserat.studies.readouts import read_out
 from cosserat.studies.solving import Solved
 from cosserat.studies.study import Study
 
+Digests = NDArray[np.bytes_]
 PLAN, MEMBERS, BATCHES = "plan.json", "members.npz", "batches"
-_FORMAT = 1
+ASIDE = ".aside"
+"""Ending of a file that stood in the place of a batch's answer and is none."""
+_FORMAT = 2
+_AGAIN = "give the command of the study again"
 _TEXT = "json:"  # prefix of the name of an array of JSON texts
 
 
@@ -55,8 +60,13 @@ class Plan:
     about: Mapping[str, Any] = field(default_factory=dict)
 
 
-def write_arrays(path: Path, arrays: Mapping[str, Values]) -> None:
-    """Write arrays, whole or not at all; columns of other things than numbers become JSON texts."""
+def batch_name(digests: Digests, about: str) -> str:
+    """The name of a batch: a digest of its members, by their digests (M,), and of what they have in common."""
+    return hashlib.blake2b(digests.tobytes() + about.encode(), digest_size=12).hexdigest()
+
+
+def write_arrays(path: Path, arrays: Mapping[str, Values]) -> bytes:
+    """Write arrays, whole or not at all; returns the bytes.  Columns of other things than numbers become JSON texts."""
     plain = {}
     for name, values in arrays.items():
         if values.dtype.kind == "O":
@@ -65,8 +75,16 @@ def write_arrays(path: Path, arrays: Mapping[str, Values]) -> None:
             plain[name] = values
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **plain)
+    _check_link(path)
     with whole_or_absent(path, buffer.tell()) as temporary:
         temporary.write_bytes(buffer.getvalue())
+    return buffer.getvalue()
+
+
+def _check_link(path: Path) -> None:
+    """Raise InputError for a link in the place of a file that leads nowhere, perhaps to itself."""
+    if path.is_symlink() and not path.exists():
+        raise InputError(f"{path} is a link that leads to no file; delete it and {_AGAIN}")
 
 
 def read_arrays(path: Path) -> dict[str, Values]:
@@ -79,9 +97,11 @@ def read_arrays(path: Path) -> dict[str, Values]:
     try:
         with np.load(path, allow_pickle=False) as stored:
             found = {name: stored[name] for name in stored.files}
-    except (OSError, ValueError, zipfile.BadZipFile, EOFError) as error:
-        raise InputError(f"cannot read {path} ({error}); delete it and plan the study again") from None
-    return {name.removeprefix(_TEXT): _unpacked(name, values) for name, values in found.items()}
+        return {name.removeprefix(_TEXT): _unpacked(name, values) for name, values in found.items()}
+    except FileNotFoundError:
+        raise InputError(f"{path} is missing; {_AGAIN}") from None
+    except Exception as error:  # NumPy may say anything about a damaged file
+        raise InputError(f"cannot read {path} ({error}); delete it and {_AGAIN}") from None
 
 
 def _unpacked(name: str, values: Values) -> Values:
@@ -92,46 +112,55 @@ def _unpacked(name: str, values: Values) -> Values:
     return column
 
 
+def told_of(found: Family) -> dict[str, Any]:
+    """What a plan says of its study, as JSON takes it; the values of its keys are beside it."""
+    return {
+        "about": parameters_of(found),
+        "shape": found.shape,
+        "factors": [
+            {"dim": f.dim, "keys": [key.path for key in f.keys], "names": f.names, "design": f.design}
+            for f in found.factors
+        ],
+    }
+
+
 def write_plan(folder: Path, plan: Plan, found: Family) -> None:
-    """Store a plan with its study."""
+    """Store a plan with its study and a digest of both."""
     arrays = {
         f"value {i} {k}": one for i, f in enumerate(found.factors) for k, one in enumerate(f.values)
     }
     arrays |= {
         f"about {i} {name}": one for i, f in enumerate(found.factors) for name, one in f.about.items()
     }
-    write_arrays(folder / MEMBERS, arrays)
+    members = write_arrays(folder / MEMBERS, arrays)
     told = {
         "format": plan.format,
         "study": plan.study,
         "batches": plan.batches,
         "seconds": plan.seconds,
-        "about": parameters_of(found),
-        "factors": [
-            {"dim": f.dim, "keys": [key.path for key in f.keys], "names": f.names, "design": f.design}
-            for f in found.factors
-        ],
+        **told_of(found),
     }
+    told["digest"] = _digest(told, members)
+    _check_link(folder / PLAN)
     with whole_or_absent(folder / PLAN) as temporary:
         temporary.write_text(json.dumps(told, sort_keys=True), encoding="utf-8")
 
 
-def read_plan(folder: Path) -> Plan | None:
-    """The plan in a folder; None if there is none of this version.
+def _digest(told: Mapping[str, Any], members: bytes) -> str:
+    text = json.dumps(told, sort_keys=True).encode()
+    return hashlib.blake2b(text + members, digest_size=16).hexdigest()
 
-    Raises
-    ------
-    InputError : it is damaged.
-    """
+
+def read_plan(folder: Path) -> Plan | None:
+    """The plan in a folder; None if there is none of this version, or if it is not as it was written."""
     try:
         told = json.loads((folder / PLAN).read_text(encoding="utf-8"))
-    except FileNotFoundError:
+        members = (folder / MEMBERS).read_bytes()
+    except (OSError, ValueError, RecursionError):
         return None
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"cannot read {folder / PLAN} ({error}); delete it and plan the study again"
-        ) from None
     if not isinstance(told, dict) or told.get("format") != _FORMAT:
+        return None
+    if told.pop("digest", None) != _digest(told, members):
         return None
     return Plan(told["study"], tuple(told["batches"]), told["seconds"], _FORMAT, told)
 
@@ -145,7 +174,7 @@ def read_family(folder: Path) -> tuple[Plan, Family]:
     """
     plan = read_plan(folder)
     if plan is None:
-        raise InputError(f"{folder} holds no plan of a study; plan it by 'cosserat study NAME --plan'")
+        raise InputError(f"{folder} holds no plan of a study, or a damaged one; {_AGAIN}")
     about, arrays = plan.about["about"], read_arrays(folder / MEMBERS)
     base = parse(json.dumps(about["case"]))
     called = f"study '{about['name']}'"
@@ -161,10 +190,32 @@ def read_family(folder: Path) -> tuple[Plan, Family]:
     return plan, Family(about["name"], read, base, tuple(factors), keep)
 
 
-def write_task(path: Path, task: Task, digests: NDArray[np.bytes_]) -> None:
+def write_task(path: Path, task: Task, digests: Digests) -> None:
     """Store the members of a batch."""
     columns = {f"value {k}": column for k, column in enumerate(task.columns)}
     write_arrays(path, columns | {"digests": digests, "about": np.array(task.about)})
+
+
+def _task_arrays(path: Path) -> dict[str, Values]:
+    """What `write_task` wrote, if it is the batch that the file is named after."""
+    arrays = read_arrays(path)
+    if not {"digests", "about"} <= set(arrays) or path.stem != batch_name(
+        arrays["digests"], str(arrays["about"])
+    ):
+        raise InputError(
+            f"{path} holds other members than those it is named after; delete it and {_AGAIN}"
+        )
+    return arrays
+
+
+def planned_members(path: Path) -> Digests:
+    """The digests of the members of a batch to solve, (M,).
+
+    Raises
+    ------
+    InputError : the file is missing or damaged, or holds another batch.
+    """
+    return _task_arrays(path)["digests"]
 
 
 def read_task(path: Path) -> Task:
@@ -172,14 +223,12 @@ def read_task(path: Path) -> Task:
 
     Raises
     ------
-    InputError : the file is missing or damaged, or was planned by another version of the code.
+    InputError : the file is missing or damaged, holds another batch, or was planned by another version of the code.
     """
-    arrays = read_arrays(path)
+    arrays = _task_arrays(path)
     about = json.loads(str(arrays["about"]))
     if about["source"] != source():
-        raise InputError(
-            f"{path} was planned by {about['source']}, and this is {source()}; plan the study again"
-        )
+        raise InputError(f"{path} was planned by {about['source']}, and this is {source()}; {_AGAIN}")
     keep = tuple(read_out(name, text, "the batch") for name, text in about["keep"].items())
     columns = tuple(arrays[f"value {k}"] for k in range(len(about["keys"])))
     return Task(
@@ -193,8 +242,9 @@ def read_task(path: Path) -> Task:
 
 
 def write_solved(path: Path, task: Task, solved: Solved) -> None:
-    """Store the answers of a batch, whole or not at all."""
+    """Store the answers of a batch with the digests of its members, whole or not at all."""
     variables: dict[str, Any] = {
+        "digest": (("member",), task.digests()),
         "status": (("member",), solved.status),
         "reason": (("member",), solved.reason),
         "iterations": (("member",), solved.iterations),
@@ -207,20 +257,29 @@ def write_solved(path: Path, task: Task, solved: Solved) -> None:
     save(stamped(dataset), path)
 
 
-def read_solved(path: Path) -> Solved:
-    """The answers of a batch.
+def read_solved(path: Path) -> tuple[Digests, Solved]:
+    """The answers of a batch, and the digests of its members, (M,).
 
     Raises
     ------
-    InputError : the file is missing, damaged or changed.
+    InputError : the file is missing, damaged or changed, or is not the answer of the batch that it is named after.
     """
-    stored = load(path, own=True)
+    again = f"'cosserat study' moves it to {path.name}{ASIDE} and solves its members again"
+    try:
+        stored = load(path, own=True)
+    except InputError:
+        raise InputError(f"{path} is damaged, or cosserat did not write it; {again}") from None
+    if "digest" not in stored or "study" not in stored.attrs:
+        raise InputError(f"{path} does not say which batch it answers; {again}")
+    digests = stored["digest"].to_numpy()
+    if path.stem != batch_name(digests, str(stored.attrs["study"])):
+        raise InputError(f"{path} holds the answers of another batch; {again}")
     parts: dict[str, dict[str, Any]] = {"value": {}, "whole": {}, "beside": {}, "labels": {}}
     for key, variable in stored.variables.items():
         kind, _, name = str(key).partition("_")
         if kind in parts:
             parts[kind][name] = (tuple(map(str, variable.dims)), variable.to_numpy())
-    return Solved(
+    return digests, Solved(
         {name: values for name, (_, values) in parts["value"].items()},
         parts["whole"],
         parts["beside"],
