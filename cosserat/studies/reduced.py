@@ -13,7 +13,7 @@ _EQUAL = 1e-13  # of the largest value, within which two are equal and the first
 _TIE = 1e-9
 """Of the largest value, within which a solve cannot tell which of two is larger: an equilibrium resolves its state to
 about 1e-12, and strains and forces, which are differences of it between neighbours, to 1e-10.  Such a tie matters only
-if the values change differently: what a symmetry makes equal keeps its derivative."""
+if the values change differently, by more than round-off: what a symmetry makes equal keeps its derivative."""
 _SAME = 1e-6  # of the largest derivative, within which two are the same
 _ZERO = 1e-9  # of its change with the step, below which a value is zero
 _KINK = "its values have a kink there"
@@ -63,7 +63,7 @@ def _extreme(sign: float, values: Array, rates: Array, kinks: Mask) -> tuple[Arr
     first = (below <= _EQUAL * size[:, None]).argmax(axis=-1)
     found = np.take_along_axis(rates, first[:, None], axis=-1)[:, 0]
     away = np.abs(rates - found[:, None]).max(axis=-1, where=tied, initial=0.0)
-    split = np.flatnonzero(away > _SAME * np.abs(rates).max(axis=-1) + _EQUAL * size)
+    split = np.flatnonzero(away > _SAME * np.abs(rates).max(axis=-1) + _TIE * size)
     which = "largest" if sign > 0 else "smallest"
     why = {
         row: f"{tied[row].sum()} values share the {which} one and change differently"
