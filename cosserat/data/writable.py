@@ -28,9 +28,16 @@ def check_writable(dataset: xr.Dataset) -> None:
 
 
 def _check_name(name: Hashable, what: str, remedy: str) -> None:
-    if not isinstance(name, str) or not name or "/" in name or not _encodes(name):
+    if (
+        not isinstance(name, str)
+        or name != name.rstrip()
+        or not name
+        or "/" in name
+        or not _encodes(name)
+    ):
         raise InputError(
-            f"{what} is called {shown(name)}, so {_WRITTEN}: a name is a text without '/'; {remedy}"
+            f"{what} is called {shown(name)}, so {_WRITTEN}: a name is a text without '/' and without a "
+            f"space at its end; {remedy}"
         )
 
 
@@ -68,6 +75,11 @@ def _fits(number: object) -> bool:
 
 def _check_values(name: str, variable: xr.Variable) -> None:
     """Raise InputError for values that are neither numbers nor texts."""
+    if variable.dtype.kind == "f" and variable.dtype.itemsize not in (4, 8):
+        raise InputError(
+            f"'{name}' has values of type {variable.dtype}, so {_WRITTEN}; make them numbers of 64 bits by "
+            ".astype(float)"
+        )
     if variable.dtype.kind in "iufbSmM":
         return
     if variable.dtype.kind in "OTU":

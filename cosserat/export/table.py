@@ -19,6 +19,7 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
+from cosserat.arguments import TEXT, taking
 from cosserat.data.dataset import name_of
 from cosserat.data.files import check_destination, whole_or_absent
 from cosserat.data.netcdf import opened
@@ -34,6 +35,7 @@ WHOLE = "whole"
 """Place of the values that belong to the body as a whole."""
 
 
+@taking(place=TEXT)
 def to_dataframe(result: xr.Dataset | str | Path, place: str | None = None) -> pd.DataFrame:
     """A result as one tidy table: a row for each place of the body, or the whole of it, at each instant.
 

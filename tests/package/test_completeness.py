@@ -30,6 +30,7 @@ ROOMS = (
     "solution",
     "text",
     "errors",
+    "arguments",
     "signals",
     "memory",
     "reading",

@@ -33,6 +33,8 @@ def answer():
         ),
         (lambda d: d.assign({"a/b": d.tip}), "is called 'a/b'"),
         (lambda d: d.assign({5: d.tip}), "is called 5"),
+        (lambda d: d.assign(z=d.tip.astype("f2")), "'z' has values of type float16"),
+        (lambda d: d.assign({"end ": d.tip}), "is called 'end ', .* without a space at its end"),
         (lambda d: d.assign(z=d.tip * 1j), "'z' has values of type complex128"),
         (lambda d: d.assign(z=("k", np.array([{}, None]))), "'z' holds {}"),
     ],

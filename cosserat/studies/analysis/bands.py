@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+from cosserat.arguments import NUMBERS, TEXT, TEXTS, taking
 from cosserat.data.content import stamped
 from cosserat.data.dataset import name_of
-from cosserat.data.variables import COORDINATES
+from cosserat.data.variables import COORDINATES, LABELS
 from cosserat.errors import InputError
+from cosserat.export.table import INSTANTS
 from cosserat.parameters import nearest
 from cosserat.studies.analysis.answered import answer_of, dims_of, keys_along, solved, unit_of
-from cosserat.studies.analysis.arguments import NUMBERS, TEXT, TEXTS, taking
 from cosserat.text import shown
 
 USUAL = (0.05, 0.5, 0.95)
 """Quantiles by default."""
+_MESHES = ("vertices", "sections", "elements")
+_TIMES = ("duration", "every", "strides")
+"""Last words of keys that decide where places and instants are."""
 
 
 @taking(of=TEXT, quantiles=NUMBERS, over=TEXTS)
@@ -99,6 +103,12 @@ def _check_members(data: xr.Dataset, of: str, dims: list[str]) -> None:
             f"{called} has no number in a member with an answer: its mesh has no such place, or the answer was "
             "changed; keep a read-out such as 'u.E2 at last', or leave such members out"
         )
+    moving = [key for dim in dims for key in keys_along(data, dim) if _moves(data[key], own)]
+    if moving:
+        raise InputError(
+            f"{called} has members with different places along {', '.join(map(str, own))} by '{moving[0]}', where the "
+            "same number is another place; take members of one value of it, or keep a read-out such as 'u.E2 at last'"
+        )
     known = [data[str(name)] for name in data.variables if name in COORDINATES]
     for place in (there, *known):
         along = [dim for dim in dims if dim in place.dims]
@@ -111,10 +121,19 @@ def _check_members(data: xr.Dataset, of: str, dims: list[str]) -> None:
             )
 
 
+def _moves(key: xr.DataArray, own: list[Hashable]) -> bool:
+    """Whether a key has several values and decides where places or instants along these dimensions are."""
+    path = str(key.attrs["key"])
+    word = path.rpartition(".")[2]
+    places = word in _MESHES and any(dim not in (*LABELS, *INSTANTS) for dim in own)
+    instants = "time" in own and (word in _TIMES or path == "step")
+    return (places or instants) and len(set(key.to_numpy().tolist())) > 1
+
+
 def _members(data: xr.Dataset, over: str | Sequence[str] | None) -> list[str]:
     """The dimensions of the members."""
     if over is not None:
-        dims = [over] if isinstance(over, str) else list(over)
+        dims = [over] if isinstance(over, str) else list(dict.fromkeys(over))
         unknown = [dim for dim in dims if dim not in dims_of(data)]
         if unknown or not dims:
             raise InputError(

@@ -13,12 +13,12 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
+from cosserat.arguments import KEYS, TEXT, taking
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
 from cosserat.errors import InputError, NotConvergedError
-from cosserat.studies.analysis.arguments import KEYS, TEXT, taking
 from cosserat.studies.analysis.model import Bounds, Model, free_keys
 from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives

@@ -19,7 +19,8 @@ _SINGULAR = 1e-9  # of the largest singular value, below which a direction has n
 _FAINT = 1e-4
 """Of the largest singular value, below which a direction is not determined in practice.  Data that are off by a part r
 of their size along it move the keys by r over this ratio: here errors of 0.01 % move them by all of their values, as in
-`_WEAK`, and few measurements are better.  It is told apart from round-off: derivatives are good to 1e-7 and better."""
+`_WEAK`, and few measurements are better.  A derivative by the tangent is refused if it is off by a tenth of this,
+so what is above is no error of derivatives."""
 _WEAK = 1.0  # relative standard error of a direction, above which the data hardly determine it
 _AT_BOUND = 1e-6  # of the range, within which an estimate is at its end
 _SHARE = 0.1  # of a direction, below which a key is not named

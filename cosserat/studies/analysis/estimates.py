@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from cosserat.arguments import FUNCTION, of_class, taking
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.content import stamped
 from cosserat.data.dataset import content_of, holding_what_is_needed, name_of
@@ -106,6 +107,11 @@ class _Meshes:
         return float(self.seconds[finest] * growth ** np.log2(count / finest))
 
 
+@taking(
+    limits=of_class(Limits, "cosserat.Limits(hours=..., gigabytes=...)"),
+    result=of_class(xr.Dataset, "the Dataset of cosserat.run, or leave it out"),
+    progress=FUNCTION,
+)
 def estimate_error(
     case: Case | str,
     of: Mapping[str, str] | None = None,
@@ -157,10 +163,6 @@ def estimate_error(
 
 def _check_result(result: xr.Dataset) -> None:
     """Raise InputError for what is not the result of one case, whole and of numbers."""
-    if not isinstance(result, xr.Dataset):
-        raise InputError(
-            f"estimate_error has result = {shown(result)}; give the Dataset of cosserat.run, or leave it out"
-        )
     if content := content_of(result):
         raise InputError(f"{name_of(result)} holds {content}; give as 'result' that of the case itself")
     for name in map(str, result.variables):
@@ -233,7 +235,7 @@ def what_to_estimate(
         raise InputError(
             f"the case '{case.name}' is of kind '{case.problem.kind}', which has no mesh to refine; take another case"
         )
-    asked = read_outs_by_name(of or {}, called)
+    asked = read_outs_by_name({} if of is None else of, called)
     for one in asked:
         places = {"vertex", "edge"} & set(VARIABLES[one.variable].dims)
         if places and re.fullmatch(r"0*[1-9]\d*", one.at):

@@ -11,12 +11,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from cosserat.arguments import COLUMNS, KEYS, TABLE, taking
 from cosserat.cases.catalogue import Case, find
 from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
 from cosserat.errors import CosseratError, InputError, NotConvergedError
-from cosserat.studies.analysis.arguments import COLUMNS, KEYS, TABLE, taking
 from cosserat.studies.analysis.determined import (
     ROUNDING,
     Estimate,

@@ -18,11 +18,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from cosserat.arguments import NUMBER, TEXT, WHOLE, taking
 from cosserat.data.content import stamped
 from cosserat.data.dataset import name_of
 from cosserat.errors import InputError
 from cosserat.studies.analysis.answered import answer_of, dims_of, keys_along, read_out, unit_of
-from cosserat.studies.analysis.arguments import NUMBER, TEXT, WHOLE, taking
 from cosserat.text import shown
 
 Array = NDArray[np.float64]

@@ -9,12 +9,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from cosserat.arguments import TEXT, TEXTS, taking
 from cosserat.data.content import stamped
 from cosserat.data.dataset import name_of
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
 from cosserat.studies.analysis.answered import answer_of, dims_of, read_out, read_outs, unit_of
-from cosserat.studies.analysis.arguments import TEXT, TEXTS, taking
 from cosserat.studies.analysis.sequences import STATES, convergence
 from cosserat.studies.door import case_of_study
 from cosserat.studies.readouts import read_out as parsed

@@ -1,4 +1,4 @@
-"""Arguments of the analyses, checked in one place: one of another kind is a sentence with its name and a remedy."""
+"""Arguments of public functions, checked in one place: one of another kind is a sentence with its name and a remedy."""
 
 from __future__ import annotations
 
@@ -93,6 +93,11 @@ def _items(given: object) -> list[object]:
     return list(given)
 
 
+def _numbers(given: object) -> list[float]:
+    single = isinstance(given, int | float | np.number)
+    return [_number(item) for item in ([given] if single else _items(given))]
+
+
 def _texts(given: object) -> list[str]:
     return [given] if isinstance(given, str) else [_text(item) for item in _items(given)]
 
@@ -121,13 +126,31 @@ def _columns(given: object) -> object:
     return given
 
 
+def of_class(kind: type, remedy: str) -> Kind:
+    """What is of a class, as it is."""
+
+    def read(given: object) -> object:
+        if not isinstance(given, kind):
+            raise TypeError
+        return given
+
+    return Kind(read, remedy)
+
+
+def _function(given: object) -> object:
+    if not callable(given):
+        raise TypeError
+    return given
+
+
 TEXT = Kind(_text, "a text")
 NUMBER = Kind(_number, "a number")
 WHOLE = Kind(_whole, "a whole number, 0 or above")
 TEXTS = Kind(_texts, "a text, or a list of texts")
-NUMBERS = Kind(lambda given: [_number(item) for item in _items(given)], "a list of numbers")
+NUMBERS = Kind(_numbers, "a number, or a list of numbers")
 TABLE = Kind(_table, "a table with a value for each name")
 KEYS = Kind(
     _keys, "the keys with their ranges, such as {'rod.length': ('1 m', '2 m')}, or a list of keys"
 )
 COLUMNS = Kind(_columns, "the name of a CSV file, or columns by name, each a list")
+FUNCTION = Kind(_function, "a function")
