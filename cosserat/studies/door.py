@@ -102,7 +102,12 @@ def study(
     if not isinstance(base, Case):
         raise InputError(f"study takes a case or the name of a published one, not {shown(case)}")
     found = family_of(
-        base, vary, keep or {}, keep_whole=keep_whole, name=name, sensitivities=sensitivities
+        base,
+        vary,
+        {} if keep is None else keep,
+        keep_whole=keep_whole,
+        name=name,
+        sensitivities=sensitivities,
     )
     return solved(found, progress)
 
@@ -130,29 +135,38 @@ def family_of(
     ------
     InputError : a key, a value or a read-out is not valid.
     """
-    name = name or f"{base.name}_study"
+    name = _text(name, "name", '"reach"') or f"{base.name}_study"
+    called = f"study '{shortened(name)}'"
     if isinstance(vary, str):
         raise InputError(
-            f"study '{name}': 'vary' is {shown(vary)}; give the values too, such as {{'rod.length': ['1 m', '2 m']}}"
-        )
-    if isinstance(keep_whole, str):
-        raise InputError(
-            f"study '{name}': 'keep_whole' is {shown(keep_whole)}; give a list, such as ['x']"
+            f"{called}: 'vary' is {shown(vary)}; give the values too, such as {{'rod.length': ['1 m', '2 m']}}"
         )
     if not isinstance(vary, Mapping | list | tuple):
         raise InputError(
-            f"study '{name}': 'vary' is {shown(vary)}; give a table of keys with their values, or a list of such tables"
+            f"{called}: 'vary' is {shown(vary)}; give a table of keys with their values, or a list of such tables"
         )
+    if not isinstance(keep, Mapping):
+        raise InputError(
+            f"{called}: 'keep' is {shown(keep)}; give each read-out a name, such as {{'tip': 'u.E2 at last'}}"
+        )
+    if isinstance(keep_whole, str) or not isinstance(keep_whole, Sequence | np.ndarray):
+        raise InputError(f"{called}: 'keep_whole' is {shown(keep_whole)}; give a list, such as ['x']")
     factors = [{key: values} for key, values in vary.items()] if isinstance(vary, Mapping) else vary
     table = {
         "of": base.name,
-        "vary": plain(factors, f"study '{shortened(name)}': 'vary'"),
+        "vary": plain(factors, f"{called}: 'vary'"),
         "keep": dict(keep),
         "keep_whole": list(keep_whole),
         "sensitivities": sensitivities,
     }
-    read = Study.read(table, f"study '{shortened(name)}'", units_required=False)
+    read = Study.read(table, called, units_required=False)
     return family(name, read, base, Path(), unit_required=False)
+
+
+def _text(value: object, what: str, such: str) -> str:
+    if value is not None and not isinstance(value, str):
+        raise InputError(f"'{what}' of a study is {shown(value)}; give a text, such as {such}")
+    return value or ""
 
 
 def plain(value: object, where: str, depth: int = 0) -> object:
@@ -170,6 +184,8 @@ def plain(value: object, where: str, depth: int = 0) -> object:
         if value.size > MOST_MEMBERS:
             raise InputError(f"{where} has {value.size} values; it may have up to {MOST_MEMBERS}")
         value = value.tolist()
+    if isinstance(value, np.floating):  # longer than Python's own
+        value = float(value)
     if depth > _DEEPEST:
         raise InputError(f"{where} has more than {_DEEPEST} lists inside each other; give fewer")
     if isinstance(value, Mapping):

@@ -196,42 +196,37 @@ def write_task(path: Path, task: Task, digests: Digests) -> None:
     write_arrays(path, columns | {"digests": digests, "about": np.array(task.about)})
 
 
-def _task_arrays(path: Path) -> dict[str, Values]:
-    """What `write_task` wrote, if it is the batch that the file is named after."""
-    arrays = read_arrays(path)
-    if not {"digests", "about"} <= set(arrays) or path.stem != batch_name(
-        arrays["digests"], str(arrays["about"])
-    ):
-        raise InputError(
-            f"{path} holds other members than those it is named after; delete it and {_AGAIN}"
-        )
-    return arrays
-
-
 def planned_members(path: Path) -> Digests:
     """The digests of the members of a batch to solve, (M,).
 
     Raises
     ------
-    InputError : the file is missing or damaged, or holds another batch.
+    InputError : as `read_task`.
     """
-    return _task_arrays(path)["digests"]
+    return read_task(path).digests()
 
 
 def read_task(path: Path) -> Task:
-    """The members of a batch.
+    """The members of a batch, if they are those that the file is named after.
 
     Raises
     ------
     InputError : the file is missing or damaged, holds another batch, or was planned by another version of the code.
     """
-    arrays = _task_arrays(path)
-    about = json.loads(str(arrays["about"]))
-    if about["source"] != source():
-        raise InputError(f"{path} was planned by {about['source']}, and this is {source()}; {_AGAIN}")
+    arrays = read_arrays(path)
+    try:
+        digests, about = arrays["digests"], json.loads(str(arrays["about"]))
+        planner, named = about["source"], batch_name(digests, str(arrays["about"]))
+        columns = tuple(arrays[f"value {k}"] for k in range(len(about["keys"])))
+    except (KeyError, ValueError, TypeError):
+        raise InputError(f"{path} holds no members of a batch; delete it and {_AGAIN}") from None
+    others = f"{path} holds other members than those it is named after; delete it and {_AGAIN}"
+    if path.stem != named or any(column.shape != digests.shape for column in columns):
+        raise InputError(others)
+    if planner != source():
+        raise InputError(f"{path} was planned by {planner}, and this is {source()}; {_AGAIN}")
     keep = tuple(read_out(name, text, "the batch") for name, text in about["keep"].items())
-    columns = tuple(arrays[f"value {k}"] for k in range(len(about["keys"])))
-    return Task(
+    task = Task(
         parse(json.dumps(about["base"])),
         tuple(about["keys"]),
         columns,
@@ -239,6 +234,9 @@ def read_task(path: Path) -> Task:
         tuple(about["keep_whole"]),
         tuple(about["by"]),
     )
+    if not np.array_equal(task.digests(), digests):
+        raise InputError(others)
+    return task
 
 
 def write_solved(path: Path, task: Task, solved: Solved) -> None:

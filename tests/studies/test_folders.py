@@ -216,3 +216,33 @@ def test_what_no_case_file_could_say_is_refused_before_anything_is_solved(short,
     monkeypatch.setattr(door, "solve_members", lambda *_: pytest.fail("it was solved"))
     with pytest.raises(InputError, match="give numbers, texts"):
         cosserat.study(short, {"rod.length": [value]}, TIP)
+
+
+def other_values(file, change):
+    arrays = dict(np.load(file))
+    np.savez(file, **(arrays | {"value 1": change(arrays["value 1"])}))
+
+
+def no_values(file):
+    arrays = dict(np.load(file))
+    del arrays["value 1"]
+    np.savez(file, **arrays)
+
+
+@pytest.mark.parametrize(
+    "harm",
+    [
+        lambda file: other_values(file, lambda values: 2 * values),
+        lambda file: other_values(file, lambda values: values[:1]),
+        no_values,
+    ],
+)
+def test_members_with_other_values_than_their_digests_are_planned_again(family, good, tmp_path, harm):
+    """Their answer never was that of the batch, so no command came to an end; or there was a traceback."""
+    folder = tmp_path / "s.study"
+    file = folder / stored.BATCHES / f"{plan.plan(family, folder, 4).batches[0]}.npz"
+    harm(file)
+    with pytest.raises(InputError, match="delete it and give the command"):
+        stored.read_task(file)
+    assert solve(family, folder) == 3
+    assert answer(*plan.gathered(folder)).identical(answer(*plan.gathered(good)))

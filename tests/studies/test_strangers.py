@@ -11,7 +11,7 @@ import cosserat
 from cosserat.cli import main
 from cosserat.errors import InputError
 from cosserat.signals import Stopped
-from cosserat.studies import worker
+from cosserat.studies import door, worker
 from cosserat.studies.readouts import meant_variable
 
 END = {"end": "u.E3 at last"}
@@ -93,6 +93,30 @@ def test_read_outs_without_names_are_one_sentence():
         cosserat.study(bar(), "rod.length", keep=END)
     with pytest.raises(InputError, match="with points a distribution: uniform"):
         cosserat.study(bar(), [{"sobol": 4, "rod.length": {"gamma": [1, 2]}}], keep=END)
+
+
+def test_wrong_types_of_a_study_are_one_sentence_before_anything_is_solved(monkeypatch):
+    """All but the first two were a TypeError or a ValueError."""
+    monkeypatch.setattr(door, "solve_members", lambda *_: pytest.fail("it was solved"))
+    vary = {"rod.length": [1.0]}
+    for given, more, said in (
+        ((None, vary, END), {}, "takes a case or the name of a published one, not None"),
+        ((Path("elastica"), vary, END), {}, "takes a case or the name"),
+        ((bar(), vary, "u.E3 at last"), {}, "'keep' is 'u.E3 at last'; give each read-out a name"),
+        ((bar(), vary, ["u.E3 at last"]), {}, "'keep' is .*; give each read-out a name"),
+        ((bar(), vary, 5), {}, "'keep' is 5; give each"),
+        ((bar(), vary, 0), {}, "'keep' is 0; give each"),
+        ((bar(), vary, END), {"keep_whole": None}, "'keep_whole' is None; give a list"),
+        ((bar(), vary, END), {"keep_whole": 5}, "'keep_whole' is 5; give a list"),
+        ((bar(), vary, END), {"name": 5}, "'name' of a study is 5; give a text"),
+    ):
+        with pytest.raises(InputError, match=said):
+            cosserat.study(*given, **more)
+
+
+def test_long_numbers_of_numpy_are_plain_ones():
+    given, same = (cosserat.study(bar(), {"rod.length": [one]}, END) for one in (np.longdouble(1), 1.0))
+    assert given.identical(same)
 
 
 @pytest.mark.parametrize(
