@@ -14,7 +14,7 @@ from cosserat.problem import Progress
 
 _AFTER, _EVERY = 1.0, 0.1  # seconds before a bar appears, and between its changes
 _LOOK = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
-_FIRST_LINE, _SLOWER = 10.0, 1.5  # seconds before the first line, and growth of the time between lines
+_FIRST_LINE, _SLOWER = 8.0, 1.5  # seconds before the first line, and growth of the time between lines
 
 
 @contextlib.contextmanager
@@ -22,7 +22,7 @@ def bar(title: str) -> Iterator[Progress]:
     """A function that reports progress: as a bar of tqdm, which goes when the block ends, or as lines.
 
     The bar appears after a second, if standard error is a terminal or the code runs in a notebook.  Elsewhere, as in
-    the log of a batch system, lines come after ten seconds and then ever more slowly.  The environment variable
+    the log of a batch system, lines come after eight seconds and then ever more slowly.  The environment variable
     TQDM_DISABLE=1 switches both off.
     """
     if not ((sys.stderr is not None and sys.stderr.isatty()) or _in_notebook()):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from cosserat.exact.beams import Beam
 
 Array = NDArray[np.float64]
+_SLENDER = 1e-9  # E I over k G A L^2
 
 
 def transverse_tip(force: float) -> tuple[float, float]:
@@ -106,7 +107,8 @@ def timoshenko_frequencies(beam: Beam, count: int) -> Array:
     """The lowest angular frequencies of a clamped-free Timoshenko beam, shape (count,) [rad/s].
 
     w = exp(s xi) solves the two equations of motion where (kGA s^2 + rho0 w2)(EI s^2 + rho I w2 - kGA) + (kGA s)^2 = 0
-    with w2 = omega^2; the clamp and the free end make a determinant vanish.
+    with w2 = omega^2; the clamp and the free end make a determinant vanish.  Where E I is less than 1e-9 k G A L^2,
+    rounding makes more of the determinant than shear of the frequencies, and they are those of Bernoulli and Euler.
     """
     return np.array(_timoshenko_frequencies(beam, count))
 
@@ -117,6 +119,14 @@ def _timoshenko_frequencies(beam: Beam, count: int) -> tuple[float, ...]:
 
     shear = beam.shear_stiffness
     bending = beam.bending_stiffness
+    if bending < _SLENDER * shear * beam.length**2:
+        near = np.pi * (
+            np.arange(count) + 0.5
+        )  # cos b = -1 / cosh b: between neighbouring zeros of the sine
+        roots = [
+            brentq(lambda b: np.cos(b) + 1 / np.cosh(b), b - 0.5, b + 0.5, xtol=1e-14) for b in near
+        ]
+        return tuple(np.square(roots) * np.sqrt(bending / beam.line_density) / beam.length**2)
     rotary = beam.line_density * beam.second_moment / beam.area
 
     def determinant(omega: float) -> float:

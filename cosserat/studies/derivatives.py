@@ -29,7 +29,9 @@ DIFFERENCES = "differences of whole solves"
 _ROUGH = {TANGENT: 1e-5, DIFFERENCES: 1e-3}
 """Error of a derivative, as a fraction of it, above which there is none; by method."""
 _ROUND_OFF = {TANGENT: 16 * float(np.finfo(float).eps), DIFFERENCES: 1e-11}
-"""Of the values, in which they are round-off; those of motions scatter by 2e-12 to 8e-12."""
+"""Of the values, in which they may be round-off."""
+_SCATTER = {TANGENT: _ROUND_OFF[TANGENT], DIFFERENCES: 1e-13}
+"""Standard deviation of round-off as a fraction of the values; that of motions, 2e-12 to 8e-12, is beyond."""
 _TIGHT = 1e-14  # tolerance of Newton's method where whole solves are differenced
 
 
@@ -187,7 +189,7 @@ def _rated_between(one: ReadOut, rates: FieldRates) -> Rated:
     for m, k in map(tuple, np.argwhere(rates.known).tolist()):
         try:
             values = functools.partial(_picked_after, one, rates, m, k)
-            found[m, k], error[m, k] = _by_step(one, values, TANGENT)
+            found[m, k], error[m, k] = _by_step(one, values, TANGENT, _SCATTER[TANGENT])
         except InputError as lacks:
             why[m, k] = str(lacks)
     return Rated(found, error, why)
@@ -282,14 +284,18 @@ def _derivative(
         except OutOfReachError as error:
             raise InputError(str(error)) from None  # which shorter steps may reach
 
-    value, error = _by_step(one, values, method)
+    moves = method == DIFFERENCES and "time" in known[0.0].fields
+    value, error = _by_step(one, values, method, (_ROUND_OFF if moves else _SCATTER)[method])
     return Derivative(own.rate(value), abs(own.rate(error)))
 
 
-def _by_step(one: ReadOut, values: Callable[[float], Array], method: str) -> tuple[float, float]:
+def _by_step(
+    one: ReadOut, values: Callable[[float], Array], method: str, scatter: float
+) -> tuple[float, float]:
     """The derivative of a read-out by the step of a parameter, and its error.
 
     values : those that are left after components and places were taken, after a step.
+    scatter : standard deviation of round-off as a fraction of them.
 
     Raises
     ------
@@ -298,7 +304,7 @@ def _by_step(one: ReadOut, values: Callable[[float], Array], method: str) -> tup
     now = values(0.0)
     size = float(np.abs(now).max(initial=0.0))
     floor = max(_ROUND_OFF[method] * size, VARIABLES[one.variable].floor / 16)
-    found = slope(values, floor, _ROUND_OFF[method] * size)
+    found = slope(values, floor, scatter * size)
     if found.relative > _ROUGH[method]:
         raise InputError(
             f"'{one.variable}' does not change smoothly (differences disagree by {found.relative:.2g} of it)"

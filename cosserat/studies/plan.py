@@ -26,6 +26,7 @@ from cosserat.studies.stored import (
     Digests,
     Plan,
     batch_name,
+    members_named,
     planned_members,
     read_family,
     read_plan,
@@ -230,7 +231,7 @@ def members_in(folder: Path, name: str) -> int:
     ------
     InputError : its file is missing or damaged.
     """
-    return len(planned_members(_task_file(folder, name)))
+    return len(members_named(_task_file(folder, name)))
 
 
 def gathered(folder: Path, *, partial: bool = False) -> tuple[Family, Solved]:

@@ -197,13 +197,13 @@ def write_task(path: Path, task: Task, digests: Digests) -> None:
 
 
 def planned_members(path: Path) -> Digests:
-    """The digests of the members of a batch to solve, (M,).
+    """The digests of the members of a batch to solve, (M,), as `read_task` checks them.
 
     Raises
     ------
     InputError : as `read_task`.
     """
-    return read_task(path).digests()
+    return _read_task(path)[1]
 
 
 def read_task(path: Path) -> Task:
@@ -213,16 +213,49 @@ def read_task(path: Path) -> Task:
     ------
     InputError : the file is missing or damaged, holds another batch, or was planned by another version of the code.
     """
+    return _read_task(path)[0]
+
+
+def members_named(path: Path) -> Digests:
+    """The digests that the file of a batch to solve states, (M,), without a look at the values of its members.
+
+    Raises
+    ------
+    InputError : the file is missing or damaged, or holds another batch.
+    """
+    return _named(path)[0]
+
+
+def _named(path: Path) -> tuple[Digests, dict[str, Any], tuple[NDArray[Any], ...]]:
+    """Digests, task and columns of a batch, if the file is named after these digests.
+
+    Raises
+    ------
+    InputError : the file is missing or damaged, or holds another batch.
+    """
     arrays = read_arrays(path)
     try:
         digests, about = arrays["digests"], json.loads(str(arrays["about"]))
-        planner, named = about["source"], batch_name(digests, str(arrays["about"]))
+        named = batch_name(digests, str(arrays["about"]))
         columns = tuple(arrays[f"value {k}"] for k in range(len(about["keys"])))
+        planned = isinstance(about["source"], str)
     except (KeyError, ValueError, TypeError):
-        raise InputError(f"{path} holds no members of a batch; delete it and {_AGAIN}") from None
-    others = f"{path} holds other members than those it is named after; delete it and {_AGAIN}"
+        planned = False
+    if not planned:
+        raise InputError(f"{path} holds no members of a batch; delete it and {_AGAIN}")
     if path.stem != named or any(column.shape != digests.shape for column in columns):
-        raise InputError(others)
+        raise InputError(_others(path))
+    return digests, about, columns
+
+
+def _others(path: Path) -> str:
+    return f"{path} holds other members than those it is named after; delete it and {_AGAIN}"
+
+
+def _read_task(path: Path) -> tuple[Task, Digests]:
+    """The task of a batch and the digests of its members."""
+    digests, about, columns = _named(path)
+    planner = about["source"]
     if planner != source():
         raise InputError(f"{path} was planned by {planner}, and this is {source()}; {_AGAIN}")
     keep = tuple(read_out(name, text, "the batch") for name, text in about["keep"].items())
@@ -235,8 +268,8 @@ def read_task(path: Path) -> Task:
         tuple(about["by"]),
     )
     if not np.array_equal(task.digests(), digests):
-        raise InputError(others)
-    return task
+        raise InputError(_others(path))
+    return task, digests
 
 
 def write_solved(path: Path, task: Task, solved: Solved) -> None:

@@ -32,6 +32,7 @@ ValueError | rod motion | start = {{ shape = "reference", mode = 1, spin = "1e30
 ValueError | rod motion | rod.stations = [{{ at = "0.1 m", young = 1.7e308 }}]
 ValueError | rod motion | foundations = [{{ rotational_stiffness = "1.7e308 N*m/rad/m" }}]
 ValueError | discretization errors | slender = {{ rod = {{ section = {{ height = "1e-300 m" }} }} }}
+ValueError | discretization errors | slender.rod.section = {{ shape = "rectangle", height = "1.5e-12 m" }}
 IndexError | discretization errors | necking = {{ forces = [] }}
 AttributeError | calibration | hanging_bar = {{ like = "hanging_bar_consistent" }}
 LinAlgError | worm calibration | worm = {{ crawler = {{ length = "1e-300 m" }} }}

@@ -33,6 +33,7 @@ ROOMS = (
     "arguments",
     "signals",
     "memory",
+    "surroundings",
     "reading",
     "units",
     "synonyms",

@@ -317,6 +317,7 @@ def chosen(case, key):
 
 # Just inside of its range, a key may break a rule that joins several keys, which has a sentence of its own.
 JOINED = {
+    "prescribed_rotations[].by": "only the consistent rod at rest rotates it by more than a quarter turn",
     "rod.calibration": "is missing",  # of a path, whose rod has none
     "crawler.length": "let them be equal",
     "crawler.segments[].length": "let them be equal",

@@ -27,6 +27,24 @@ MATERIAL = {"young": 1e9, "poisson": 0.0, "line_density": 0.1}
 CLAMP = [{"at": "first", "fixed": ["x3", "x2", "d3", "d2"]}]
 
 
+@pytest.mark.parametrize("height", [1e-4, 1e-5, 1e-7, 1e-12])
+def test_frequencies_of_slender_beams_are_those_of_bernoulli_and_euler(height):
+    """Right values: roots of cos b cosh b = -1 as printed in tables."""
+    beam = beams.Beam(
+        length=2.0,
+        area=0.1 * height,
+        second_moment=0.1 * height**3 / 12,
+        young=1e9,
+        poisson=0.3,
+        line_density=0.7,
+        shear_correction=5 / 6,
+    )
+    found = elastica.timoshenko_frequencies(beam, 3)
+    right = np.square([1.875104068711961, 4.694091132974175, 7.854757438237613])
+    right *= np.sqrt(beam.bending_stiffness / 0.7) / 4
+    np.testing.assert_allclose(found, right, rtol=2e-7)
+
+
 def small_rod(section="free", barrier=False, poisson=0.3, offset=0.0, displacements=False):
     geometry = Geometry.arc(np.linspace(0.0, 1.0, 6), np.full(6, 0.05), 0.7)
 

@@ -23,7 +23,7 @@ PUSHED = [{"at": 5, "along": "E2", "force": 5.0}, {"at": 6, "along": "E3", "forc
         ("robot_as_printed", ["crawler.material.poisson"]),
         ("earthworm_as_printed", ["crawler.length", "gait.gamma.0.2.1"]),
         ("tapered", ["gait.ramp", "loads.advancing"]),
-        ("posed_arch", ["rod.length"]),
+        ("posed_arch", ["rod.length", "rod.section.height"]),
         ("begun_column", ["gravity.g"]),
     ],
 )
