@@ -231,9 +231,10 @@ def _rename_variable(data: Any, chance: random.Random) -> None:
 
 
 def _rename_dimension(data: Any, chance: random.Random) -> None:
-    data.renameDimension(
-        chance.choice(list(data.dimensions)), chance.choice(["other", "time", "frame", "axis"])
-    )
+    if data.dimensions:  # of single numbers there are none
+        data.renameDimension(
+            chance.choice(list(data.dimensions)), chance.choice(["other", "time", "frame", "axis"])
+        )
 
 
 def _drop_attribute(data: Any, chance: random.Random) -> None:
