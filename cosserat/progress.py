@@ -14,19 +14,21 @@ from cosserat.problem import Progress
 
 _AFTER, _EVERY = 1.0, 0.1  # seconds before a bar appears, and between its changes
 _LOOK = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
-_FIRST_LINE, _SLOWER = 8.0, 1.5  # seconds before the first line, and growth of the time between lines
+_FIRST_LINE, _SLOWER = 6.0, 1.5  # seconds before the first line, and growth of the time between lines
 
 
 @contextlib.contextmanager
-def bar(title: str) -> Iterator[Progress]:
+def bar(title: str, since: float | None = None) -> Iterator[Progress]:
     """A function that reports progress: as a bar of tqdm, which goes when the block ends, or as lines.
 
     The bar appears after a second, if standard error is a terminal or the code runs in a notebook.  Elsewhere, as in
-    the log of a batch system, lines come after eight seconds and then ever more slowly.  The environment variable
+    the log of a batch system, lines come after six seconds and then ever more slowly.  The environment variable
     TQDM_DISABLE=1 switches both off.
+
+    since : when the work began, by `time.monotonic`, for the lines; now by default.
     """
     if not ((sys.stderr is not None and sys.stderr.isatty()) or _in_notebook()):
-        yield Lines(title)
+        yield Lines(title, since=since)
         return
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # that a notebook without ipywidgets has a bar of text
@@ -55,10 +57,11 @@ class Lines:
     title: str
     clock: Callable[[], float] = time.monotonic
     wait: float = _FIRST_LINE
+    since: float | None = None
     began: float = field(init=False)
 
     def __post_init__(self) -> None:
-        self.began = self.clock()
+        self.began = self.clock() if self.since is None else self.since
 
     def __call__(self, fraction: float, words: str) -> None:
         """Print a line if it is time for one."""

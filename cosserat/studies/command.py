@@ -8,6 +8,7 @@ import importlib.util
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 from cosserat.errors import CosseratError, InputError
@@ -48,6 +49,7 @@ def study(options: argparse.Namespace) -> None:
     from cosserat.data.netcdf import check_replaceable
     from cosserat.studies.door import find_study
 
+    began = time.monotonic()
     _check_options(options)
     found = find_study(options.study, options.file)
     path = _destination(options.output, found.name)
@@ -65,10 +67,10 @@ def study(options: argparse.Namespace) -> None:
         print(f"{found.name}: {len(ended)} jobs ended on Slurm; what is solved is in {folder}")
         return
     if options.status:
-        _tell(found, folder, _planned(options, found, folder))
+        _tell(found, folder, _planned(options, found, folder, began))
         return
     with only_writer(path):
-        made = _planned(options, found, folder)
+        made = _planned(options, found, folder, began)
         if options.sweep:
             print(f"{found.name}: {sweep(folder, made)} batches deleted that the study does not use")
         if options.plan or options.sweep:
@@ -78,8 +80,8 @@ def study(options: argparse.Namespace) -> None:
         _report(found, folder, path, partial=options.partial, written=written)
 
 
-def _planned(options: argparse.Namespace, found: Family, folder: Path) -> Plan:
-    with bar(found.name) as report:
+def _planned(options: argparse.Namespace, found: Family, folder: Path, began: float) -> Plan:
+    with bar(found.name, began) as report:
         return plan(found, folder, options.batch, report)
 
 

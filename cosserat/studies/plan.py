@@ -91,7 +91,7 @@ def plan(found: Family, folder: Path, size: int | None = None, progress: Progres
             f"{members.size} members in batches of {size} are more than {MOST_BATCHES} jobs, too many for a scheduler; "
             "take a larger --batch"
         )
-    names = [*old, *_new_batches(folder, task, digests, members, size)]
+    names = [*old, *_new_batches(folder, task, digests, members, size, progress)]
     made = Plan(asked, tuple(names), seconds)
     write_plan(folder, made, found)
     return made
@@ -129,9 +129,15 @@ def _stored_already(folder: Path, wanted: Digests) -> tuple[list[str], NDArray[n
 
 
 def _new_batches(
-    folder: Path, task: Task, digests: Digests, members: NDArray[np.int64], size: int
+    folder: Path,
+    task: Task,
+    digests: Digests,
+    members: NDArray[np.int64],
+    size: int,
+    progress: Progress,
 ) -> Iterator[str]:
     for begin in range(0, members.size, size):
+        progress(0.0, f"{begin} of {members.size} members in batches")
         picked = members[begin : begin + size]
         own = digests[picked]
         name = batch_name(own, task.about)

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field
 
 LIMIT = 12.0
-"""Seconds after which an input counts as endless, unless it shows progress; the first line of it comes after eight."""
+"""Seconds after which an input counts as endless, unless it shows progress; the first line of it comes after six."""
 REFUSAL = 2.0
 """Seconds of CPU within which bad input is refused, after the start-up."""
 LONGEST = 600

@@ -243,7 +243,7 @@ def test_progress_is_told_in_lines_where_there_is_no_terminal(monkeypatch):
         now[0] = float(second)
         lines(second / 100, f"{second} of 100 s")
     told = screen.getvalue().splitlines()
-    assert told[0] == "long: 8%, 8 of 100 s, about 1.53 min left"
+    assert told[0] == "long: 6%, 6 of 100 s, about 1.57 min left"
     assert 4 <= len(told) <= 8
     now[0] = 1000.0
     lines(0.0, "12 iterations")
