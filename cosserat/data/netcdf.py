@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 import warnings
 from pathlib import Path
 
@@ -14,6 +12,7 @@ from cosserat.data.content import is_as_computed
 from cosserat.data.dataset import FORMAT, INTACT, version_of
 from cosserat.data.digest import DamagedError, digest_of, is_marked, seal
 from cosserat.data.files import check_destination, whole_or_absent
+from cosserat.data.readable import check_readable
 from cosserat.data.writable import check_writable
 from cosserat.errors import ChangedResultWarning, InputError, path_of
 from cosserat.signals import uninterrupted
@@ -24,8 +23,6 @@ _FRAME = "frame"
 times are plain seconds from the start."""
 _UNKNOWN = "the netCDF library failed, perhaps for want of memory"
 _SHORT = 150  # characters of an error of the library in a sentence
-_PROBE_TIME = 10.0  # seconds for a file that another program wrote, and more by its size
-_PROBE_MEMORY = 2 << 30  # bytes, likewise
 
 
 def save(dataset: xr.Dataset, path: str | Path) -> None:
@@ -73,8 +70,8 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
 def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
     """Read a result whole into memory, after its bytes were compared with the digest at their end.
 
-    A result that another program wrote or changed has no digest.  It is first read in a process that can be stopped,
-    since a damaged file can keep HDF5 for ever, and comes with a `ChangedResultWarning`.
+    It is first read in a process that can be stopped, since a damaged file can keep HDF5 for ever and anybody can make
+    a digest.  A result that another program wrote or changed has no digest and comes with a `ChangedResultWarning`.
 
     own : refuse such a result.
 
@@ -88,8 +85,7 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
         raise InputError(
             f"{path} has no digest, so cosserat did not write it or it was changed; run its case again"
         )
-    if not intact:
-        _check_readable(path)
+    check_readable(path)
     try:
         with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
             read = dataset.load()
@@ -173,23 +169,6 @@ def stored_digest(path: Path) -> str | None:
         raise InputError(
             f"{path} is damaged: its bytes are not those that cosserat wrote; delete it and run its case again"
         ) from None
-
-
-def _check_readable(path: Path) -> None:
-    """Raise InputError if a file cannot be read by a process with limited time and memory."""
-    size = path.stat().st_size
-    memory, time = _PROBE_MEMORY + 20 * size, _PROBE_TIME + size / 1e7
-    command = [sys.executable, str(Path(__file__).with_name("probe.py")), str(path), str(memory)]
-    try:
-        done = subprocess.run(command, capture_output=True, timeout=time, check=False)
-    except subprocess.TimeoutExpired:
-        raise InputError(
-            f"{path} is damaged: reading it did not end in {time:.0f} s; delete it and run its case again"
-        ) from None
-    if done.returncode:
-        raise InputError(
-            f"cannot read {path}: it is no netCDF file, or damaged; give a result of cosserat, or run its case again"
-        )
 
 
 def _check_format(dataset: xr.Dataset, path: Path) -> None:

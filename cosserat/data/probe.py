@@ -1,8 +1,11 @@
-"""Reads a netCDF file whole and says nothing: `python probe.py FILE BYTES`, in a process that can be stopped.
+"""Reads netCDF files whole, one after another, in a process that can be stopped: `python probe.py`.
 
-It exits with 0 if everything can be read with at most so many bytes of memory.  It imports nothing of cosserat.
+Each line of its input is a list in JSON: the path of a file, the most memory [bytes] and the most CPU time [s].  The
+answer is a line, `read` or `failed`.  It ends with its input.  It imports nothing of cosserat.
 """
 
+import contextlib
+import json
 import resource
 import sys
 
@@ -19,8 +22,29 @@ def read(group: netCDF4.Dataset) -> None:
         read(inner)
 
 
+def answer(path: str) -> str:
+    """Whether everything in a file can be read."""
+    try:
+        with netCDF4.Dataset(path) as whole:
+            read(whole)
+    except Exception:  # the libraries may say anything about what is in it
+        return "failed"
+    return "read"
+
+
+def limit(which: int, most: int) -> None:
+    """Set a limit of this process, as far as its parent may."""
+    hard = resource.getrlimit(which)[1]
+    resource.setrlimit(which, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+
+
 if __name__ == "__main__":
-    resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[2]),) * 2)
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    with netCDF4.Dataset(sys.argv[1]) as whole:
-        read(whole)
+    limit(resource.RLIMIT_CORE, 0)
+    with contextlib.suppress(BrokenPipeError):
+        print("ready", flush=True)
+        for line in sys.stdin:
+            path, memory, seconds = json.loads(line)
+            spent = resource.getrusage(resource.RUSAGE_SELF)
+            limit(resource.RLIMIT_AS, memory)
+            limit(resource.RLIMIT_CPU, int(spent.ru_utime + spent.ru_stime + seconds) + 1)
+            print(answer(path), flush=True)

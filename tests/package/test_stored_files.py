@@ -2,7 +2,9 @@
 
 import subprocess
 import sys
+import time
 import warnings
+from pathlib import Path
 
 import netCDF4
 import numpy as np
@@ -11,7 +13,7 @@ import xarray as xr
 from conftest import ROOT, save_own
 
 import cosserat
-from cosserat.data import netcdf
+from cosserat.data import netcdf, readable
 from cosserat.data.checkpoints import Parts
 from cosserat.data.content import stamped
 from cosserat.data.digest import DamagedError, digest_of, seal
@@ -76,11 +78,58 @@ def test_a_result_of_another_case_is_refused(stored):
         load_case(stored.parent, "elastica")
 
 
-def test_a_file_that_hangs_the_library_is_given_up(stored, monkeypatch):
-    stored.write_bytes(stored.read_bytes().rpartition(b"\ncosserat")[0])
-    monkeypatch.setattr(netcdf, "_PROBE_TIME", 0.0)
-    with pytest.raises(InputError, match=r"necking\.nc is damaged: reading it did not end in 0 s"):
+def hanging(path, dataset):
+    """A result whose strings keep HDF5 for ever: the sizes of the objects in their heap are zero."""
+    netcdf.save(dataset.assign(names=("name", np.array(["one", "two"], dtype=object))), path)
+    whole, heap = path.read_bytes(), b"GCOL"
+    first = whole.index(heap) + 16
+    path.write_bytes(whole[:first] + bytes(200) + whole[first + 200 :])
+
+
+@pytest.mark.parametrize("made", [seal, lambda path: None], ids=["digest made anew", "no digest"])
+def test_a_file_that_hangs_the_library_is_given_up_and_the_next_is_read(
+    stored, tmp_path, solved, monkeypatch, made
+):
+    hanging(tmp_path / "x.nc", solved["necking"])
+    made(tmp_path / "x.nc")
+    monkeypatch.setattr(readable, "_TIME", 0.3)
+    with pytest.raises(InputError, match=r"x\.nc is damaged: reading it did not end in 0 s; delete it"):
+        cosserat.load(tmp_path / "x.nc")
+    xr.testing.assert_identical(cosserat.load(stored), solved["necking"])
+
+
+def test_files_are_tried_in_a_process_that_is_replaced_after_it_died(stored, solved):
+    cosserat.load(stored)
+    readable._reader._process.kill()
+    readable._reader._process.wait()
+    xr.testing.assert_identical(cosserat.load(stored), solved["necking"])
+
+
+def test_a_file_that_the_trying_process_does_not_survive_is_refused(stored, monkeypatch, tmp_path):
+    (tmp_path / "probe.py").write_text("print('ready', flush=True); input()")
+    monkeypatch.setattr(readable, "_reader", reader := readable._Reader())
+    monkeypatch.setattr(readable, "_PROGRAM", tmp_path / "probe.py")
+    with pytest.raises(InputError, match=r"cannot read .*necking\.nc: it is no netCDF file, or damaged"):
         cosserat.load(stored)
+    (tmp_path / "probe.py").write_text("")
+    reader.end()
+    with pytest.raises(InputError, match=r"cannot start the process that tries .*it ended at once"):
+        cosserat.load(stored)
+
+
+def test_a_process_that_tries_files_ends_with_its_parent(stored):
+    program = f"import cosserat; from cosserat.data import readable; cosserat.load({str(stored)!r}); "
+    done = subprocess.run(
+        [sys.executable, "-c", program + "print(readable._reader._process.pid); import os; os._exit(0)"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    for _ in range(100):
+        if not Path(f"/proc/{done.stdout.strip()}/exe").exists():
+            return
+        time.sleep(0.05)
+    raise AssertionError("it still runs")
 
 
 def test_a_later_format_and_another_version_are_named(stored, solved):
