@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Annotated
 
 from cosserat import memory
+from cosserat.arguments import of_class
 from cosserat.errors import InputError, OverLimitError
 from cosserat.parameters import Parameters, Quantity
 from cosserat.problem import Forecast, Progress
@@ -59,6 +60,10 @@ class Limits(Parameters):
                 f"{name}: {forecast.stored} need {size(need)} while it runs, and {size(free)} are free in "
                 f"{result.parent}; {forecast.less_stored}, or write to another disk with --output"
             )
+
+
+LIMITS = of_class(Limits, "cosserat.Limits(hours=..., gigabytes=...)")
+"""Limits as an argument of a function."""
 
 
 @dataclass

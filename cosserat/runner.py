@@ -13,7 +13,8 @@ from pathlib import Path
 import xarray as xr
 from threadpoolctl import ThreadpoolController
 
-from cosserat.cases.catalogue import Case, find
+from cosserat.arguments import FUNCTION, taking
+from cosserat.cases.catalogue import Case, case_given
 from cosserat.data.checkpoints import Parts
 from cosserat.data.content import stamped
 from cosserat.data.dataset import statistics_of, to_dataset, warnings_of
@@ -23,12 +24,11 @@ from cosserat.data.variables import VARIABLES
 from cosserat.errors import (
     NO_MEMORY,
     CrossingError,
-    InputError,
     NotConvergedError,
     OverLimitError,
     path_of,
 )
-from cosserat.limits import Limits, Watched
+from cosserat.limits import LIMITS, Limits, Watched
 from cosserat.problem import Progress, Run
 from cosserat.progress import bar
 from cosserat.solution import Solution
@@ -36,6 +36,7 @@ from cosserat.solvers.heartbeat import listening
 from cosserat.text import LONGEST_NAME, LONGEST_TITLE
 
 
+@taking(progress=FUNCTION, limits=LIMITS)
 def run(
     case: Case | str,
     *,
@@ -61,9 +62,7 @@ def run(
     NotConvergedError, DivergedError, OutOfReachError : no solution; a motion keeps its parts up to there, and for a
         growing load the error's `dataset` is the part reached.
     """
-    known = find(case) if isinstance(case, str) else case
-    if not isinstance(known, Case):
-        raise InputError(f"run takes a case or the name of a published one, not {case!r}")
+    known = case_given(case, "run")
     path = None if result is None else path_of(result)
     if path is not None:
         check_destination(path)
@@ -133,9 +132,7 @@ def modes(case: Case | str, count: int = 6) -> xr.Dataset:
     from cosserat.problems.modes import RodModes
     from cosserat.rods.problem import RodProblem
 
-    known = find(case) if isinstance(case, str) else case
-    if not isinstance(known, Case):
-        raise InputError(f"modes takes a case or the name of a published one, not {case!r}")
+    known = case_given(case, "modes")
     problem = RodModes.of(known.problem_as(RodProblem), count)
     name = f"{known.name[: LONGEST_NAME - 6]}_modes"
     title = f"{known.title[: LONGEST_TITLE - 20]}: natural modes"

@@ -121,6 +121,20 @@ def find(name: str, file: str | Path | None = None) -> Case:
     raise InputError(f"there is no case '{shortened(name)}'{place}{nearest(name, known)}")
 
 
+def case_given(case: Case | str, function: str) -> Case:
+    """The case that a function was called with, by itself or by the name of a published one.
+
+    Raises
+    ------
+    InputError : it is neither, or there is none of that name.
+    """
+    if isinstance(case, str):
+        return find(case)
+    if not isinstance(case, Case):
+        raise InputError(f"{function} takes a case or the name of a published one, not {shown(case)}")
+    return case
+
+
 def find_base(name: str, file: str | Path | None = None) -> Case:
     """What a study varies: a case of `file`, a published one, or a base of cases whose name begins with '_'.
 

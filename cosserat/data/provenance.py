@@ -10,6 +10,7 @@ from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
 _COMPUTING = (
+    "arguments.py",
     "errors.py",
     "limits.py",
     "signals.py",

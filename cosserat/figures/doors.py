@@ -8,6 +8,7 @@ from pathlib import Path
 import xarray as xr
 from matplotlib.figure import Figure
 
+from cosserat.arguments import WHOLE, taking
 from cosserat.data.dataset import case_of, content_of, holding_what_is_needed, name_of, warnings_of
 from cosserat.data.files import check_destination
 from cosserat.data.netcdf import opened
@@ -82,6 +83,7 @@ def _refuse_others(data: xr.Dataset, what: str) -> None:
         )
 
 
+@taking(frames=WHOLE)
 def animate(
     result: xr.Dataset | str | Path, path: str | Path | None = None, frames: int = FRAMES
 ) -> Stage:

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from cosserat.cases.catalogue import Case, find, find_base, parse, study_tables
+from cosserat.arguments import FUNCTION, taking
+from cosserat.cases.catalogue import Case, case_given, find_base, parse, study_tables
 from cosserat.errors import InputError, path_of
 from cosserat.parameters import nearest
 from cosserat.problem import Progress
@@ -73,6 +74,7 @@ def published_studies() -> list[str]:
     return list(study_tables())
 
 
+@taking(progress=FUNCTION)
 def study(
     case: Case | str,
     vary: Vary,
@@ -98,9 +100,7 @@ def study(
     InputError : a key, a value or a read-out is not valid.  A member without an answer is no error; the answer's
         variable "status" says so.
     """
-    base = find(case) if isinstance(case, str) else case
-    if not isinstance(base, Case):
-        raise InputError(f"study takes a case or the name of a published one, not {shown(case)}")
+    base = case_given(case, "study")
     found = family_of(
         base,
         vary,

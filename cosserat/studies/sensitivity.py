@@ -12,7 +12,8 @@ import numpy as np
 import xarray as xr
 from threadpoolctl import threadpool_limits
 
-from cosserat.cases.catalogue import Case, find
+from cosserat.arguments import TEXTS, taking
+from cosserat.cases.catalogue import Case, case_given
 from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
@@ -20,9 +21,9 @@ from cosserat.errors import InputError
 from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, parameter
 from cosserat.studies.readouts import ReadOut, read_outs_by_name
-from cosserat.text import shown
 
 
+@taking(keys=TEXTS)
 def sensitivity(case: Case | str, keys: Sequence[str] | str, of: Mapping[str, str]) -> xr.Dataset:
     """Read-outs of a case and their exact derivatives by some of its keys.
 
@@ -45,9 +46,7 @@ def sensitivity(case: Case | str, keys: Sequence[str] | str, of: Mapping[str, st
         where two values share an extreme, or at an end of the range of a key.
     CosseratError : the case has no answer.
     """
-    base = find(case) if isinstance(case, str) else case
-    if not isinstance(base, Case):
-        raise InputError(f"sensitivity takes a case or the name of a published one, not {shown(case)}")
+    base = case_given(case, "sensitivity")
     name = f"case '{base.name}'"
     paths = [keys] if isinstance(keys, str) else list(keys)
     if not paths or not of:

@@ -186,3 +186,20 @@ def test_a_part_of_all_places_does_not_hide_that_meshes_differ():
     with pytest.raises(InputError, match="different places along vertex, axis by 'vertices'"):
         cosserat.bands(answer, "u", over="p")
     assert cosserat.bands(answer, "end", over="p")["used"].item() == 2
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: cosserat.run(bar(), limits=5), r"run has limits = 5; give cosserat\.Limits\("),
+        (lambda: cosserat.run(bar(), progress=5), "run has progress = 5; give a function"),
+        (lambda: cosserat.run(5), "run takes a case or the name of a published one, not 5"),
+        (lambda: cosserat.study(bar(), {"rod.length": [1]}, OF, progress=5), "study has progress = 5"),
+        (lambda: cosserat.sensitivity(bar(), 5, OF), "sensitivity has keys = 5; give a text, or a list"),
+        (lambda: cosserat.sensitivity(bar(), "rod.length", "end"), "read-outs are 'end'; give each a name"),
+        (lambda: cosserat.animate(bar(), frames="5"), "animate has frames = '5'; give a whole number"),
+    ],
+)
+def test_arguments_of_runs_and_pictures(call, said):
+    with pytest.raises(InputError, match=said):
+        call()

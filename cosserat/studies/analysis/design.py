@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
 from cosserat.arguments import KEYS, TEXT, taking
-from cosserat.cases.catalogue import Case, find
+from cosserat.cases.catalogue import Case, case_given
 from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
@@ -88,9 +88,7 @@ def design(
     NotConvergedError : no optimum is found, or no values meet the constraints.
     CosseratError : the case has no answer where the search begins or on its way.
     """
-    base = find(case) if isinstance(case, str) else case
-    if not isinstance(base, Case):
-        raise InputError(f"design takes a case or the name of a published one, not {shown(case)}")
+    base = case_given(case, "design")
     name = f"the design of case '{base.name}'"
     if bool(minimise) == bool(maximise):
         raise InputError(f"{name}: give one of 'minimise' and 'maximise'")

@@ -12,12 +12,12 @@ import numpy as np
 import xarray as xr
 
 from cosserat.arguments import FUNCTION, of_class, taking
-from cosserat.cases.catalogue import Case, find
+from cosserat.cases.catalogue import Case, case_given
 from cosserat.data.content import stamped
 from cosserat.data.dataset import content_of, holding_what_is_needed, name_of
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import CosseratError, InputError, OverLimitError
-from cosserat.limits import Limits
+from cosserat.limits import LIMITS, Limits
 from cosserat.problem import Progress, silent
 from cosserat.progress import bar
 from cosserat.runner import run
@@ -108,7 +108,7 @@ class _Meshes:
 
 
 @taking(
-    limits=of_class(Limits, "cosserat.Limits(hours=..., gigabytes=...)"),
+    limits=LIMITS,
     result=of_class(xr.Dataset, "the Dataset of cosserat.run, or leave it out"),
     progress=FUNCTION,
 )
@@ -138,11 +138,7 @@ def estimate_error(
         that of one case, or only a part of it.
     CosseratError : the case itself has no solution, as of `cosserat.run`.
     """
-    known = find(case) if isinstance(case, str) else case
-    if not isinstance(known, Case):
-        raise InputError(
-            f"estimate_error takes a case or the name of a published one, not {shown(case)}"
-        )
+    known = case_given(case, "estimate_error")
     ways, asked = what_to_estimate(known, of)
     budget = _Budget(limits or Limits())
     if result is not None:

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from cosserat.arguments import COLUMNS, KEYS, TABLE, taking
-from cosserat.cases.catalogue import Case, find
+from cosserat.cases.catalogue import Case, case_given
 from cosserat.data.content import stamped
 from cosserat.data.dataset import origin
 from cosserat.data.provenance import environment
@@ -30,7 +30,6 @@ from cosserat.studies.analysis.model import Bounds, Free, Model, free_keys
 from cosserat.studies.answer import cf_unit
 from cosserat.studies.readouts import read_outs_by_name
 from cosserat.studies.sensitivity import short_names
-from cosserat.text import shown
 
 Array = NDArray[np.float64]
 _TOLERANCE = 1e-10  # relative change of estimates, sum and gradient at which the search ends
@@ -71,9 +70,7 @@ def fit(
     NotConvergedError : the search does not end; if the data leave a direction open, the sentence names it.
     CosseratError : the case at which the search begins has no answer.
     """
-    base = find(case) if isinstance(case, str) else case
-    if not isinstance(base, Case):
-        raise InputError(f"fit takes a case or the name of a published one, not {shown(case)}")
+    base = case_given(case, "fit")
     name = f"the fit of case '{base.name}'"
     keys = free_keys(base, [free] if isinstance(free, str) else free, name, bounded=False)
     if not of:
