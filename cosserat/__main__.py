@@ -4,12 +4,13 @@ import sys
 
 from cosserat.memory import limit_of_memory, watched
 from cosserat.signals import Stopped, end_by_signals, ignore_signals, received, uninterrupted
-from cosserat.surroundings import has_current_folder, open_streams
+from cosserat.surroundings import has_current_folder, open_streams, show_no_windows
 
 
 def main() -> int:
     """Run the command of the command line; returns its exit status."""
     open_streams()
+    show_no_windows()
     if not has_current_folder():
         print("cosserat: the current folder is gone; change to one that exists", file=sys.stderr)
         return 2

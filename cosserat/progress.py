@@ -14,6 +14,7 @@ from cosserat.problem import Progress
 
 _AFTER, _EVERY = 1.0, 0.1  # seconds before a bar appears, and between its changes
 _LOOK = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
+_COMPILING = "compiling, once for each version of cosserat"
 _FIRST_LINE, _SLOWER = 6.0, 1.5  # seconds before the first line, and growth of the time between lines
 
 
@@ -28,7 +29,9 @@ def bar(title: str, since: float | None = None) -> Iterator[Progress]:
     since : when the work began, by `time.monotonic`, for the lines; now by default.
     """
     if not ((sys.stderr is not None and sys.stderr.isatty()) or _in_notebook()):
-        yield Lines(title, since=since)
+        lines = Lines(title, since=since)
+        with _told_of_compiling(lambda: lines(0.0, _COMPILING)):
+            yield lines
         return
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # that a notebook without ipywidgets has a bar of text
@@ -47,7 +50,27 @@ def bar(title: str, since: float | None = None) -> Iterator[Progress]:
             shown.set_postfix_str(words, refresh=False)
             shown.update(fraction - shown.n)
 
-        yield report
+        with _told_of_compiling(lambda: report(shown.n, _COMPILING)):
+            yield report
+
+
+@contextlib.contextmanager
+def _told_of_compiling(tell: Callable[[], None]) -> Iterator[None]:
+    """Call a function whenever Numba begins to compile a kernel, which takes seconds where none are cached."""
+    if "numba" not in sys.modules:
+        yield
+        return
+    from numba.core import event
+
+    class Told(event.Listener):
+        def on_start(self, event: object) -> None:
+            tell()
+
+        def on_end(self, event: object) -> None:
+            pass
+
+    with event.install_listener("numba:compile", Told()):
+        yield
 
 
 @dataclass

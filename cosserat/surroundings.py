@@ -1,4 +1,4 @@
-"""What a process finds around itself: its three streams and its current folder."""
+"""What a process finds around itself: its three streams, its current folder, its way to show pictures."""
 
 from __future__ import annotations
 
@@ -15,6 +15,11 @@ def open_streams() -> None:
             os.open(os.devnull, os.O_RDWR)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - for as long as the process lives
+
+
+def show_no_windows() -> None:
+    """Forget how pictures are shown on a screen: the command line only writes files, and need not have that library."""
+    os.environ.pop("MPLBACKEND", None)
 
 
 def has_current_folder() -> bool:

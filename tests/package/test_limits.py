@@ -6,10 +6,12 @@ import re
 import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
 from conftest import ROOT
+from numba import njit
 
 import cosserat
 from cosserat import memory, signals
@@ -18,7 +20,7 @@ from cosserat.errors import InputError, NotConvergedError, OverLimitError
 from cosserat.limits import Limits, Watched
 from cosserat.problem import Forecast
 from cosserat.problems.static import RodStatics
-from cosserat.progress import Lines, duration, size
+from cosserat.progress import Lines, bar, duration, size
 from cosserat.publications import kinds
 from cosserat.solution import Solution
 from cosserat.solvers.heartbeat import beat, listening
@@ -252,6 +254,20 @@ def test_progress_is_told_in_lines_where_there_is_no_terminal(monkeypatch):
     now[0] = 1e4
     lines(1.0, "end")
     assert len(screen.getvalue().splitlines()) == len(told) + 1
+
+
+def test_compiling_is_told_as_progress(monkeypatch):
+    """Where no kernels are cached, the first run compiles for many seconds; a warm one tells nothing of it."""
+    screen = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.delenv("TQDM_DISABLE", raising=False)
+    kernel = njit(lambda x: x + 1.0)
+    with bar("first", since=time.monotonic() - 7.0):
+        kernel(1.0)
+    assert screen.getvalue() == "first: compiling, once for each version of cosserat\n"
+    with bar("second", since=time.monotonic() - 7.0):
+        kernel(1.0)
+    assert "second" not in screen.getvalue()
 
 
 def test_times_and_sizes_are_told_in_units_of_their_own():

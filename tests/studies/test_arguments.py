@@ -196,7 +196,10 @@ def test_a_part_of_all_places_does_not_hide_that_meshes_differ():
         (lambda: cosserat.run(5), "run takes a case or the name of a published one, not 5"),
         (lambda: cosserat.study(bar(), {"rod.length": [1]}, OF, progress=5), "study has progress = 5"),
         (lambda: cosserat.sensitivity(bar(), 5, OF), "sensitivity has keys = 5; give a text, or a list"),
-        (lambda: cosserat.sensitivity(bar(), "rod.length", "end"), "read-outs are 'end'; give each a name"),
+        (
+            lambda: cosserat.sensitivity(bar(), "rod.length", "end"),
+            "read-outs are 'end'; give each a name",
+        ),
         (lambda: cosserat.animate(bar(), frames="5"), "animate has frames = '5'; give a whole number"),
     ],
 )
