@@ -126,10 +126,13 @@ def solve_members(
         warnings.simplefilter("ignore")
         left = _solve_together(task, found, progress, threads)
         table = table_of(task.base.problem, task.keys)
+        lost = 0
         for number, member in enumerate(left):
             _solve_one(task, table, int(member), found)
+            lost += found.status[member] not in (SOLVED, WARNED)
             done = task.size - len(left) + number + 1
-            progress(done / task.size, f"{done} of {task.size} members")
+            without = f", {lost} without an answer" if lost else ""
+            progress(done / task.size, f"{done} of {task.size} members{without}")
     return found
 
 

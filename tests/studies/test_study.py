@@ -132,7 +132,8 @@ def test_two_keys_of_one_last_word_have_their_whole_paths():
 
 
 def test_members_without_an_answer_keep_status_and_reason(short):
-    """A twentieth of the members and more: out of range, and squeezed beyond collapse."""
+    """A twentieth of the members and more: out of range, and squeezed beyond collapse.  Progress counts them."""
+    told = []
     squeezed = short.vary(
         "squeezed", forces=[{"at": "last", "along": "-E3", "force": "1 N"}], rod={"barrier": True}
     )
@@ -141,12 +142,14 @@ def test_members_without_an_answer_keep_status_and_reason(short):
         [{"sobol": 4, YOUNG: {"normal": [1e9, 1e9]}}, {FORCE: [0.1, 1e7]}],
         {"tip": "u.E3 at last"},
         keep_whole=["lam"],
+        progress=lambda fraction, words: told.append(words),
     )
     found = dict(zip(*np.unique(data["status"], return_counts=True), strict=True))
     assert set(found) <= {0, 1, 2, 3, 4}
     assert found[0] >= 3
     lost = data["status"] >= 2
     assert lost.any()
+    assert told[-1] == f"{lost.size} of {lost.size} members, {int(lost.sum())} without an answer"
     assert np.isnan(data["tip"].where(lost)).all()
     assert np.isfinite(data["tip"].to_numpy()[~lost.to_numpy()]).all()
     assert all(data["reason"].to_numpy()[lost.to_numpy()])
