@@ -28,10 +28,10 @@ TANGENT = "the equilibrium's tangent: one solve with its Hessian"
 DIFFERENCES = "differences of whole solves"
 _ROUGH = {TANGENT: 1e-5, DIFFERENCES: 1e-3}
 """Error of a derivative, as a fraction of it, above which there is none; by method."""
-_ROUND_OFF = {TANGENT: 16 * float(np.finfo(float).eps), DIFFERENCES: 1e-11}
+_ROUND_OFF = {TANGENT: 16 * float(np.finfo(float).eps), DIFFERENCES: 3e-11}
 """Of the values, in which they may be round-off."""
 _SCATTER = {TANGENT: _ROUND_OFF[TANGENT], DIFFERENCES: 1e-13}
-"""Standard deviation of round-off as a fraction of the values; that of motions, 2e-12 to 8e-12, is beyond."""
+"""Standard deviation of round-off as a fraction of the values; that of motions, 2e-12 to 2.2e-11, is beyond."""
 _TIGHT = 1e-14  # tolerance of Newton's method where whole solves are differenced
 
 

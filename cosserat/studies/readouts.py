@@ -201,6 +201,10 @@ class ReadOut:
         """What is asked for at the last instant."""
         if self.over not in ("final", "change"):
             return dims, values
+        if self.over == "change" and not set(dims) & set(_INSTANTS):
+            raise InputError(
+                f"'{self.name}': '{self.variable}' has no instants between which it changes; leave out 'change'"
+            )
         values = np.abs(values) if self.size and self.sized else values
         left, last = self._instant(dims, values, -1)
         return left, last if self.over == "final" else last - self._instant(dims, values, 0)[1]

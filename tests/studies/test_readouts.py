@@ -85,6 +85,12 @@ def test_a_final_value_has_no_other_instant(text):
         read_out("it", text, "s")
 
 
+def test_a_change_needs_instants():
+    """It was 0 for a result of one state."""
+    with pytest.raises(InputError, match="'lam' has no instants between which it changes; leave out"):
+        value("change lam at last", {"lam": (("vertex",), np.array([1.0, 2.0]))})
+
+
 def test_sizes_are_taken_before_a_change():
     u = np.abs(U[:, 3, 1])
     assert value("change |u.E2| at last") == u[-1] - u[0]
@@ -244,6 +250,6 @@ def test_the_stated_error_of_a_motions_derivative_holds(key, value, reach):
         own = found[f"{name}_by_{key.rpartition('.')[2]}"]
         right = np.polynomial.polynomial.polyfit(steps, near[name].to_numpy(), 7)[1] / (reach * value)
         assert abs(own.item() - right) <= own.attrs["error"], (name, own.item(), right)
-        assert own.attrs["error"] < 1e-5 * abs(own.item())
+        assert own.attrs["error"] < 3e-5 * abs(own.item())
     end, most = (found[f"{name}_by_{key.rpartition('.')[2]}"] for name in ("end", "most"))
     assert abs(end.item() - most.item()) <= most.attrs["error"]
