@@ -36,7 +36,7 @@ import numpy as np
 
 import cosserat
 from cosserat.exact import beams
-from cosserat.studies.calibration import beam_of
+from cosserat.problems.calibration import beam_of
 from cosserat.studies.door import case_of_study
 from cosserat.thesis.book import page
 
@@ -45,7 +45,7 @@ problems = ("hanging_bar", "clamped_free", "clamped_clamped", "necking")
 meshes = [int(n) for n in run.vertices.to_numpy()]
 
 # %% tags=["remove-input"]
-page.excerpt("cosserat.studies.calibration.Calibration.least_misfit", "start = np.log")
+page.excerpt("cosserat.problems.calibration.Calibration.least_misfit", "start = np.log")
 
 # %% tags=["remove-input"]
 page.rows("3.4.13")

@@ -27,8 +27,8 @@
 import numpy as np
 
 import cosserat
+from cosserat.problems.calibration import beam_of
 from cosserat.rods.variation import lump
-from cosserat.studies.calibration import beam_of
 from cosserat.thesis.book import page
 
 # %% [markdown]

@@ -76,7 +76,7 @@ import numpy as np
 import cosserat
 from cosserat.data.dataset import statistics_of
 from cosserat.exact import beams
-from cosserat.studies.calibration import beam_of
+from cosserat.problems.calibration import beam_of
 from cosserat.thesis.book import page
 
 # %% tags=["remove-input"]

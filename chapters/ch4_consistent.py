@@ -61,8 +61,8 @@ import numpy as np
 import cosserat
 from cosserat.data.dataset import statistics_of
 from cosserat.exact import elastica
+from cosserat.problems.calibration import beam_of
 from cosserat.problems.critical import RodCriticalLoads
-from cosserat.studies.calibration import beam_of
 from cosserat.thesis.book import page
 
 # %% tags=["remove-input"]

@@ -359,7 +359,7 @@
 # .. autoclass:: cosserat.exact.beams.Beam
 #    :members:
 #
-# .. autofunction:: cosserat.studies.calibration.beam_of
+# .. autofunction:: cosserat.problems.calibration.beam_of
 #
 # .. autofunction:: cosserat.exact.beams.hanging_bar_displacement
 #

@@ -105,8 +105,8 @@ KINDS = {
         moving="cosserat.problems.moving_critical:moving_critical",
         refined=f"{_REFINED}:of_rod",
     ),
-    "calibration": Kind("cosserat.studies.calibration:Calibration"),
-    "discretization errors": Kind("cosserat.studies.discretization:DiscretizationErrors"),
+    "calibration": Kind("cosserat.problems.calibration:Calibration"),
+    "discretization errors": Kind("cosserat.problems.discretization:DiscretizationErrors"),
     "posture": Kind(
         "cosserat.problems.crawl:Posture",
         "cosserat.figures.crawlers:picture",

@@ -37,9 +37,6 @@ _COMPUTING = (
     *(
         f"studies/{name}.py"
         for name in (
-            "calibration",
-            "discretization",
-            "needs",
             "keys",
             "between",
             "readouts",

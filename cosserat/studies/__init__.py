@@ -1,1 +1,1 @@
-"""Studies: loops over problems."""
+"""Studies: families of cases, solved together as one labelled answer."""

@@ -13,9 +13,9 @@ from pydantic_core import PydanticCustomError
 from cosserat.parameters import Quantity
 from cosserat.peristalsis.instant import InstantProblem
 from cosserat.problem import ALONE, Problem, Run
+from cosserat.problems.calibration import condition_of
 from cosserat.problems.crawl import Crawl
 from cosserat.solution import Field, Solution
-from cosserat.studies.calibration import condition_of
 from cosserat.thesis.earthworm import CIRCULAR, LONGITUDINAL, SEGMENT_50, refuse_segments
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ import pytest
 
 import cosserat
 from cosserat.exact import elastica
-from cosserat.studies.calibration import beam_of
+from cosserat.problems.calibration import beam_of
 
 from . import closed, timoshenko
 from .checks import ORDER, frequencies, inputs, last, piece, run

@@ -6,7 +6,7 @@ import pytest
 import cosserat
 from cosserat.data.dataset import statistics_of
 from cosserat.exact import beams
-from cosserat.studies.calibration import beam_of
+from cosserat.problems.calibration import beam_of
 from cosserat.thesis.table import readouts
 
 HOLD_ALL = ["x3", "x2", "d3", "d2"]

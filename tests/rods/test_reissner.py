@@ -12,14 +12,14 @@ import cosserat
 from cosserat.cli import main
 from cosserat.errors import InputError
 from cosserat.exact import beams, elastica
+from cosserat.problems.calibration import beam_of
+from cosserat.problems.discretization import MEASURES
 from cosserat.problems.static import RodStatics
 from cosserat.rods.elasticity import of_one_material
 from cosserat.rods.energies import reissner
 from cosserat.rods.energies.compliance import stiffnesses
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.reference import Geometry
-from cosserat.studies.calibration import beam_of
-from cosserat.studies.discretization import MEASURES
 from cosserat.thesis.table.readouts import period
 
 SECTIONS = ("free", "plane strain", "incompressible")

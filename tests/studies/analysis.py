@@ -14,8 +14,8 @@ import numpy as np
 
 import cosserat
 from cosserat.exact import elastica
+from cosserat.problems.calibration import beam_of
 from cosserat.studies.analysis.sequences import STATES
-from cosserat.studies.calibration import beam_of
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parents[1]))

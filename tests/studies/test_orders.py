@@ -13,10 +13,10 @@ from cosserat.cli import main
 from cosserat.errors import InputError
 from cosserat.exact import elastica
 from cosserat.limits import Limits
+from cosserat.problems.calibration import beam_of
 from cosserat.studies.analysis.orders import sizes_of
 from cosserat.studies.analysis.refinements import by_place, refinements
 from cosserat.studies.analysis.sequences import STATES, convergence
-from cosserat.studies.calibration import beam_of
 
 H = 1 / np.array([10.0, 17.0, 23.0, 41.0])
 

@@ -11,8 +11,8 @@ import cosserat
 from cosserat.data.dataset import statistics_of, warnings_of
 from cosserat.errors import InputError
 from cosserat.exact import beams
+from cosserat.problems.calibration import ASSIGNED, _undetermined, beam_of, condition_number
 from cosserat.studies.answer import WARNED
-from cosserat.studies.calibration import ASSIGNED, _undetermined, beam_of, condition_number
 from cosserat.thesis.figures.calibration import limit
 from cosserat.thesis.table import readouts
 
@@ -138,7 +138,7 @@ def test_a_fit_finds_the_coefficients_that_made_its_data(monkeypatch):
         )
     )
     target = made.solve("made")["u"][:, 1]
-    from cosserat.studies import calibration
+    from cosserat.problems import calibration
 
     monkeypatch.setitem(calibration._FORMULAS, "clamped_free", (1, lambda beam, g, xi: target))
     found = procedure.fit("clamped_free", "trial")

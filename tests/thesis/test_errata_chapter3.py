@@ -11,12 +11,12 @@ from scipy.linalg import eigh
 import cosserat
 from cosserat.errors import UnsupportedRodError
 from cosserat.exact import beams
+from cosserat.problems.calibration import beam_of
 from cosserat.rods.energies import hemingway
 from cosserat.rods.energies.hemingway_kernel import stretching
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.loads.couples import couples
 from cosserat.rods.reference import Geometry, signed_angle, strains, unwrapped_angles, vertex_tangents
-from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table import printed, readouts
 
 MATERIAL = {"young": 1e9, "line_density": 250.0}

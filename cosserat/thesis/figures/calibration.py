@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from cosserat.exact import beams
 from cosserat.figures.style import COMPUTED, EXACT, FOURTH, INK, VARIANT, WIDTH, canvas
-from cosserat.studies.calibration import Calibration, beam_of
+from cosserat.problems.calibration import Calibration, beam_of
 from cosserat.studies.door import case_of_study
 
 

@@ -34,8 +34,8 @@ from cosserat.figures.style import (
     plain_points,
 )
 from cosserat.figures.supports import draw_supports
+from cosserat.problems.calibration import beam_of
 from cosserat.rods.problem import RodProblem
-from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table.readouts import tension_of, weight_of
 
 Array = NDArray[np.float64]

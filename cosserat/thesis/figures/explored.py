@@ -16,10 +16,10 @@ from cosserat.figures.animations import ALONG, UP, body_panel, curve
 from cosserat.figures.rod import outline
 from cosserat.figures.stage import Line, Mark, Panel, Slider, Stage
 from cosserat.figures.strokes import strokes
+from cosserat.problems.calibration import beam_of
 from cosserat.problems.crawler import CrawlerProblem
 from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import RodProblem
-from cosserat.studies.calibration import beam_of
 from cosserat.studies.door import case_of_study
 from cosserat.thesis.figures.strained import deformations
 

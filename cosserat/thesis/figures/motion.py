@@ -25,10 +25,10 @@ from cosserat.figures.style import (
     canvas,
 )
 from cosserat.figures.supports import draw_supports
+from cosserat.problems.calibration import beam_of
 from cosserat.problems.motion import RodMotion
 from cosserat.rods.kinematics import PLANAR
 from cosserat.rods.problem import RodProblem
-from cosserat.studies.calibration import beam_of
 
 Array = NDArray[np.float64]
 Data = Mapping[str, xr.Dataset]

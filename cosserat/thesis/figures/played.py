@@ -12,8 +12,8 @@ from cosserat.data.dataset import problem_of
 from cosserat.exact import beams
 from cosserat.figures import animations, crawling
 from cosserat.figures.stage import Panel, Slider, Stage
+from cosserat.problems.calibration import beam_of
 from cosserat.rods.problem import RodProblem
-from cosserat.studies.calibration import beam_of
 from cosserat.thesis.earthworm import SEGMENT_50
 from cosserat.thesis.table.crawl_readouts import instants_per_stride
 

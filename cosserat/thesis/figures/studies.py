@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from cosserat.exact import beams
 from cosserat.figures.style import COMPUTED, EXACT, INK, VARIANT, WIDTH, Picture, canvas
+from cosserat.problems.calibration import beam_of
 from cosserat.problems.path import RodPath
 from cosserat.problems.static import RodStatics
 from cosserat.studies.analysis.indices import indices
-from cosserat.studies.calibration import beam_of
 from cosserat.studies.door import case_of_study
 from cosserat.studies.readouts import read_out
 

@@ -30,6 +30,7 @@ from cosserat.data.files import whole_or_absent
 from cosserat.data.provenance import environment, source
 from cosserat.errors import CosseratError, InputError
 from cosserat.exact import beams, elastica
+from cosserat.problems.calibration import beam_of
 from cosserat.problems.motion import RodMotion
 from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.dead import PointForce
@@ -38,7 +39,6 @@ from cosserat.runner import run
 from cosserat.solvers.equilibrium import EquilibriumSolver
 from cosserat.solvers.incremental import solve_full_load
 from cosserat.solvers.integrate import IntegratorSettings, integrate
-from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table.readouts import period
 
 RUNS = 5

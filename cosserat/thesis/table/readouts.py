@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from cosserat.data.dataset import problem_of
 from cosserat.errors import InputError
 from cosserat.exact import beams, elastica
+from cosserat.problems.calibration import beam_of
 from cosserat.rods.problem import RodProblem
-from cosserat.studies.calibration import beam_of
 from cosserat.thesis.table import crawl_readouts, printed
 from cosserat.thesis.table.reading import Measurement
 

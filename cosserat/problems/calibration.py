@@ -16,10 +16,10 @@ from pydantic import model_validator
 from cosserat.exact import beams
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Problem, Run
+from cosserat.problems.needs import check_coefficients, check_pulled, check_weighed
 from cosserat.problems.static import RodStatics
 from cosserat.rods.problem import RodProblem
 from cosserat.solution import Field, Solution
-from cosserat.studies.needs import check_coefficients, check_pulled, check_weighed
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult

@@ -13,11 +13,11 @@ from pydantic_core import PydanticCustomError
 from cosserat.exact import beams, elastica
 from cosserat.parameters import Count
 from cosserat.problem import ALONE, Problem, Run
+from cosserat.problems.calibration import beam_of
+from cosserat.problems.needs import check_pulled, check_slender, check_weighed
 from cosserat.problems.static import RodStatics
 from cosserat.rods.loads.dead import PointForce
 from cosserat.solution import Solution
-from cosserat.studies.calibration import beam_of
-from cosserat.studies.needs import check_pulled, check_slender, check_weighed
 
 Array = NDArray[np.float64]
 Formula = Callable[[beams.Beam, float, Array], Array]
