@@ -24,7 +24,7 @@ from cosserat.rods.loads.load import LoadedRod
 from cosserat.rods.places import equal_mesh
 from cosserat.rods.problem import LOADS
 from cosserat.rods.reference import Geometry
-from cosserat.rods.resolution import coarse, surface_stretch
+from cosserat.rods.resolution import COARSE, coarse, largest_turning, surface_stretch
 from cosserat.rods.rod import Rod
 from cosserat.rods.space import RodSpace
 from cosserat.solution import Field, FieldRates, Many
@@ -170,7 +170,8 @@ def _solve(
         solved &= (surface_stretch(geometry, x, d, lower) > 0).all(axis=(-2, -1))
         fields = {name: _field(name, state, sound) for name in wanted}
     places = np.flatnonzero(sound)
-    warnings = {int(places[m]): found for m in np.flatnonzero(solved) if (found := coarse(d[m]))}
+    doubtful = solved & (largest_turning(d) > COARSE)
+    warnings = {int(places[m]): coarse(d[m]) for m in np.flatnonzero(doubtful)}
     done = np.zeros(sound.size, dtype=np.bool_)
     done[sound] = solved
     labels = {"axis": rod.kinematics.axes, "dof": rod.kinematics.dofs}

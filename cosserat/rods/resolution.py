@@ -89,16 +89,18 @@ def check_crossing(geometry: Geometry, x: Array, d: Array, lower: float, name: s
     )
 
 
-def largest_turning(d: Array) -> float:
-    """Largest angle between neighbouring directors, (..., N, 2) [rad]."""
+def largest_turning(d: Array) -> Array:
+    """Largest angle between neighbouring directors of each rod, (..., N, 2) -> (...) [rad]."""
     a, b = d[..., :-1, :], d[..., 1:, :]
-    cross, dot = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=-1)
-    return float(np.abs(np.arctan2(cross, dot)).max())
+    cross = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    dot = a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]
+    largest: Array = np.abs(np.arctan2(cross, dot)).max(axis=-1)
+    return largest
 
 
 def coarse(d: Array) -> list[str]:
     """A warning if the angle between neighbouring sections is large."""
-    turning = largest_turning(d)
+    turning = largest_turning(d).max()
     if turning <= COARSE:
         return []
     return [

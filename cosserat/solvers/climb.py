@@ -922,12 +922,14 @@ def _member(
 
 @njit(cache=True, nogil=True)
 def climb_all(
-    kernel: Any, space: Any, members: Members, held: Mask, limits: Limits, answers: Answers
+    kernel_at: int, space_at: int, members: Members, held: Mask, limits: Limits, answers: Answers
 ) -> int:
     """Find the equilibria of all bodies under their full loads; how many were reached.
 
-    kernel : `solvers.potential.KERNEL`.  space : `solvers.members.SPACE_KERNEL`.  held : (n,) the constrained DOFs.
+    kernel_at, space_at : addresses of a `solvers.potential.KERNEL` and of a `solvers.members.SPACE_KERNEL`.
+    held : (n,) the constrained DOFs.
     """
+    kernel, space = _potential_at(kernel_at), _space_at(space_at)
     count, n = members.dead.shape
     vectors = np.zeros(n), np.zeros(n), np.zeros(n)
     shape = limits.parts, 2
@@ -956,8 +958,8 @@ def climb_all(
 
 @njit(cache=True, nogil=True)
 def rates_all(
-    kernel: Any,
-    space: Any,
+    kernel_at: int,
+    space_at: int,
     members: Members,
     held: Mask,
     width: int,
@@ -973,6 +975,7 @@ def rates_all(
     of the gradient is that of the softened constants, less s' times the inner forces and less the rate of the loads.
     The Hessian answers it.
     """
+    kernel, space = _potential_at(kernel_at), _space_at(space_at)
     count, n = q.shape
     each = ways.softens.size
     at, gradient, room, terms = np.empty(n), np.empty(n), np.empty(n + width), np.empty(parts)

@@ -151,8 +151,8 @@ class Corrector:
             self.around.rate[:] = rate
             origin = np.zeros(n) if own.origin is None else own.origin
             numbers = Numbers(own.data, origin, space.placed, -rate, len(own.terms))
-            self._kernels = addresses(family.kernel, family.space)
-            where = (kernel.number for kernel in self._kernels)
+            self._family = family  # which owns the kernels
+            where = addresses(family.kernel, family.space)
             self._loop = functools.partial(_compiled(), *where, numbers, self.around)
 
     def _follow(self, arcs: Arcs, start: tuple[Vector, Vector], found: Found) -> int:

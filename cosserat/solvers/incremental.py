@@ -31,12 +31,12 @@ def solve_full_load(solver: EquilibriumSolver, *, stay: bool = False) -> Equilib
     NotConvergedError : no path leads there, or, unless it stays, to no stable equilibrium; the last point is its
         `state`.
     """
+    found = climbed(solver)
+    if found is not None:
+        return found
     with np.errstate(
         over="ignore", invalid="ignore"
     ):  # non-finite values are rejected below without a warning
-        found = climbed(solver)
-        if found is not None:
-            return found
         point = unloaded(solver)
         solver.check_round_off(point)
         point = _by_increments(solver, point)

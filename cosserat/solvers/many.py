@@ -40,12 +40,11 @@ types: Any = numba_types  # which says nothing of its own types
 _MATRIX, _BYTES, _WHOLE = types.float64[:, ::1], types.uint8[:, ::1], types.int64
 _NUMBERS = types.int64[::1]
 _MEMBERS = types.NamedTuple((_BYTES, *(_MATRIX,) * (len(Members._fields) - 1)), Members)
-_KERNELS = types.FunctionType(KERNEL), types.FunctionType(SPACE_KERNEL)
 
 
 def _loaded(function: Dispatcher, *arguments: Any) -> Callable[..., int]:
     """A loop over members; called directly, as `solvers.implicit` does."""
-    signature = _WHOLE(*_KERNELS, _MEMBERS, types.boolean[::1], *arguments)
+    signature = _WHOLE(_WHOLE, _WHOLE, _MEMBERS, types.boolean[::1], *arguments)
     (compiled,) = njit(signature, cache=True, nogil=True)(function.py_func).overloads.values()
     loop: Callable[..., int] = compiled.entry_point
     return loop
@@ -67,22 +66,13 @@ def _moving() -> Callable[..., int]:
     return _loaded(rates_all, _WHOLE, _WHOLE, _MATRIX, ways, rates)
 
 
-class _Address:
-    """The code of a compiled function; to look it up at every call would take longer than a solve."""
-
-    def __init__(self, function: Callable[..., float], signature: Any) -> None:
-        self.function = function  # which owns the code
-        self.number: int = address(function, signature)
-
-    def __wrapper_address__(self) -> int:
-        """Where it is."""
-        return self.number
-
-
 @functools.lru_cache(maxsize=64)
-def addresses(kernel: Callable[..., float], space: Callable[..., float]) -> tuple[_Address, _Address]:
-    """The code of the two kernels of a family."""
-    return _Address(kernel, KERNEL), _Address(space, SPACE_KERNEL)
+def addresses(kernel: Callable[..., float], space: Callable[..., float]) -> tuple[int, int]:
+    """Where the code of the two kernels of a family is; to look it up at every call would take longer than a solve.
+
+    It is there as long as the functions are.
+    """
+    return address(kernel, KERNEL), address(space, SPACE_KERNEL)
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,8 @@ placed : (n,) added to q.  FRACTION : the largest fraction of a step, the change
 PREDICTED : overwrites the change by the DOFs after motions, the rates; constrained ones stay as they are in the change.
 """
 
-REACHED, LEFT = range(2)
-"""Whether the loop has reached the full load, or left the body to others."""
+LEFT, REACHED = range(2)
+"""Whether the loop has left the body to others, or reached the full load."""
 
 
 class Members(NamedTuple):
@@ -77,12 +77,13 @@ class Answers(NamedTuple):
     @classmethod
     def empty(cls, members: int, dofs: int) -> Answers:
         """Of bodies that nobody has looked at."""
+        q, reaction = np.zeros((2, members, dofs))
         return cls(
-            np.zeros((members, dofs)),
-            np.zeros((members, dofs)),
+            q,
+            reaction,
             np.zeros((members, 3)),
             np.zeros((members, 2), dtype=np.int64),
-            np.full(members, LEFT),
+            np.zeros(members, dtype=np.int64),
         )
 
 
