@@ -1,7 +1,8 @@
 """Derivatives of smooth functions of one number by central differences, extrapolated, with a check of their error.
 
-The steps are halved and their differences extrapolated (Richardson), which removes all errors but those of the seventh
-power of the step.  Both sides together also show a kink, where no derivative exists.
+The steps are halved and their differences extrapolated (Richardson), which removes all errors but those of the sixth
+power of the step; where they are not enough, one more halving removes those too, and costs less round-off than to begin
+with shorter steps.  Both sides together also show a kink, where no derivative exists.
 """
 
 from __future__ import annotations
@@ -33,17 +34,24 @@ class Slope:
         more, of the same shape.
     kink : where the derivatives from both sides differ, of the same shape.
     relative : the largest error as a fraction of the largest derivative, beyond round-off; zero where all is round-off.
+    noise : what round-off can do to it.
     """
 
     value: Array
     error: Array
     kink: NDArray[np.bool_]
     relative: float
+    noise: float
 
     @property
     def rank(self) -> tuple[bool, float]:
         """Whether there is a kink, and the largest error; the least is best."""
         return bool(self.kink.any()), float(self.error.max(initial=0.0))
+
+    @property
+    def good(self) -> bool:
+        """Whether shorter steps are not worth a trial."""
+        return self.rank <= (False, max(self.noise, _GOOD * float(np.abs(self.value).max(initial=0.0))))
 
 
 def halved(step: float) -> tuple[float, ...]:
@@ -74,8 +82,7 @@ def slope(values: Callable[[float], Array], floor: float, round_off: float = 0.0
             best = found
         elif not best.kink.any():
             break  # round-off grows
-        noise = _deviation(round_off, LARGEST / _SHORTER**trial)
-        if best.rank <= (False, max(noise, _GOOD * float(np.abs(best.value).max(initial=0.0)))):
+        if best.good:
             break
     if best is None:
         assert first is not None  # every trial ended in one
@@ -84,37 +91,53 @@ def slope(values: Callable[[float], Array], floor: float, round_off: float = 0.0
 
 
 def _tried(values: Callable[[float], Array], step: float, floor: float, round_off: float) -> Slope:
+    """The derivative by a step and its halves, with one more half where that is better."""
     middle = np.asarray(values(0.0), dtype=np.float64)
     steps = halved(step)
     ahead, behind = ([np.asarray(values(sign * h)) for h in steps] for sign in (1.0, -1.0))
+    found = _slope(middle, ahead, behind, steps, floor, round_off)
+    if found.good or found.kink.any():
+        return found
+    steps = (*steps, steps[-1] / 2)
+    ahead.append(np.asarray(values(steps[-1])))
+    behind.append(np.asarray(values(-steps[-1])))
+    longer = _slope(middle, ahead, behind, steps, floor, round_off)
+    return longer if longer.rank < found.rank else found
+
+
+def _slope(
+    middle: Array,
+    ahead: Sequence[Array],
+    behind: Sequence[Array],
+    steps: Sequence[float],
+    floor: float,
+    round_off: float,
+) -> Slope:
+    """The derivative from values at zero and after steps to both sides."""
     value, error = extrapolated(ahead, behind, steps)
     jump = [(a + b - 2 * middle) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
     for power in (1, 3):
         jump = _eliminated(jump, 2**power)
-    size, noise = float(np.abs(value).max(initial=0.0)), 8 * floor / steps[-1]
-    beyond = float(error.max(initial=0.0)) - noise
-    kink = np.abs(jump[-1]) > _KINK * size + noise
-    error = np.maximum(error, _deviation(round_off, step))
-    return Slope(value, error, kink, beyond / size if beyond > 0 else 0.0)
+    size, rounded = float(np.abs(value).max(initial=0.0)), 8 * floor / steps[-1]
+    beyond = float(error.max(initial=0.0)) - rounded
+    kink = np.abs(jump[-1]) > _KINK * size + rounded
+    noise = 3 * round_off / steps[-1]  # of three standard deviations; the shortest step has nearly all
+    return Slope(value, np.maximum(error, noise), kink, beyond / size if beyond > 0 else 0.0, noise)
 
 
 def extrapolated(
     ahead: Sequence[Array], behind: Sequence[Array], steps: Sequence[float]
 ) -> tuple[Array, Array]:
-    """A derivative from values after steps to both sides, each `halved`, and the change by the last extrapolation.
+    """A derivative from values after steps to both sides, and the change by the last extrapolation.
 
-    The change is that from the entry with the shortest steps, which round-off alone can make small by chance.
+    steps : each half of the one before.  The change is that from the entry with the shortest steps, which round-off
+    alone can make small by chance.
     """
     table = [(a - b) / (2 * h) for a, b, h in zip(ahead, behind, steps, strict=True)]
     before = table
-    for order in range(1, _LEVELS):
+    for order in range(1, len(steps)):
         before, table = table, _eliminated(table, 4**order)
     return table[-1], np.abs(table[-1] - before[-1])
-
-
-def _deviation(round_off: float, step: float) -> float:
-    """Three standard deviations of an extrapolated derivative, of which the shortest step has nearly all."""
-    return 3 * round_off / halved(step)[-1]
 
 
 def _eliminated(table: list[Array], ratio: float) -> list[Array]:

@@ -177,6 +177,19 @@ def test_a_slope_knows_its_error_and_its_kinks():
     assert bent.kink.tolist() == [True, False]
 
 
+def test_a_slope_halves_once_more_before_it_takes_much_shorter_steps():
+    """Those would cost more values, and more round-off: it grows as the shortest step shrinks."""
+    steps = []
+
+    def values(step):
+        steps.append(step)
+        return np.array([np.exp(15 * step)])
+
+    assert slope(values, 1e-16).value == pytest.approx([15.0], rel=1e-11)
+    assert len(steps) == 9
+    assert min(abs(step) for step in steps if step) == 2.0**-8
+
+
 def test_a_study_stores_derivatives_of_its_members():
     of = {"tip": "u.E2 at last", "bent": "max |kappa|", "mass": "total_mass.E3"}
     vary = {"rod.material.young": [1e9, 2e9], "forces.0.force": [0.0, 3.0]}
