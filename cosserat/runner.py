@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import functools
-import sys
-import warnings
-from collections.abc import Iterator
+from collections.abc import Set
 from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
-from threadpoolctl import ThreadpoolController
 
 from cosserat.arguments import FUNCTION, taking
 from cosserat.cases.catalogue import Case, case_given
@@ -34,6 +30,7 @@ from cosserat.progress import bar
 from cosserat.solution import Solution
 from cosserat.solvers.heartbeat import listening
 from cosserat.text import LONGEST_NAME, LONGEST_TITLE
+from cosserat.threads import solving
 
 
 @taking(progress=FUNCTION, limits=LIMITS)
@@ -74,8 +71,7 @@ def run(
     shown = bar(known.name) if progress is None else contextlib.nullcontext(progress)
     with (
         contextlib.nullcontext() if path is None else only_writer(path),
-        _one_thread(len(sys.modules)).limit(limits=1),  # more threads change the last digits
-        _numerical_warnings() as caught,
+        solving() as warned,
     ):
         try:
             with shown as report:
@@ -89,32 +85,14 @@ def run(
                 error.dataset = to_dataset(known, error.reached)
             raise
         dataset = to_dataset(known, solution)
-    return _with_warnings(dataset, caught)
+    return _with_warnings(dataset, warned)
 
 
-@functools.lru_cache(maxsize=1)
-def _one_thread(modules: int) -> ThreadpoolController:
-    """The libraries of linear algebra in this process.
-
-    modules : how many are loaded; more may bring another library.
-    """
-    return ThreadpoolController()
-
-
-@contextlib.contextmanager
-def _numerical_warnings() -> Iterator[list[warnings.WarningMessage]]:
-    """Collect warnings of NumPy, SciPy and Numba, which name lines of code and no key of a case."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("default")
-        yield caught
-
-
-def _with_warnings(dataset: xr.Dataset, caught: list[warnings.WarningMessage]) -> xr.Dataset:
+def _with_warnings(dataset: xr.Dataset, warned: Set[str]) -> xr.Dataset:
     """A Dataset with a sentence about the numerical warnings of its solution."""
-    if not caught:
+    if not warned:
         return dataset
-    said = ", ".join(sorted({str(warning.message).splitlines()[0] for warning in caught}))
-    sentence = f"numerics: {said} in the solution; check the sizes of the values of the case"
+    sentence = f"numerics: {', '.join(sorted(warned))} in the solution; check the sizes of the values of the case"
     return stamped(dataset.assign_attrs(warnings="\n".join([*warnings_of(dataset), sentence])))
 
 

@@ -17,6 +17,7 @@ from cosserat.data.writable import check_writable
 from cosserat.errors import ChangedResultWarning, InputError, path_of
 from cosserat.signals import uninterrupted
 from cosserat.text import printable, shown
+from cosserat.threads import FILES
 
 _FRAME = "frame"
 """Dimension of instants in a file, with `time` along it.  Tools of CF take a dimension named `time` for dates; here
@@ -54,7 +55,7 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
     }
     with whole_or_absent(path, dataset.nbytes) as temporary:
         try:
-            with uninterrupted():
+            with FILES, uninterrupted():
                 written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
         except RuntimeError:  # of HDF5, which does not say why
             raise OSError(_UNKNOWN) from None
@@ -85,14 +86,9 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
         raise InputError(
             f"{path} has no digest, so cosserat did not write it or it was changed; run its case again"
         )
-    check_readable(path)
-    try:
-        with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
-            read = dataset.load()
-    except Exception as error:  # xarray and HDF5 may say anything about what is in it
-        raise InputError(
-            f"cannot read {path} as a result ({printable(error)}); run its case again"
-        ) from None
+    with FILES:
+        check_readable(path)
+        read = _read(path)
     _check_format(read, path)
     if not intact:
         warnings.warn(
@@ -104,6 +100,22 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
         read = read.swap_dims({_FRAME: "time"})
     read.encoding |= {"source": str(path), INTACT: intact}
     return read
+
+
+def _read(path: Path) -> xr.Dataset:
+    """What is in a file.
+
+    Raises
+    ------
+    InputError : xarray or HDF5 cannot read it.
+    """
+    try:
+        with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
+            return dataset.load()
+    except Exception as error:  # they may say anything about what is in it
+        raise InputError(
+            f"cannot read {path} as a result ({printable(error)}); run its case again"
+        ) from None
 
 
 def check_replaceable(path: Path) -> None:

@@ -20,6 +20,7 @@ _COMPUTING = (
     "quantities.py",
     "solution.py",
     "text.py",
+    "threads.py",
     "units.py",
     "parameters.py",
     "synonyms.py",

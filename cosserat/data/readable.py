@@ -12,7 +12,6 @@ import os
 import selectors
 import subprocess
 import sys
-import threading
 from contextlib import suppress
 from pathlib import Path
 
@@ -29,7 +28,7 @@ _WITHOUT = sys.platform == "emscripten"
 
 
 def check_readable(path: Path) -> None:
-    """Raise InputError if a file cannot be read with limited time and memory."""
+    """Raise InputError if a file cannot be read with limited time and memory; one thread at a time may ask."""
     if _WITHOUT:
         return
     size = path.stat().st_size
@@ -51,32 +50,40 @@ class _Reader:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[str] | None = None
-        self._owner = 0  # a process that was forked from this one starts its own
-        self._one = threading.Lock()
 
     def answer(self, path: Path, memory: int, seconds: float) -> str:
-        """What it says of a file; nothing if it did not survive it.
+        """What it says of a file; nothing if the file ended it twice, since once may be somebody's kill.
 
         Raises
         ------
         TimeoutError : there is no answer in time.
         """
-        with self._one:
-            try:
-                process = self._started()
-                return _asked(process, [str(path.absolute()), memory, seconds], seconds)
-            except BaseException:  # also of a signal: the next answer would be that of this file
+        request = [str(path.absolute()), memory, seconds]
+        try:
+            for _ in range(2):
+                if said := _asked(self._started(), request, seconds):
+                    return said
                 self.end()
-                raise
+        except BaseException:  # also of a signal: the next answer would be that of this file
+            self.end()
+            raise
+        return ""
 
     def end(self) -> None:
         """End the process."""
         process, self._process = self._process, None
-        if process is None or self._owner != os.getpid():
-            return
-        process.kill()
-        with suppress(OSError), process:
-            pass
+        if process is not None:
+            process.kill()
+            with suppress(OSError), process:
+                pass
+
+    def forget(self) -> None:
+        """Leave it to the process from which this one was forked."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.returncode = 0  # as far as this one may know
+            with suppress(OSError), process:
+                pass
 
     def _started(self) -> subprocess.Popen[str]:
         """The process, ready for a file.
@@ -85,21 +92,25 @@ class _Reader:
         ------
         InputError : it does not start.
         """
-        if self._process is not None and self._owner == os.getpid() and self._process.poll() is None:
+        if self._process is not None and self._process.poll() is None:
             return self._process
         self.end()
-        command = [sys.executable, str(_PROGRAM)]
+        command = [
+            sys.executable or "python3",
+            "-P",
+            str(_PROGRAM),
+        ]  # -P: nothing beside it is a library
         pipe, away = subprocess.PIPE, subprocess.DEVNULL
         try:
             process = subprocess.Popen(
                 command, stdin=pipe, stdout=pipe, stderr=away, text=True, start_new_session=True
             )
-            self._process, self._owner = process, os.getpid()
+            self._process = process
             ready = _line(process, _START) == "ready"
         except OSError as error:
             raise InputError(_no_start(str(error.strerror or error))) from None
         if not ready:
-            raise InputError(_no_start("it ended at once, perhaps for want of memory"))
+            raise InputError(_no_start(f"{command[0]} ended at once: it lacks memory, or netCDF4"))
         return process
 
 
@@ -129,3 +140,5 @@ def _line(process: subprocess.Popen[str], seconds: float) -> str:
 
 _reader = _Reader()
 atexit.register(_reader.end)
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_reader.forget)

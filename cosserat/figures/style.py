@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from cosserat.data.files import whole_or_absent
 from cosserat.text import printable
+from cosserat.threads import DRAWING
 
 Array = NDArray[np.float64]
 
@@ -61,7 +62,7 @@ _SETTINGS: Any = {
 @contextlib.contextmanager
 def settings() -> Iterator[None]:
     """The settings of matplotlib for a figure; of letters that its font lacks it does not warn."""
-    with mpl.rc_context(_SETTINGS), warnings.catch_warnings():
+    with DRAWING, mpl.rc_context(_SETTINGS), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph|Matplotlib currently does not support", UserWarning)
         yield
 

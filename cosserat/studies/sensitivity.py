@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from threadpoolctl import threadpool_limits
 
 from cosserat.arguments import TEXTS, taking
 from cosserat.cases.catalogue import Case, case_given
@@ -21,6 +19,7 @@ from cosserat.errors import InputError
 from cosserat.studies.answer import cf_unit, derivative_unit
 from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, parameter
 from cosserat.studies.readouts import ReadOut, read_outs_by_name
+from cosserat.threads import solving
 
 
 @taking(keys=TEXTS)
@@ -58,8 +57,7 @@ def sensitivity(case: Case | str, keys: Sequence[str] | str, of: Mapping[str, st
             raise InputError(f"{name}: the key '{path}' is given {times} times; give it once")
     parameters = [parameter(base.problem, path, name) for path in paths]
     read_outs = read_outs_by_name(of, name)
-    with warnings.catch_warnings(), threadpool_limits(1):
-        warnings.simplefilter("ignore")
+    with solving():
         found = derivatives(base.problem, parameters, read_outs, name)
     for sentence in found.missing.values():
         raise InputError(sentence)

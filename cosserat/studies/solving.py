@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import (
@@ -29,6 +29,7 @@ from cosserat.solution import Field, FieldRates, Many, Solution
 from cosserat.studies.family import Task, derivative_name
 from cosserat.studies.keys import put, table_of
 from cosserat.text import printable
+from cosserat.threads import solving
 
 if TYPE_CHECKING:
     from cosserat.rods.problem import RodProblem
@@ -122,8 +123,7 @@ def solve_members(
     A member without an answer keeps its status and the reason.  threads : for members that compiled loops can solve.
     """
     found = Solved.nothing(task, task.size)
-    with warnings.catch_warnings(), threadpool_limits(1):
-        warnings.simplefilter("ignore")
+    with solving():
         left = _solve_together(task, found, progress, threads)
         table = table_of(task.base.problem, task.keys)
         lost = 0
@@ -149,8 +149,9 @@ def _solve_together(
     parts = [every[begin : begin + _CHUNK] for begin in range(0, task.size, _CHUNK)]
     left = []
     with ThreadPoolExecutor(threads) as pool:
-        solving = [pool.submit(_solve_part, task, problem, names, part) for part in parts]
-        for part, future in zip(parts, solving, strict=True):
+        solve = partial(_solve_part, task, problem, names)
+        begun = [pool.submit(copy_context().run, solve, part) for part in parts]
+        for part, future in zip(parts, begun, strict=True):
             many = future.result()
             if many is None:
                 pool.shutdown(cancel_futures=True)

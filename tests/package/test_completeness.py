@@ -32,6 +32,7 @@ ROOMS = (
     "errors",
     "arguments",
     "signals",
+    "threads",
     "memory",
     "surroundings",
     "reading",

@@ -105,6 +105,22 @@ def test_files_are_tried_in_a_process_that_is_replaced_after_it_died(stored, sol
     xr.testing.assert_identical(cosserat.load(stored), solved["necking"])
 
 
+def test_a_kill_of_the_trying_process_accuses_no_file(stored, solved, monkeypatch, tmp_path):
+    """It is asked once more, of a new process."""
+    (tmp_path / "probe.py").write_text(
+        "from pathlib import Path\n"
+        "killed = Path(__file__).with_name('killed')\n"
+        "print('ready', flush=True); input()\n"
+        "if killed.exists(): print('read', flush=True); input()\n"
+        "killed.touch()\n"
+    )
+    monkeypatch.setattr(readable, "_reader", reader := readable._Reader())
+    monkeypatch.setattr(readable, "_PROGRAM", tmp_path / "probe.py")
+    xr.testing.assert_identical(cosserat.load(stored), solved["necking"])
+    assert (tmp_path / "killed").exists()
+    reader.end()
+
+
 def test_a_file_that_the_trying_process_does_not_survive_is_refused(stored, monkeypatch, tmp_path):
     (tmp_path / "probe.py").write_text("print('ready', flush=True); input()")
     monkeypatch.setattr(readable, "_reader", reader := readable._Reader())
@@ -113,7 +129,7 @@ def test_a_file_that_the_trying_process_does_not_survive_is_refused(stored, monk
         cosserat.load(stored)
     (tmp_path / "probe.py").write_text("")
     reader.end()
-    with pytest.raises(InputError, match=r"cannot start the process that tries .*it ended at once"):
+    with pytest.raises(InputError, match=r"cannot start the process that tries .*python.* ended at once"):
         cosserat.load(stored)
 
 

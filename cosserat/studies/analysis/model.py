@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from cosserat.cases.catalogue import Case
 from cosserat.errors import InputError
@@ -16,6 +14,7 @@ from cosserat.studies.derivatives import Derivatives, Parameter, derivatives, pa
 from cosserat.studies.keys import case_with, read_value, table_of
 from cosserat.studies.readouts import ReadOut
 from cosserat.text import shown
+from cosserat.threads import solving
 
 Array = NDArray[np.float64]
 Bounds = tuple[object, object] | Sequence[object] | None
@@ -118,6 +117,5 @@ class Model:
         """
         case = self.at(values, conditions)
         own = [parameter(case.problem, one.path, case.name) for one in self.free] if exact else []
-        with warnings.catch_warnings(), threadpool_limits(1):
-            warnings.simplefilter("ignore")
+        with solving():
             return derivatives(case.problem, own, self.read_outs, f"case '{case.name}'")
