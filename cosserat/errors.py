@@ -18,6 +18,13 @@ if TYPE_CHECKING:
 class CosseratError(Exception):
     """Base of every error the package raises on purpose; the command line prints it without a traceback."""
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """For other processes, without what belongs to the solver of this one."""
+        known = {
+            name: value for name, value in self.__dict__.items() if name not in ("state", "reached")
+        }
+        return type(self), self.args, known
+
 
 class InputError(CosseratError):
     """A case, a file or an argument is invalid."""

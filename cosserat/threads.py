@@ -1,7 +1,7 @@
 """What the threads of a program share: libraries that know one thread only, and settings of the whole process.
 
-HDF5 and Matplotlib end the process or draw something else if two threads call them at once: threads wait for one
-another.  Solvers run side by side; what they set for the process stays until the last of them has ended.
+HDF5, Matplotlib and pint end the process, draw something else or know no unit if two threads call them at once: threads
+wait for one another.  Solvers run side by side; what they set for the process stays until the last of them has ended.
 """
 
 from __future__ import annotations
@@ -56,6 +56,8 @@ class _Settings:
 # A fork takes the last of these locks first, as threads do that need two of them.
 FILES = one_at_a_time()
 """Whoever calls HDF5 holds it."""
+UNITS = one_at_a_time()
+"""Whoever calls pint holds it."""
 _settings = _Settings()
 DRAWING = one_at_a_time()
 """Whoever calls Matplotlib holds it."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic_core import PydanticCustomError
 
 from cosserat.text import shortened, shown
+from cosserat.threads import UNITS
 
 if TYPE_CHECKING:
     import pint
@@ -97,12 +98,15 @@ def _units() -> pint.UnitRegistry[float]:
 def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     """Read one value as a number in the SI unit `unit`: a number, or a text such as "2.5 mm", "1e3 kg/m" or "5/6".
 
+    An array without dimensions is its number, in the unit that it carries, as results of xarray do.
     `cosserat.quantities.Quantity` also checks its range.
 
     Raises
     ------
     PydanticCustomError : not a number, not finite, or of another dimension than `unit`.
     """
+    if getattr(value, "ndim", None) == 0:
+        value = _out_of_array(value)
     if isinstance(value, str):
         number = _read_text(value, unit)
     elif isinstance(value, bool) or not isinstance(value, numbers.Real | decimal.Decimal):
@@ -114,6 +118,12 @@ def to_si(value: object, unit: str, *, unit_required: bool) -> float:
     if not math.isfinite(number):
         raise PydanticCustomError("finite", f"is {shown(value)}; it must be a finite number")
     return number
+
+
+def _out_of_array(value: Any) -> object:
+    """The number of an array without dimensions; a text if it carries a unit."""
+    number, unit = value.item(), getattr(value, "attrs", {}).get("units", "1")
+    return number if unit == "1" else f"{number!r} {unit}"
 
 
 def _as_float(number: numbers.Real | decimal.Decimal) -> float:
@@ -182,7 +192,9 @@ def _times(number: str, factor: float) -> float:
 def _zero_and_one(written: str, unit: str) -> tuple[float, float]:
     """What 0 and 1 of a unit as written are in another unit."""
     given, wanted = _as_pint_writes(written), "" if unit == "1" else unit
-    zero, one = (float(_units().Quantity(value, given).to(wanted).magnitude) for value in (0.0, 1.0))
+    with UNITS:
+        made = _units().Quantity
+        zero, one = (float(made(value, given).to(wanted).magnitude) for value in (0.0, 1.0))
     return zero, one
 
 
@@ -236,7 +248,8 @@ def _as_pint_writes(unit: str) -> str:
 @functools.cache
 def _root(unit: Any) -> object:
     """A unit in pint's root units; the radian is one of them."""
-    return _units().Quantity(1.0, unit).to_root_units().units
+    with UNITS:
+        return _units().Quantity(1.0, unit).to_root_units().units
 
 
 def _instead(root: object, unit: str) -> str:

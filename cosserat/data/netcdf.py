@@ -96,8 +96,7 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
             ChangedResultWarning,
             stacklevel=2,
         )
-    if _FRAME in read.dims and "time" in read:
-        read = read.swap_dims({_FRAME: "time"})
+    read = _along_time(read)
     read.encoding |= {"source": str(path), INTACT: intact}
     return read
 
@@ -116,6 +115,12 @@ def _read(path: Path) -> xr.Dataset:
         raise InputError(
             f"cannot read {path} as a result ({printable(error)}); run its case again"
         ) from None
+
+
+def _along_time(dataset: xr.Dataset) -> xr.Dataset:
+    """A result with its instants along time, as in memory."""
+    instants = _FRAME in dataset.dims and "time" in dataset
+    return dataset.swap_dims({_FRAME: "time"}) if instants else dataset
 
 
 def check_replaceable(path: Path) -> None:
@@ -198,10 +203,10 @@ def _check_format(dataset: xr.Dataset, path: Path) -> None:
 
 
 def opened(result: xr.Dataset | str | Path) -> xr.Dataset:
-    """A result, given by itself or by the name of its file.
+    """A result, given by itself or by the name of its file; also one that xarray opened.
 
     Raises
     ------
     InputError : the file is missing or cannot be read as netCDF.
     """
-    return result if isinstance(result, xr.Dataset) else load(result)
+    return _along_time(result) if isinstance(result, xr.Dataset) else load(result)

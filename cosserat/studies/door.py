@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from cosserat.arguments import FUNCTION, taking
@@ -172,13 +173,13 @@ def _text(value: object, what: str, such: str) -> str:
 def plain(value: object, where: str, depth: int = 0) -> object:
     """A value as a case file may have it: tables, lists, texts, numbers and truth values of Python alone.
 
-    Arrays of NumPy and of xarray become lists, and their items plain numbers; where : it stands, in errors.
+    Arrays of NumPy, xarray and pandas become lists, and their items plain numbers; where : it stands, in errors.
 
     Raises
     ------
     InputError : it is something else, or too long or deep.
     """
-    if isinstance(value, xr.DataArray | xr.Variable):
+    if isinstance(value, xr.DataArray | xr.Variable | pd.Series | pd.Index):
         value = value.to_numpy()
     if isinstance(value, np.generic | np.ndarray):
         if value.size > MOST_MEMBERS:

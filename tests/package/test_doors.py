@@ -265,3 +265,12 @@ def test_progress_grows_to_one(kind):
     assert told == sorted(told)
     assert told[0] < 1
     assert told[-1] == 1
+
+
+def test_a_result_that_xarray_opened_is_drawn_and_tabled_like_one_that_cosserat_loaded(solved, tmp_path):
+    cosserat.save(solved["worm"], tmp_path / "worm.nc")
+    with xr.open_dataset(tmp_path / "worm.nc") as opened:
+        cosserat.plot(opened, tmp_path / "opened.svg")
+        assert cosserat.to_dataframe(opened).equals(cosserat.to_dataframe(tmp_path / "worm.nc"))
+    cosserat.plot(tmp_path / "worm.nc", tmp_path / "loaded.svg")
+    assert (tmp_path / "opened.svg").read_bytes() == (tmp_path / "loaded.svg").read_bytes()

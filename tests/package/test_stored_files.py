@@ -129,7 +129,9 @@ def test_a_file_that_the_trying_process_does_not_survive_is_refused(stored, monk
         cosserat.load(stored)
     (tmp_path / "probe.py").write_text("")
     reader.end()
-    with pytest.raises(InputError, match=r"cannot start the process that tries .*python.* ended at once"):
+    with pytest.raises(
+        InputError, match=r"cannot start the process that tries .*python.* ended at once"
+    ):
         cosserat.load(stored)
 
 

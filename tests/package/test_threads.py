@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -10,12 +11,13 @@ import time
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
 from threadpoolctl import threadpool_info
 
 import cosserat
 from cosserat.threads import FILES, solving
 
-PROGRAM = """
+READ_AND_WRITE = """
 import os, sys, threading
 import cosserat
 
@@ -49,6 +51,40 @@ print(len(faults), faults[:1])
 """
 
 
+FIRST_USE = """
+import threading
+import cosserat
+
+names = ["elastica", "clamped_free", "worm", "vibration_consistent"]
+together, found, faults = threading.Barrier(8), [], []
+
+
+def go(number):
+    together.wait(10)
+    try:
+        found.append(cosserat.case(names[number % 4]).name)
+        cosserat.run("elastica")
+    except Exception as error:
+        faults.append(error)
+
+
+threads = [threading.Thread(target=go, args=(number,)) for number in range(8)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+print(len(found), faults[:1])
+"""
+
+
+def printed(program, *arguments):
+    """What a program of its own prints; without an error and without a word besides."""
+    command = [sys.executable, "-c", program, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
 def together(*functions):
     with ThreadPoolExecutor(len(functions)) as pool:
         return [future.result() for future in [pool.submit(function) for function in functions]]
@@ -56,11 +92,14 @@ def together(*functions):
 
 def test_threads_and_forks_read_and_write_files_at_once(tmp_path):
     """In a program of its own: HDF5 ends a program in which two threads call it."""
-    command = [sys.executable, "-c", PROGRAM, str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "0 []\n", "")
+    assert printed(READ_AND_WRITE, tmp_path) == "0 []\n"
     digests = {hashlib.sha256(path.read_bytes()).hexdigest() for path in tmp_path.glob("*.nc")}
     assert len(digests) == 1
+
+
+def test_threads_that_begin_together_read_units():
+    """The first of them loads pint, which the others have to wait for."""
+    assert printed(FIRST_USE) == "8 []\n"
 
 
 def test_threads_draw_the_pictures_that_one_draws(tmp_path):
@@ -159,3 +198,16 @@ def test_a_fork_has_a_reader_of_its_own(tmp_path):
     for _ in range(10):
         cosserat.load(tmp_path / "result.nc")
     assert [os.waitpid(child, 0)[1] for child in children] == [0, 0, 0]
+
+
+def test_errors_results_and_cases_go_to_other_processes():
+    case = cosserat.case("elastica").vary("stopped", newton={"max_iterations": 1})
+    assert pickle.loads(pickle.dumps(case)) == case
+    with pytest.raises(cosserat.NotConvergedError) as stopped:
+        cosserat.run(case)
+    arrived = pickle.loads(pickle.dumps(stopped.value))
+    assert isinstance(arrived, cosserat.NotConvergedError)
+    assert str(arrived) == str(stopped.value)
+    assert arrived.residual == stopped.value.residual
+    assert arrived.dataset.identical(stopped.value.dataset)
+    assert arrived.reached is None

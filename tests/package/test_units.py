@@ -4,7 +4,9 @@ import contextlib
 import math
 from decimal import Decimal
 
+import numpy as np
 import pytest
+import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic_core import PydanticCustomError
@@ -170,3 +172,23 @@ def test_a_decimal_number_in_a_decimal_unit_is_the_nearest_float(written, unit, 
     for number in (*range(1, 300), 0.1, 0.7, 2.4, 7.3, 1.27, 12.345678901234567, 1e-5, 8.1e7):
         found = to_si(f"{number} {written}", unit, unit_required=True)
         assert found == float(f"{Decimal(repr(number)):f}e{power}"), number
+
+
+def test_an_array_without_dimensions_is_its_number_in_the_unit_that_it_carries():
+    """As a value that somebody takes from a result."""
+    length = xr.DataArray(np.array([0.4, 0.5]), dims="vertex", attrs={"units": "m"})
+    for value, read in (
+        (length[1], 0.5),
+        (length[1].assign_attrs(units="mm"), 0.5e-3),
+        (length[1].assign_attrs(units="1"), 0.5),
+        (length[1].drop_attrs(), 0.5),
+        (np.array(0.5), 0.5),
+        (np.array("5 mm"), 5e-3),
+        (np.float32(0.5), 0.5),
+    ):
+        assert to_si(value, "m", unit_required=False) == read
+    refused = ((length[1].assign_attrs(units="kg"), "a mass and not a length"), (length, "not a number"),
+               (np.array(True), "is True, not a number"), (np.array(None), "not a number"))  # fmt: skip
+    for value, said in refused:
+        with pytest.raises(PydanticCustomError, match=said):
+            to_si(value, "m", unit_required=False)

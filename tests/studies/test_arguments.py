@@ -1,6 +1,7 @@
 """Arguments of another kind than the analyses take: each is one sentence, and arrays are lists."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import cosserat
@@ -206,3 +207,12 @@ def test_a_part_of_all_places_does_not_hide_that_meshes_differ():
 def test_arguments_of_runs_and_pictures(call, said):
     with pytest.raises(InputError, match=said):
         call()
+
+
+def test_series_and_tables_of_pandas_are_lists():
+    by_list = cosserat.study(bar(), {"rod.length": [0.5, 1.0]}, OF)
+    by_series = cosserat.study(bar(), {"rod.length": pd.Series([0.5, 1.0], index=[7, 9])}, OF)
+    assert by_series.identical(by_list)
+    assert cosserat.fit(bar(), pd.DataFrame(DATA), YOUNG, OF).identical(
+        cosserat.fit(bar(), DATA, YOUNG, OF)
+    )

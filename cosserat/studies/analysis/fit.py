@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
@@ -41,7 +42,7 @@ _APART = 1e15  # how far a deviation may be from the size of the measured values
 @taking(data=COLUMNS, free=KEYS, deviations=TABLE)
 def fit(
     case: Case | str,
-    data: str | Path | Columns,
+    data: str | Path | Columns | pd.DataFrame,
     free: Mapping[str, Bounds] | Sequence[str],
     of: Mapping[str, str],
     *,
@@ -51,7 +52,7 @@ def fit(
 
     data : name of a CSV file, each row one experiment.  Its header names with their units the keys that differ from row
         to row, "forces.0.force [N]", the read-outs that were measured, "tip [mm]", and with "tip_deviation [mm]" their
-        standard deviations.  Empty cells were not measured.  Or columns by name, with numbers in SI units.
+        standard deviations.  Empty cells were not measured.  Or columns by name, also of a DataFrame, in SI units.
     free : the keys that are sought, with their ranges: {"rod.material.young": ("1 GPa", "5 GPa")}, or without: a list.
         The search begins at their values in the case.
     of : the read-outs by name, {"tip": "u.E2 at last"}.

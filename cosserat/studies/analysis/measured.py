@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
 
@@ -49,7 +50,7 @@ class Measured:
 
 
 def measured(
-    data: str | Path | Columns,
+    data: str | Path | Columns | pd.DataFrame,
     problem: Problem,
     read_outs: Sequence[ReadOut],
     deviations: Mapping[str, object],
@@ -63,6 +64,8 @@ def measured(
     ------
     InputError : a column or a value is not valid.
     """
+    if isinstance(data, pd.DataFrame):
+        data = {str(title): column.to_list() for title, column in data.items()}
     if isinstance(data, Mapping):
         titles, units = list(map(str, data)), [""] * len(data)
         columns, where = [list(column) for column in data.values()], name
