@@ -43,6 +43,23 @@ def check_destination(path: Path, *suffixes: str, inputs: Sequence[Path] = ()) -
         written = " or ".join(suffix[1:] for suffix in suffixes)
         ends = " or ".join(f"'{suffix}'" for suffix in suffixes)
         raise InputError(f"{path} would be written as {written}; let its name end in {ends}")
+    if path.suffix == ".nc":
+        netcdf_path(path)
+
+
+def netcdf_path(path: Path) -> Path:
+    """The path for netCDF, to which a backslash is a slash, and for xarray, to which a first "~" is a home.
+
+    Raises
+    ------
+    InputError : it would be the path of another file.
+    """
+    whole = path.absolute()
+    if os.sep == "/" and "\\" in str(whole):
+        raise InputError(
+            f"{path} has a backslash, which netCDF takes for a slash; take a name without it"
+        )
+    return whole
 
 
 @contextlib.contextmanager

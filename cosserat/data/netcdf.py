@@ -11,7 +11,7 @@ import xarray as xr
 from cosserat.data.content import is_as_computed
 from cosserat.data.dataset import FORMAT, INTACT, version_of
 from cosserat.data.digest import DamagedError, digest_of, is_marked, seal
-from cosserat.data.files import check_destination, whole_or_absent
+from cosserat.data.files import check_destination, netcdf_path, whole_or_absent
 from cosserat.data.readable import check_readable
 from cosserat.data.writable import check_writable
 from cosserat.errors import ChangedResultWarning, InputError, path_of
@@ -23,6 +23,7 @@ _FRAME = "frame"
 """Dimension of instants in a file, with `time` along it.  Tools of CF take a dimension named `time` for dates; here
 times are plain seconds from the start."""
 _UNKNOWN = "the netCDF library failed, perhaps for want of memory"
+_TRIALS = 5  # to read a file that somebody replaces meanwhile
 _SHORT = 150  # characters of an error of the library in a sentence
 
 
@@ -56,7 +57,9 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
     with whole_or_absent(path, dataset.nbytes) as temporary:
         try:
             with FILES, uninterrupted():
-                written.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+                written.to_netcdf(
+                    netcdf_path(temporary), engine="netcdf4", format="NETCDF4", encoding=encoding
+                )
         except RuntimeError:  # of HDF5, which does not say why
             raise OSError(_UNKNOWN) from None
         except (TypeError, ValueError, AttributeError, KeyError) as error:
@@ -81,14 +84,22 @@ def load(path: str | Path, *, own: bool = False) -> xr.Dataset:
     InputError : the file is missing, damaged, or no result of this version of cosserat.
     """
     path = existing(path)
-    intact = stored_digest(path) is not None
-    if not intact and own:
+    for _ in range(_TRIALS):
+        before = _state(path)
+        intact = stored_digest(path) is not None
+        if not intact and own:
+            raise InputError(
+                f"{path} has no digest, so cosserat did not write it or it was changed; run its case again"
+            )
+        with FILES:
+            check_readable(path)
+            read = _read(path)
+        if _state(path) == before:
+            break
+    else:
         raise InputError(
-            f"{path} has no digest, so cosserat did not write it or it was changed; run its case again"
+            f"{path} is replaced again and again while it is read; wait until its run has ended"
         )
-    with FILES:
-        check_readable(path)
-        read = _read(path)
     _check_format(read, path)
     if not intact:
         warnings.warn(
@@ -109,12 +120,26 @@ def _read(path: Path) -> xr.Dataset:
     InputError : xarray or HDF5 cannot read it.
     """
     try:
-        with uninterrupted(), xr.open_dataset(path, engine="netcdf4") as dataset:
+        with uninterrupted(), xr.open_dataset(netcdf_path(path), engine="netcdf4") as dataset:
             return dataset.load()
     except Exception as error:  # they may say anything about what is in it
         raise InputError(
             f"cannot read {path} as a result ({printable(error)}); run its case again"
         ) from None
+
+
+def _state(path: Path) -> tuple[int, ...]:
+    """What changes when a file is replaced or written to.
+
+    Raises
+    ------
+    InputError : it is gone.
+    """
+    try:
+        now = path.stat()
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror or error}; run its case again") from None
+    return now.st_dev, now.st_ino, now.st_size, now.st_mtime_ns
 
 
 def _along_time(dataset: xr.Dataset) -> xr.Dataset:
@@ -150,6 +175,7 @@ def existing(path: str | Path) -> Path:
         raise InputError(
             f"there is no file {path}; run the case first ('cosserat run CASE --output {path}')"
         )
+    netcdf_path(path)
     return path
 
 

@@ -1,5 +1,6 @@
-"""Reads netCDF files whole, one after another, in a process that can be stopped: `python probe.py`.
+"""Reads netCDF files whole, one after another, in a process that can be stopped: `python probe.py FOLDER...`.
 
+The folders are further ones in which libraries may be.
 Each line of its input is a list in JSON: the path of a file, the most memory [bytes] and the most CPU time [s].  The
 answer is a line, `read` or `failed`.  It ends with its input.  It imports nothing of cosserat.
 """
@@ -9,6 +10,7 @@ import json
 import resource
 import sys
 
+sys.path += sys.argv[1:]
 import netCDF4
 
 

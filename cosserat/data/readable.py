@@ -31,7 +31,10 @@ def check_readable(path: Path) -> None:
     """Raise InputError if a file cannot be read with limited time and memory; one thread at a time may ask."""
     if _WITHOUT:
         return
-    size = path.stat().st_size
+    try:
+        size = path.stat().st_size
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror or error}; run its case again") from None
     seconds = _TIME + size / _SPEED
     try:
         answer = _reader.answer(path, _MEMORY + _COPIES * size, seconds)
@@ -45,11 +48,33 @@ def check_readable(path: Path) -> None:
         )
 
 
+class _End:
+    """An end of a pipe, by its descriptor: a program may close all there are, and get its number for another file."""
+
+    def __init__(self, descriptor: int) -> None:
+        self.descriptor = descriptor
+        self._known = os.fstat(descriptor)
+
+    @property
+    def open(self) -> bool:
+        """Whether it is still this end."""
+        try:
+            return os.path.samestat(os.fstat(self.descriptor), self._known)
+        except OSError:
+            return False
+
+    def close(self) -> None:
+        """Close it, if it is."""
+        if self.open:
+            os.close(self.descriptor)
+
+
 class _Reader:
     """The process that tries files."""
 
     def __init__(self) -> None:
-        self._process: subprocess.Popen[str] | None = None
+        self._process: subprocess.Popen[bytes] | None = None
+        self._ends: tuple[_End, ...] = ()  # to write to, and to read from
 
     def answer(self, path: Path, memory: int, seconds: float) -> str:
         """What it says of a file; nothing if the file ended it twice, since once may be somebody's kill.
@@ -58,10 +83,11 @@ class _Reader:
         ------
         TimeoutError : there is no answer in time.
         """
-        request = [str(path.absolute()), memory, seconds]
+        request = json.dumps([str(path.absolute()), memory, seconds]) + "\n"
         try:
             for _ in range(2):
-                if said := _asked(self._started(), request, seconds):
+                self._start()
+                if said := self._asked(request.encode(), seconds):
                     return said
                 self.end()
         except BaseException:  # also of a signal: the next answer would be that of this file
@@ -71,71 +97,74 @@ class _Reader:
 
     def end(self) -> None:
         """End the process."""
-        process, self._process = self._process, None
-        if process is not None:
-            process.kill()
-            with suppress(OSError), process:
-                pass
+        if self._process is not None:
+            self._process.kill()
+            with suppress(OSError):
+                self._process.wait()
+        self.forget()
 
     def forget(self) -> None:
         """Leave it to the process from which this one was forked."""
         process, self._process = self._process, None
-        if process is not None:
+        if process is not None and process.returncode is None:
             process.returncode = 0  # as far as this one may know
-            with suppress(OSError), process:
-                pass
+        ends, self._ends = self._ends, ()
+        for one in ends:
+            one.close()
 
-    def _started(self) -> subprocess.Popen[str]:
-        """The process, ready for a file.
+    def _start(self) -> None:
+        """Have the process ready for a file.
 
         Raises
         ------
         InputError : it does not start.
         """
-        if self._process is not None and self._process.poll() is None:
-            return self._process
+        running = self._process is not None and self._process.poll() is None
+        if running and all(one.open for one in self._ends):
+            return
         self.end()
-        command = [
-            sys.executable or "python3",
-            "-P",
-            str(_PROGRAM),
-        ]  # -P: nothing beside it is a library
-        pipe, away = subprocess.PIPE, subprocess.DEVNULL
+        # -P: nothing beside the program is a library; what this process finds on its path, it finds too
+        command = [sys.executable or "python3", "-P", str(_PROGRAM), *map(str, sys.path)]
         try:
-            process = subprocess.Popen(
-                command, stdin=pipe, stdout=pipe, stderr=away, text=True, start_new_session=True
-            )
-            self._process = process
-            ready = _line(process, _START) == "ready"
+            heard, say = os.pipe()
+            hear, said = os.pipe()
+            self._ends = (_End(say), _End(hear))
+            try:
+                self._process = subprocess.Popen(
+                    command, stdin=heard, stdout=said, stderr=subprocess.DEVNULL, start_new_session=True
+                )
+            finally:
+                os.close(heard)
+                os.close(said)
+            ready = self._line(_START) == "ready"
         except OSError as error:
             raise InputError(_no_start(str(error.strerror or error))) from None
         if not ready:
             raise InputError(_no_start(f"{command[0]} ended at once: it lacks memory, or netCDF4"))
-        return process
+
+    def _asked(self, request: bytes, seconds: float) -> str:
+        try:
+            os.write(self._ends[0].descriptor, request)
+        except BrokenPipeError:
+            return ""
+        return self._line(seconds)
+
+    def _line(self, seconds: float) -> str:
+        """The next line that the process writes, without its end; nothing if the process has ended."""
+        line = b""
+        with selectors.DefaultSelector() as waiting:
+            waiting.register(self._ends[1].descriptor, selectors.EVENT_READ)
+            while not line.endswith(b"\n"):
+                if not waiting.select(seconds):
+                    raise TimeoutError(f"it said nothing for {seconds:.0f} s")
+                if not (more := os.read(self._ends[1].descriptor, 1000)):
+                    return ""
+                line += more
+        return line[:-1].decode()
 
 
 def _no_start(why: str) -> str:
     return f"cannot start the process that tries a file before it is read ({why}); end other programs and try again"
-
-
-def _asked(process: subprocess.Popen[str], request: list[object], seconds: float) -> str:
-    assert process.stdin is not None
-    try:
-        process.stdin.write(json.dumps(request) + "\n")
-        process.stdin.flush()
-    except BrokenPipeError:
-        return ""
-    return _line(process, seconds)
-
-
-def _line(process: subprocess.Popen[str], seconds: float) -> str:
-    """The next line that a process writes, without its end; nothing if the process has ended."""
-    assert process.stdout is not None
-    with selectors.DefaultSelector() as waiting:
-        waiting.register(process.stdout, selectors.EVENT_READ)
-        if not waiting.select(seconds):
-            raise TimeoutError(f"it said nothing for {seconds:.0f} s")
-    return process.stdout.readline().rstrip("\n")
 
 
 _reader = _Reader()

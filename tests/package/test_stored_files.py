@@ -1,5 +1,6 @@
 """Stored files: damage and changes are found before anything is read, and one writer has a result at a time."""
 
+import os
 import subprocess
 import sys
 import time
@@ -341,3 +342,82 @@ def test_a_dataset_that_its_user_changed_is_stored_without_a_digest(solved, tmp_
     cosserat.save(cosserat.load(tmp_path / "a.nc"), tmp_path / "b.nc")
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
     assert cosserat.load(tmp_path / "b.nc").identical(data)
+
+
+def test_a_file_that_is_replaced_while_it_is_read_is_read_again(stored, solved, monkeypatch):
+    """Its digest would be that of another file than its values."""
+    checks = []
+    edited = stored.with_name("edited.nc")
+    cosserat.save(solved["necking"].assign(x=2 * solved["necking"].x), edited)
+
+    def replaced(path):
+        checks.append(path)
+        if len(checks) == 1:
+            edited.replace(path)
+
+    monkeypatch.setattr(netcdf, "check_readable", replaced)
+    with pytest.warns(ChangedResultWarning):
+        assert not cosserat.load(stored).encoding["intact"]
+    assert len(checks) == 2
+
+    def always(path):
+        checks.append(path)
+        os.utime(path, ns=(0, len(checks)))
+
+    monkeypatch.setattr(netcdf, "check_readable", always)
+    with pytest.raises(InputError, match=r"necking\.nc is replaced again and again while it is read"):
+        cosserat.load(stored)
+    monkeypatch.setattr(netcdf, "check_readable", lambda path: path.unlink())
+    with pytest.raises(InputError, match=r"cannot read .*necking\.nc"):
+        cosserat.load(stored)
+
+
+def test_the_file_of_a_name_is_that_of_the_library(solved, tmp_path, monkeypatch):
+    """To netCDF a backslash is a slash, and to xarray a first "~" is the home."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    for folder in ("home", "~", "a"):
+        (tmp_path / folder).mkdir()
+    cosserat.save(solved["necking"], "~/x.nc")
+    assert [path.name for path in (tmp_path / "~").iterdir()] == ["x.nc"]
+    assert not list((tmp_path / "home").iterdir())
+    assert cosserat.load("~/x.nc").identical(solved["necking"])
+    (tmp_path / "~/x.nc").rename(tmp_path / "a/b.nc")
+    (tmp_path / "a\\b.nc").touch()
+    for call in (cosserat.load, lambda path: cosserat.save(solved["necking"], path)):
+        with pytest.raises(InputError, match="has a backslash, which netCDF takes for a slash"):
+            call("a\\b.nc")
+
+
+def test_a_program_that_extends_its_path_finds_netcdf_also_in_the_process_that_tries_files(
+    stored, tmp_path
+):
+    """As one that brings its packages along."""
+    folders = [str(ROOT), *(folder for folder in sys.path if folder.endswith("-packages"))]
+    program = f"import sys; sys.path[:0] = {folders}; import cosserat; "
+    program += f"print(cosserat.load({str(stored)!r}).attrs['case'])"
+    command = [sys._base_executable, "-I", "-S", "-c", program]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert done.stdout == "necking\n"
+
+
+CLOSES_ALL = """
+import os, sys
+import cosserat
+
+stored, folder = sys.argv[1:]
+cosserat.load(stored)
+os.closerange(3, 256)
+own = [open(f"{folder}/{number}.txt", "w") for number in range(8)]
+cosserat.load(stored)
+for file in own:
+    file.write("own")
+    file.close()
+"""
+
+
+def test_a_program_that_closed_all_descriptors_keeps_its_own_files(stored, tmp_path):
+    """They get the numbers of the pipes to the process that tries files, as in a daemon."""
+    command = [sys.executable, "-c", CLOSES_ALL, str(stored), str(tmp_path)]
+    subprocess.run(command, check=True, timeout=60)
+    assert [path.read_text() for path in tmp_path.glob("*.txt")] == ["own"] * 8
