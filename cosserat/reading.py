@@ -5,8 +5,11 @@ from __future__ import annotations
 import errno
 from pathlib import Path
 
+MOST_BYTES = 30_000_000
+"""Of a table that belongs to a publication; devices give bytes without end."""
 
-def read_text(file: Path, most: int) -> str:
+
+def read_text(file: Path, most: int = MOST_BYTES) -> str:
     """The text of a file of at most so many bytes, with the ends of lines and without the mark of other systems.
 
     Raises

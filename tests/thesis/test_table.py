@@ -5,6 +5,7 @@ import inspect
 import math
 import re
 import shutil
+from pathlib import Path
 
 import pytest
 from conftest import ROOT
@@ -12,8 +13,10 @@ from conftest import ROOT
 import cosserat
 from cosserat.errors import InputError, OutOfToleranceError
 from cosserat.studies.door import published_studies
+from cosserat.thesis.outputs.manifest import read as read_manifest
 from cosserat.thesis.table.arithmetic import ARITHMETIC
 from cosserat.thesis.table.errata import read_errata
+from cosserat.thesis.table.left_out import read_left_out
 from cosserat.thesis.table.measure import check, judge, measure, outcomes, sentence, summary
 from cosserat.thesis.table.readouts import READOUTS, midspan
 from cosserat.thesis.table.tolerances import (
@@ -404,3 +407,9 @@ def test_missing_tables_are_refused(tmp_path):
         read_report(tmp_path / "none.csv")
     with pytest.raises(InputError, match="cannot read the errata"):
         read_errata(tmp_path / "none.toml")
+
+
+@pytest.mark.parametrize("read", [read_table, read_report, read_errata, read_left_out, read_manifest])
+def test_a_device_that_gives_bytes_without_end_is_no_table(read):
+    with pytest.raises(InputError, match=r"/dev/zero"):
+        read(Path("/dev/zero"))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import io
 import math
 import re
 from collections.abc import Sequence
@@ -24,6 +25,7 @@ from cosserat.data.files import whole_or_absent
 from cosserat.data.netcdf import load
 from cosserat.data.variables import VARIABLES
 from cosserat.errors import InputError
+from cosserat.reading import read_text
 from cosserat.studies.door import published_studies
 from cosserat.thesis.figures.catalogue import FIGURES
 from cosserat.thesis.stored import STUDIES
@@ -197,8 +199,7 @@ def read(path: Path) -> list[Output]:
     InputError : there is none, or it is not a whole one.
     """
     try:
-        with path.open(encoding="utf-8", newline="") as file:
-            header, *lines = csv.reader(file, strict=True)
+        header, *lines = csv.reader(io.StringIO(read_text(path)), strict=True)
     except (OSError, UnicodeDecodeError, csv.Error, ValueError) as error:
         raise InputError(
             f"cannot read the manifest {path} ({error}); restore it, or make it with 'cosserat manifest'"

@@ -8,6 +8,7 @@ from typing import Literal
 
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters
+from cosserat.reading import read_text
 
 
 class Erratum(Parameters):
@@ -34,8 +35,8 @@ def read_errata(path: Path) -> dict[str, Erratum]:
     InputError : the file is missing or an entry is not valid.
     """
     try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
+        tables = tomllib.loads(read_text(path))
+    except (OSError, ValueError) as error:
         raise InputError(
             f"cannot read the errata {path}: {error}; restore it from the repository"
         ) from None

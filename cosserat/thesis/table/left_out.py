@@ -10,6 +10,7 @@ from pydantic import Field
 
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters
+from cosserat.reading import read_text
 
 KINDS = ("equations", "figures", "tables")
 
@@ -90,8 +91,8 @@ def read_left_out(path: Path) -> LeftOutList:
     InputError : the file is missing or not valid.
     """
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
+        table = tomllib.loads(read_text(path))
+    except (OSError, ValueError) as error:
         raise InputError(
             f"cannot read the list of omissions {path}: {error}; restore it from the repository"
         ) from None

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from pathlib import Path
 from typing import Annotated, Literal, Self
@@ -16,6 +17,7 @@ from pydantic_core import PydanticCustomError
 from cosserat.data.files import whole_or_absent
 from cosserat.errors import InputError
 from cosserat.parameters import Parameters, Quantity
+from cosserat.reading import read_text
 from cosserat.units import to_si
 
 Standing = Literal["reproduced", "erratum", "assumption", "recomputed", "not attempted"]
@@ -197,8 +199,7 @@ def read_table(path: Path) -> list[Row]:
     InputError : the file is missing, a row is not valid, or an id occurs twice.
     """
     try:
-        with path.open(encoding="utf-8", newline="") as file:
-            lines = list(csv.DictReader(file))
+        lines = list(csv.DictReader(io.StringIO(read_text(path))))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(
             f"cannot read the table {path}: {error}; restore it from the repository"
@@ -267,12 +268,11 @@ def read_report(path: Path) -> list[dict[str, str]]:
     InputError : there is no report yet, or it is not a whole one.
     """
     try:
-        with path.open(encoding="utf-8", newline="") as file:
-            reader = csv.DictReader(file)
-            rows = list(reader)
-    except OSError:
+        reader = csv.DictReader(io.StringIO(read_text(path)))
+        rows = list(reader)
+    except OSError as error:
         raise InputError(
-            f"there is no report {path}; make it with 'snakemake all' or 'cosserat measure'"
+            f"there is no report {path} ({error.strerror}); make it with 'snakemake all' or 'cosserat measure'"
         ) from None
     except (UnicodeDecodeError, csv.Error):
         raise InputError(f"{path} is not a report; make one with 'cosserat measure'") from None
