@@ -42,7 +42,17 @@ def path_of(given: object) -> Path:
     """
     if not isinstance(given, str | os.PathLike):
         raise InputError(f"{shown(given)} names no file; give a path as a text or a pathlib.Path")
-    path = Path(given)
+    try:
+        path = Path(given)
+    except TypeError:
+        raise InputError(
+            f"{shown(given)} names no file; give a path as a text or a pathlib.Path"
+        ) from None
+    try:
+        if not path.is_absolute():
+            os.getcwd()
+    except FileNotFoundError:
+        raise InputError("the current folder is gone; change to one that exists") from None
     try:
         os.fsencode(path).decode()
         path.stat()

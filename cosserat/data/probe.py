@@ -34,6 +34,12 @@ def answer(path: str) -> str:
     return "read"
 
 
+def say(word: str) -> None:
+    """Write a line, in bytes that no setting of the environment changes."""
+    sys.stdout.buffer.write(word.encode() + b"\n")
+    sys.stdout.buffer.flush()
+
+
 def limit(which: int, most: int) -> None:
     """Set a limit of this process, as far as its parent may."""
     hard = resource.getrlimit(which)[1]
@@ -43,10 +49,10 @@ def limit(which: int, most: int) -> None:
 if __name__ == "__main__":
     limit(resource.RLIMIT_CORE, 0)
     with contextlib.suppress(BrokenPipeError):
-        print("ready", flush=True)
-        for line in sys.stdin:
+        say("ready")
+        for line in sys.stdin.buffer:
             path, memory, seconds = json.loads(line)
             spent = resource.getrusage(resource.RUSAGE_SELF)
             limit(resource.RLIMIT_AS, memory)
             limit(resource.RLIMIT_CPU, int(spent.ru_utime + spent.ru_stime + seconds) + 1)
-            print(answer(path), flush=True)
+            say(answer(path))

@@ -40,7 +40,8 @@ def check_readable(path: Path) -> None:
         answer = _reader.answer(path, _MEMORY + _COPIES * size, seconds)
     except TimeoutError:
         raise InputError(
-            f"{path} is damaged: reading it did not end in {seconds:.0f} s; delete it and run its case again"
+            f"{path} is damaged, or this machine very busy: reading it did not end in {seconds:.0f} s; try again, or "
+            "run its case again"
         ) from None
     if answer != "read":
         raise InputError(
@@ -83,7 +84,7 @@ class _Reader:
         ------
         TimeoutError : there is no answer in time.
         """
-        request = json.dumps([str(path.absolute()), memory, seconds]) + "\n"
+        request = json.dumps([os.path.realpath(path), memory, seconds]) + "\n"
         try:
             for _ in range(2):
                 self._start()
@@ -124,10 +125,16 @@ class _Reader:
             return
         self.end()
         # -P: nothing beside the program is a library; what this process finds on its path, it finds too
-        command = [sys.executable or "python3", "-P", str(_PROGRAM), *map(str, sys.path)]
+        alone = "-I" if sys.flags.isolated else "-P"
+        command = [sys.executable or "python3", alone, str(_PROGRAM), *map(str, sys.path)]
         try:
             heard, say = os.pipe()
-            hear, said = os.pipe()
+            self._ends = (_End(say),)
+            try:
+                hear, said = os.pipe()
+            except OSError:
+                os.close(heard)
+                raise
             self._ends = (_End(say), _End(hear))
             try:
                 self._process = subprocess.Popen(

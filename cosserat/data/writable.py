@@ -11,6 +11,16 @@ from cosserat.errors import InputError
 from cosserat.text import shown
 
 _WRITTEN = "it cannot be written"
+_DECODING = {
+    "scale_factor",
+    "add_offset",
+    "_FillValue",
+    "missing_value",
+    "_Unsigned",
+    "_Encoding",
+    "dtype",
+}
+"""Attributes of a variable by which whoever reads the file changes its values."""
 
 
 def check_writable(dataset: xr.Dataset) -> None:
@@ -24,6 +34,10 @@ def check_writable(dataset: xr.Dataset) -> None:
     _check_attributes(dataset.attrs, "the Dataset")
     for name, variable in dataset.variables.items():
         _check_attributes(variable.attrs, f"'{name}'")
+        if decoding := sorted(_DECODING & set(variable.attrs)):
+            raise InputError(
+                f"the attribute '{decoding[0]}' of '{name}' would change its values when they are read; delete it"
+            )
         _check_values(str(name), variable)
 
 

@@ -3,14 +3,17 @@
 import ast
 import inspect
 import math
+import os
 import re
 import shutil
+import threading
 from pathlib import Path
 
 import pytest
 from conftest import ROOT
 
 import cosserat
+from cosserat import reading
 from cosserat.errors import InputError, OutOfToleranceError
 from cosserat.studies.door import published_studies
 from cosserat.thesis.outputs.manifest import read as read_manifest
@@ -413,3 +416,12 @@ def test_missing_tables_are_refused(tmp_path):
 def test_a_device_that_gives_bytes_without_end_is_no_table(read):
     with pytest.raises(InputError, match=r"/dev/zero"):
         read(Path("/dev/zero"))
+
+
+def test_a_pipe_is_a_table_if_somebody_writes_to_it(tmp_path, monkeypatch):
+    monkeypatch.setattr(reading, "_WAIT", 0.2)
+    os.mkfifo(tmp_path / "table.csv")
+    with pytest.raises(InputError, match="nobody writes to this pipe"):
+        read_table(tmp_path / "table.csv")
+    threading.Thread(target=lambda: (tmp_path / "table.csv").write_bytes(TABLE.read_bytes())).start()
+    assert read_table(tmp_path / "table.csv") == ROWS
